@@ -1,0 +1,15 @@
+# Every outside library, found once. The Debian packages that hold them stand in packages.txt.
+find_package(Threads REQUIRED)
+find_package(Boost 1.81 REQUIRED)
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(CLI11 REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(benchmark REQUIRED)
+find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
+
+# Asio with C++20 coroutines, header only. The separate target keeps Boost out of shared/.
+add_library(woodlouse_asio INTERFACE)
+target_link_libraries(woodlouse_asio INTERFACE Boost::headers Threads::Threads)
+target_compile_definitions(woodlouse_asio INTERFACE BOOST_ASIO_NO_DEPRECATED BOOST_ASIO_DISABLE_BOOST_COROUTINE)

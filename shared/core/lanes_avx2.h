@@ -1,0 +1,72 @@
+// Four doubles in an AVX2 register (see lanes.h). Only for files compiled with -mavx2.
+#pragma once
+
+#include <immintrin.h>
+
+namespace woodlouse::core {
+
+struct Lanes4 {
+  static constexpr int kCount = 4;
+
+  /// All bits of a lane, or none.
+  struct Mask {
+    __m256d bits;
+    friend Mask operator|(Mask a, Mask b) { return {_mm256_or_pd(a.bits, b.bits)}; }
+    friend Mask operator&(Mask a, Mask b) { return {_mm256_and_pd(a.bits, b.bits)}; }
+    friend Mask operator~(Mask a) {
+      return {_mm256_xor_pd(a.bits, _mm256_castsi256_pd(_mm256_set1_epi64x(-1)))};
+    }
+    [[nodiscard]] unsigned lanes() const { return static_cast<unsigned>(_mm256_movemask_pd(bits)); }
+  };
+
+  __m256d value;
+
+  Lanes4() = default;
+  Lanes4(__m256d v) : value(v) {}                 // NOLINT: lanes convert freely
+  Lanes4(double v) : value(_mm256_set1_pd(v)) {}  // NOLINT
+
+  static Lanes4 load(const double* from) { return _mm256_loadu_pd(from); }
+  void store(double* to) const { _mm256_storeu_pd(to, value); }
+
+  friend Lanes4 operator+(Lanes4 a, Lanes4 b) { return _mm256_add_pd(a.value, b.value); }
+  friend Lanes4 operator-(Lanes4 a, Lanes4 b) { return _mm256_sub_pd(a.value, b.value); }
+  friend Lanes4 operator*(Lanes4 a, Lanes4 b) { return _mm256_mul_pd(a.value, b.value); }
+  friend Lanes4 operator/(Lanes4 a, Lanes4 b) { return _mm256_div_pd(a.value, b.value); }
+  friend Lanes4 operator-(Lanes4 a) { return _mm256_xor_pd(a.value, _mm256_set1_pd(-0.0)); }
+  friend Mask operator>(Lanes4 a, Lanes4 b) { return {_mm256_cmp_pd(a.value, b.value, _CMP_GT_OQ)}; }
+  friend Mask operator<(Lanes4 a, Lanes4 b) { return {_mm256_cmp_pd(a.value, b.value, _CMP_LT_OQ)}; }
+  friend Mask operator>=(Lanes4 a, Lanes4 b) { return {_mm256_cmp_pd(a.value, b.value, _CMP_GE_OQ)}; }
+  friend Mask operator<=(Lanes4 a, Lanes4 b) { return {_mm256_cmp_pd(a.value, b.value, _CMP_LE_OQ)}; }
+  friend Mask operator!=(Lanes4 a, Lanes4 b) { return {_mm256_cmp_pd(a.value, b.value, _CMP_NEQ_UQ)}; }
+
+  /// The integer part, kept within [0, last]: the index of a cell.
+  [[nodiscard]] Lanes4 cell_index(int last) const {
+    const __m128i whole = _mm256_cvttpd_epi32(value);
+    return _mm256_cvtepi32_pd(_mm_min_epi32(_mm_max_epi32(whole, _mm_setzero_si128()), _mm_set1_epi32(last)));
+  }
+
+  /// out[k] = lane l's from[l][k], k = 0..3.
+  static void load_transposed(const double* const* from, Lanes4* out) {
+    const __m256d r0 = _mm256_loadu_pd(from[0]);
+    const __m256d r1 = _mm256_loadu_pd(from[1]);
+    const __m256d r2 = _mm256_loadu_pd(from[2]);
+    const __m256d r3 = _mm256_loadu_pd(from[3]);
+    const __m256d even_a = _mm256_unpacklo_pd(r0, r1);
+    const __m256d odd_a = _mm256_unpackhi_pd(r0, r1);
+    const __m256d even_b = _mm256_unpacklo_pd(r2, r3);
+    const __m256d odd_b = _mm256_unpackhi_pd(r2, r3);
+    out[0] = _mm256_permute2f128_pd(even_a, even_b, 0x20);
+    out[1] = _mm256_permute2f128_pd(odd_a, odd_b, 0x20);
+    out[2] = _mm256_permute2f128_pd(even_a, even_b, 0x31);
+    out[3] = _mm256_permute2f128_pd(odd_a, odd_b, 0x31);
+  }
+};
+
+inline Lanes4 square_root(Lanes4 a) { return _mm256_sqrt_pd(a.value); }
+inline Lanes4 magnitude(Lanes4 a) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a.value); }
+inline Lanes4 select(Lanes4::Mask chosen, Lanes4 a, Lanes4 b) {
+  return _mm256_blendv_pd(b.value, a.value, chosen.bits);
+}
+inline bool any(Lanes4::Mask chosen) { return chosen.lanes() != 0; }
+
+}  // namespace woodlouse::core
