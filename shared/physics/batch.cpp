@@ -1,0 +1,46 @@
+#include "shared/physics/batch.h"
+
+namespace woodlouse::physics {
+
+#ifdef WOODLOUSE_X86_LANES
+BatchStep find_avx2_step(bool drag, bool friction, bool thrust);
+BatchStep find_avx512_step(bool drag, bool friction, bool thrust);
+#endif
+
+const char* to_text(InstructionSet set) {
+  switch (set) {
+    case InstructionSet::kAvx2: return "avx2";
+    case InstructionSet::kAvx512: return "avx512";
+    default: return "scalar";
+  }
+}
+
+bool is_available(InstructionSet set) {
+  if (set == InstructionSet::kScalar) return true;
+#ifdef WOODLOUSE_X86_LANES
+  if (set == InstructionSet::kAvx2) return __builtin_cpu_supports("avx2") != 0;
+  return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
+         __builtin_cpu_supports("avx512vl") != 0;
+#else
+  return false;
+#endif
+}
+
+InstructionSet best_instruction_set() {
+  for (const InstructionSet set : {InstructionSet::kAvx512, InstructionSet::kAvx2}) {
+    if (is_available(set)) return set;
+  }
+  return InstructionSet::kScalar;
+}
+
+BatchStep find_batch_step(InstructionSet set, bool drag, bool friction, bool thrust) {
+  if (set == InstructionSet::kScalar || !is_available(set)) return {};
+#ifdef WOODLOUSE_X86_LANES
+  return set == InstructionSet::kAvx2 ? find_avx2_step(drag, friction, thrust)
+                                      : find_avx512_step(drag, friction, thrust);
+#else
+  return {};
+#endif
+}
+
+}  // namespace woodlouse::physics

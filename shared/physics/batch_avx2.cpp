@@ -1,0 +1,11 @@
+// The batched step compiled for AVX2; see CMakeLists.txt for its flags.
+#include "shared/core/lanes_avx2.h"
+#include "shared/physics/batch_kernel.h"
+
+namespace woodlouse::physics {
+
+BatchStep find_avx2_step(bool drag, bool friction, bool thrust) {
+  return choose_kernel<core::Lanes4>(drag, friction, thrust);
+}
+
+}  // namespace woodlouse::physics

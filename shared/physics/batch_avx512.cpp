@@ -1,0 +1,11 @@
+// The batched step compiled for AVX-512; see CMakeLists.txt for its flags.
+#include "shared/core/lanes_avx512.h"
+#include "shared/physics/batch_kernel.h"
+
+namespace woodlouse::physics {
+
+BatchStep find_avx512_step(bool drag, bool friction, bool thrust) {
+  return choose_kernel<core::Lanes8>(drag, friction, thrust);
+}
+
+}  // namespace woodlouse::physics

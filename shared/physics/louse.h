@@ -1,0 +1,46 @@
+// One mass point on the terrain: everything the step reads and writes, and everything the state hash covers.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "shared/core/vec2.h"
+
+namespace woodlouse::physics {
+
+/// Names a louse for as long as its match lasts; never used again.
+using LouseId = std::uint32_t;
+
+/// How `Thrust::value` is meant.
+enum class ThrustKind : std::uint32_t {
+  kNone = 0,          ///< no thrust
+  kAlongHeading = 1,  ///< value.x in [-1, 1]: the document's pulse; positive drives along the heading, negative brakes
+  kMapVector = 2,     ///< value of length <= 1: pushes along the tangent whose map projection is value
+};
+
+/// ticks_left of a thrust that holds until the next one.
+inline constexpr std::uint32_t kHeld = std::numeric_limits<std::uint32_t>::max();
+
+/// A thrust; 1 is the map's thrust_max.
+struct Thrust {
+  ThrustKind kind = ThrustKind::kNone;
+  core::Vec2 value;
+  friend bool operator==(const Thrust&, const Thrust&) = default;
+};
+
+/// 88 bytes without padding, hashed as they lie in memory: their order is part of the state hash.
+struct Louse {
+  LouseId id = 0;
+  std::uint32_t resting = 0;          ///< 1: held by friction at v = 0, not stepped until its thrust changes
+  core::Vec2 position;                ///< [m], inside the domain
+  core::Vec2 velocity;                ///< map-plane velocity [m/s]; vertical speed is gradient . velocity
+  core::Vec2 heading{1.0, 0.0};       ///< unit vector in the map plane: velocity's direction, kept at rest
+  core::Vec2 thrust;                  ///< Thrust::value
+  double distance = 0.0;              ///< length of the path in space since the spawn [m]
+  ThrustKind thrust_kind = ThrustKind::kNone;
+  std::uint32_t thrust_ticks = 0;     ///< ticks the thrust still acts; kHeld: until the next one
+};
+static_assert(sizeof(Louse) == 88 && std::is_trivially_copyable_v<Louse>);
+
+}  // namespace woodlouse::physics

@@ -1,0 +1,48 @@
+// When a step is too long, as functions of the state alone. A sub-step h is halved while
+//     h |v| |H|_F > kBend   or   h sqrt(g |H|_F) > kSwing   or   h d > kDecay   or   h |v| > one cell,
+// and, where a force turns with v (friction, a drive along the heading), while h |a| > kTurn |v|: near a stop the
+// direction of v swings. Slope is no limit; curvature times speed, and gravity times curvature, are.
+// The comparisons are between squares and fourth powers: no roots. T is double, or several at once.
+#pragma once
+
+#include "shared/physics/parameters.h"
+#include "shared/physics/surface_motion.h"
+
+namespace woodlouse::physics {
+
+class SubStepRules {
+ public:
+  /// cell: side of the surface's smallest cell [m]; drag: whether the map has it.
+  SubStepRules(const Parameters& p, double cell, double tick)
+      : longest_(p.drag > 0.0 && kDecay / p.drag < tick ? kDecay / p.drag : tick),
+        inverse_cell2_(1.0 / (cell * cell)),
+        swing_factor_(p.gravity * p.gravity / (kSwing * kSwing * kSwing * kSwing)) {}
+
+  /// Whether curvature, speed, drag or the cells ask for less than h. speed2: |v|3^2.
+  template <typename T>
+  [[gnu::always_inline, nodiscard]] inline auto too_long(const BasicSurfaceSample<T>& s, T speed2, T h) const {
+    const T h2 = h * h;
+    const T hessian2 = s.zxx * s.zxx + T(2.0) * s.zxy * s.zxy + s.zyy * s.zyy;
+    const T way2 = h2 * speed2;
+    return (way2 * hessian2 > T(kBend * kBend)) | (h2 * h2 * hessian2 * T(swing_factor_) > T(1.0)) |
+           (way2 * T(inverse_cell2_) > T(1.0)) | (h > T(longest_));
+  }
+
+  /// Whether v may turn too far within h; only where some force turns with v.
+  template <typename T>
+  [[gnu::always_inline, nodiscard]] static inline auto turns_too_far(T acceleration2, T speed2, T h) {
+    return h * h * acceleration2 > T(kTurn * kTurn) * speed2;
+  }
+
+ private:
+  static constexpr double kBend = 0.15;
+  static constexpr double kSwing = 0.20;
+  static constexpr double kDecay = 0.25;
+  static constexpr double kTurn = 0.25;
+
+  double longest_;
+  double inverse_cell2_;
+  double swing_factor_;
+};
+
+}  // namespace woodlouse::physics

@@ -1,0 +1,140 @@
+// The equations of motion of a mass point on z = z(x, y), in map-plane coordinates.
+//
+// G = (zx, zy) gradient, H Hessian, v map-plane velocity, vz = G.v, |v|3^2 = v.v + vz^2, w^2 = 1 + |G|^2:
+//     s = (g + v'Hv) / w^2,   N = s w                          normal force, centripetal term included
+//     a = -s G - (d + mu |N| / |v|3) v + f h / |h|3            gravity and curvature, drag, friction, thrust
+// with h the unit map direction of the thrust and |h|3^2 = 1 + (G.h)^2: a push f along the tangent over h.
+// From the Lagrangian of chapter 1.1 of the document with its two errors put right (the factors of Cramer's
+// rule, and v'Hv, which a local plane has not); tangential forces need no matrix, the mass matrix cancels.
+// Contact is bilateral: where v'Hv < -g the bead stays on the wire and friction takes |N|.
+//
+// A thrust along the heading acts along v, so it is friction with the other sign (a brake adds to friction).
+// At v = 0 friction and brake hold against up to mu g / w + brake: the stick test.
+// |u|_M = sqrt(u.u + (G.u)^2) is the length in space of a tangent whose map projection is u.
+//
+// + - * / and sqrt only, in the order written: these are the simulation's bits. T is double, or several at once
+// (core/lanes.h).
+#pragma once
+
+#include "shared/core/lanes.h"
+#include "shared/core/vec2.h"
+#include "shared/physics/louse.h"
+#include "shared/physics/parameters.h"
+#include "shared/terrain/surface.h"
+
+namespace woodlouse::physics {
+
+using core::Pair;
+using terrain::BasicSurfaceSample;
+
+/// Which forces a map has; what it has not is compiled out.
+template <bool kDrag, bool kFriction, bool kThrust>
+struct Forces {
+  static constexpr bool drag = kDrag;
+  static constexpr bool friction = kFriction;
+  static constexpr bool thrust = kThrust;
+  /// Some force turns with v and is singular at v = 0.
+  static constexpr bool singular = kFriction || kThrust;
+};
+
+/// A louse's thrust made ready for the equations, once per tick.
+template <typename T>
+struct BasicDrive {
+  Pair<T> direction{1.0, 0.0};  ///< h of a map vector, unit
+  T push = 0.0;                 ///< along h [m/s^2], >= 0
+  T along = 0.0;                ///< along v [m/s^2]; negative brakes
+};
+using Drive = BasicDrive<double>;
+
+/// Of a map vector `thrust`; 1 is thrust_max.
+template <typename T>
+[[gnu::always_inline]] inline BasicDrive<T> drive_of_map_vector(Pair<T> thrust, double thrust_max) {
+  using core::select, core::square_root;
+  const T length = square_root(dot(thrust, thrust));
+  const auto pushes = length > T(0.0);
+  const T inverse = T(1.0) / length;
+  return {{select(pushes, inverse * thrust.x, T(1.0)), select(pushes, inverse * thrust.y, T(0.0))},
+          length * T(thrust_max),
+          T(0.0)};
+}
+
+inline Drive drive_of(const Louse& louse, double thrust_max) {
+  if (louse.thrust_kind == ThrustKind::kMapVector) return drive_of_map_vector(louse.thrust, thrust_max);
+  Drive drive;
+  if (louse.thrust_kind == ThrustKind::kAlongHeading) drive.along = louse.thrust.x * thrust_max;
+  return drive;
+}
+
+template <typename T>
+[[gnu::always_inline]] inline T squared_length_in_space(const BasicSurfaceSample<T>& s, Pair<T> u) {
+  const T rise = s.zx * u.x + s.zy * u.y;
+  return u.x * u.x + u.y * u.y + rise * rise;
+}
+
+/// v'Hv.
+template <typename T>
+[[gnu::always_inline]] inline T curvature_along(const BasicSurfaceSample<T>& s, Pair<T> v) {
+  return (s.zxx * v.x + T(2.0) * s.zxy * v.y) * v.x + s.zyy * v.y * v.y;
+}
+
+/// f h / |h|3.
+template <typename T>
+[[gnu::always_inline]] inline Pair<T> push_over_tangent(const BasicSurfaceSample<T>& s, Pair<T> direction, T push) {
+  return (push / core::square_root(squared_length_in_space(s, direction))) * direction;
+}
+
+/// a at velocity v; at v = 0 without friction and drive along the heading (see resting_balance).
+template <typename F, typename T>
+[[gnu::always_inline]] inline Pair<T> acceleration(const BasicSurfaceSample<T>& s, Pair<T> v, const BasicDrive<T>& drive,
+                                                   const Parameters& p) {
+  using core::any, core::magnitude, core::select, core::square_root;
+  const T w2 = T(1.0) + s.zx * s.zx + s.zy * s.zy;
+  const T lift = T(p.gravity) + curvature_along(s, v);
+  const T s_factor = lift / w2;
+  Pair<T> a{-s_factor * s.zx, -s_factor * s.zy};
+  if constexpr (F::drag) a = a - T(p.drag) * v;
+  if constexpr (F::singular) {
+    const T speed2 = squared_length_in_space(s, v);
+    T resistance = 0.0;
+    // mu |N| / |v|3 with N = lift / w: one root serves both lengths.
+    if constexpr (F::friction) resistance = T(p.friction) * magnitude(lift) / square_root(w2 * speed2);
+    if constexpr (F::thrust) {
+      if (any(drive.along != T(0.0))) resistance = resistance - drive.along / square_root(speed2);
+    }
+    const auto moves = speed2 > T(0.0);
+    a.x = select(moves, a.x - resistance * v.x, a.x);
+    a.y = select(moves, a.y - resistance * v.y, a.y);
+  }
+  if constexpr (F::thrust) {
+    const auto pushed = drive.push > T(0.0);
+    if (any(pushed)) {
+      const Pair<T> with_push = a + push_over_tangent(s, drive.direction, drive.push);
+      a.x = select(pushed, with_push.x, a.x);
+      a.y = select(pushed, with_push.y, a.y);
+    }
+  }
+  return a;
+}
+
+/// What acts on a louse at v = 0: the pull of gravity and thrust, and how much friction and brake can hold.
+struct RestingBalance {
+  core::Vec2 pull;    ///< map projection [m/s^2]
+  double hold = 0.0;  ///< [m/s^2], compared with |pull|_M
+};
+
+template <typename F>
+RestingBalance resting_balance(const terrain::SurfaceSample& s, core::Vec2 heading, const Drive& drive,
+                               const Parameters& p) {
+  const double w2 = 1.0 + s.zx * s.zx + s.zy * s.zy;
+  RestingBalance balance;
+  balance.pull = {-p.gravity / w2 * s.zx, -p.gravity / w2 * s.zy};
+  if constexpr (F::friction) balance.hold = p.friction * p.gravity / core::square_root(w2);
+  if constexpr (F::thrust) {
+    if (drive.push > 0.0) balance.pull += push_over_tangent(s, drive.direction, drive.push);
+    if (drive.along > 0.0) balance.pull += push_over_tangent(s, heading, drive.along);
+    if (drive.along < 0.0) balance.hold -= drive.along;
+  }
+  return balance;
+}
+
+}  // namespace woodlouse::physics

@@ -1,0 +1,88 @@
+// Many lice on one terrain, stepped by a fixed time: same inputs, same bits.
+//
+// A step, per louse that is not at rest (physics: docs/physics.md):
+//   1. sample the surface; forces and curvature give the acceleration        surface_motion.h
+//   2. choose the sub-step from the state alone                              stepper.h
+//   3. Nystrom-4 over the sub-step; friction stops it, a wall bounces it     stepper.h
+//   4. count down its thrust, add to its distance, put it to rest if friction holds it
+// Lice do not touch each other. Drag, friction and thrust are compiled out where the map has none; lice at
+// rest are in no list that a step walks.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "shared/core/vec2.h"
+#include "shared/physics/batch.h"
+#include "shared/physics/louse.h"
+#include "shared/physics/parameters.h"
+#include "shared/terrain/terrain.h"
+
+namespace woodlouse::physics {
+
+/// What the steps so far have done; for logs and metrics, no part of the state.
+struct StepCounters {
+  std::uint64_t louse_steps = 0;      ///< lice stepped, summed over ticks
+  std::uint64_t sub_steps = 0;        ///< Nystrom steps taken for them
+  std::uint64_t capped = 0;           ///< sub-steps that wanted to be shorter than the cap allows
+  std::uint64_t bounces = 0;          ///< impacts on a wall
+  std::uint64_t stops = 0;            ///< lice brought to rest by friction
+};
+
+class World {
+ public:
+  /// step: seconds per tick, > 0. Walls stand at the terrain's edge.
+  World(std::shared_ptr<const terrain::Terrain> terrain, const Parameters& parameters, double step);
+  /// The same with walls elsewhere; infinite ones keep nobody (laboratory and tests).
+  World(std::shared_ptr<const terrain::Terrain> terrain, const Parameters& parameters, double step,
+        const terrain::Rectangle& walls);
+
+  /// Chooses how many lice are stepped at once; every choice gives the same bits. REQUIRES is_available(set).
+  /// The best one is chosen from the start.
+  void use(InstructionSet set);
+
+  /// Adds a louse; its position is moved into the domain where it lies outside. REQUIRES a fresh id and
+  /// finite fields. A louse at rest that the terrain or its thrust would move is woken.
+  void insert(const Louse& louse);
+  /// Removes it; false when there is none of that id.
+  bool erase(LouseId id);
+  /// Replaces its thrust for `ticks` ticks (kHeld: until the next); wakes it where that moves it.
+  /// REQUIRES |value| <= 1. False when there is none of that id.
+  bool set_thrust(LouseId id, const Thrust& thrust, std::uint32_t ticks);
+  /// Steps every louse that is not at rest.
+  void step();
+
+  /// Every louse, by ascending id.
+  [[nodiscard]] std::span<const Louse> lice() const { return lice_; }
+  /// The louse of that id, or null; valid until the next change.
+  [[nodiscard]] const Louse* find(LouseId id) const;
+  [[nodiscard]] const terrain::Terrain& terrain() const { return *terrain_; }
+  [[nodiscard]] const Parameters& parameters() const { return parameters_; }
+  [[nodiscard]] double step_seconds() const { return step_; }
+  [[nodiscard]] const StepCounters& counters() const { return counters_; }
+
+ private:
+  [[nodiscard]] std::size_t index_of(LouseId id) const;
+  void settle(Louse& louse);
+  template <typename Use>
+  void with_stepper(const Use& use) const;
+  void collect_awake();
+  [[nodiscard]] BatchContext batch_context() const;
+  template <typename Stepper>
+  void advance_all(const Stepper& stepper);
+
+  std::shared_ptr<const terrain::Terrain> terrain_;
+  Parameters parameters_;
+  double step_;
+  terrain::Rectangle walls_;
+  std::vector<Louse> lice_;               ///< ascending id
+  std::vector<std::uint32_t> awake_;      ///< indices into lice_ of whom a step must visit, ascending
+  bool awake_is_stale_ = false;           ///< lice_ or who must be visited changed since awake_ was made
+  BatchStep batch_;                       ///< width 0: none
+  StepCounters counters_;
+};
+
+}  // namespace woodlouse::physics

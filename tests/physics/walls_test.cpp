@@ -1,0 +1,129 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "shared/core/random.h"
+#include "shared/terrain/bicubic_spline.h"
+#include "tests/support/motion.h"
+
+using namespace woodlouse;
+using namespace woodlouse::physics;
+using terrain::FunctionName;
+using terrain::FunctionSurface;
+using tests::moving;
+
+TEST_CASE("an elastic impact keeps the energy, any other loses it, whatever the slope and direction") {
+  core::Random random(1);
+  for (int i = 0; i < 5000; ++i) {
+    const terrain::SurfaceSample s{0, 4 * random.uniform() - 2, 4 * random.uniform() - 2, 0, 0, 0};
+    const Contact corner{random.uniform() < 0.5 ? -1 : 1, random.uniform() < 0.3 ? 1 : 0};
+    const core::Vec2 v{2 * random.uniform() - 1, 2 * random.uniform() - 1};
+    const double before = squared_length_in_space(s, v);
+    for (const double e : {0.0, 0.5, 1.0}) {
+      const core::Vec2 after = bounced(s, corner, v, e);
+      CHECK_FALSE(outward(corner.x, after.x));
+      CHECK_FALSE(outward(corner.y, after.y));
+      CHECK(squared_length_in_space(s, after) <= before * (1 + 1e-14));
+      if (e == 1.0 && corner.y == 0) CHECK(squared_length_in_space(s, after) == Approx(before).epsilon(1e-13));
+    }
+  }
+}
+
+TEST_CASE("leaning on walls never does work inwards and leaves no outward acceleration") {
+  core::Random random(2);
+  for (int i = 0; i < 5000; ++i) {
+    const terrain::SurfaceSample s{0, 4 * random.uniform() - 2, 4 * random.uniform() - 2, 0, 0, 0};
+    const Contact corner{random.uniform() < 0.5 ? -1 : 1, random.uniform() < 0.5 ? 1 : -1};
+    const core::Vec2 a{2 * random.uniform() - 1, 2 * random.uniform() - 1};
+    const core::Vec2 left = supported(s, corner, a);
+    CHECK_FALSE(outward(corner.x, left.x));
+    CHECK_FALSE(outward(corner.y, left.y));
+    // Gauss: of all that is allowed, the nearest in the surface's own length.
+    CHECK(squared_length_in_space(s, left - a) <= squared_length_in_space(s, a) * (1 + 1e-12));
+  }
+}
+
+TEST_CASE("a louse never leaves the domain and never gains energy there: walls, corners, slopes, all restitutions") {
+  core::Random random(3);
+  const terrain::BicubicSpline hills(terrain::sample_function(FunctionName::kHills, 20.0, 10));
+  const FunctionSurface wavy(FunctionName::kWavyPot, 20.0);
+  const auto check = [&](const auto& surface) {
+    for (int i = 0; i < 60; ++i) {
+      const Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .edge_restitution = 0.5 * (i % 3)};
+      const double angle = 6.28 * random.uniform();
+      const Louse start = moving({38 * random.uniform() - 19, 38 * random.uniform() - 19},
+                                 {15 * std::cos(angle), 15 * std::sin(angle)});
+      double last = tests::energy(surface, start, 9.81);
+      double worst = 0.0;
+      bool inside = true;
+      const auto end = tests::run<Forces<false, false, false>>(surface, p, start, 60, 1200, surface.domain(), [&](const Louse& l) {
+        inside = inside && surface.domain().contains(l.position.x, l.position.y);
+        const double now = tests::energy(surface, l, 9.81);
+        worst = std::fmax(worst, now - last);
+        last = now;
+        return true;
+      });
+      INFO("run " << i);
+      CHECK(inside);
+      CHECK(worst < 2e-3);  // J/kg in a tick, of 100 and more: the step's own error at 15 m/s
+      CHECK(end.counters.bounces > 0);
+    }
+  };
+  check(hills);
+  check(wavy);
+}
+
+TEST_CASE("on a plane, where the step has no error, energy never grows at walls and corners") {
+  core::Random random(6);
+  for (int i = 0; i < 400; ++i) {
+    tests::Plane plane;
+    plane.slope_x = 3 * random.uniform() - 1.5;
+    plane.slope_y = 3 * random.uniform() - 1.5;
+    const terrain::Rectangle walls{-1, -1, 1, 1};
+    const Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .edge_restitution = random.uniform()};
+    const Louse start = moving({1.8 * random.uniform() - 0.9, 1.8 * random.uniform() - 0.9},
+                               {6 * random.uniform() - 3, 6 * random.uniform() - 3});
+    double last = tests::energy(plane, start, 9.81);
+    double worst = 0.0;
+    tests::run<Forces<false, false, false>>(plane, p, start, 60, 600, walls, [&](const Louse& l) {
+      const double now = tests::energy(plane, l, 9.81);
+      worst = std::fmax(worst, now - last);
+      last = now;
+      return walls.contains(l.position.x, l.position.y);
+    });
+    INFO("run " << i);
+    CHECK(worst < 1e-10);
+  }
+}
+
+TEST_CASE("pressed into a corner, a louse comes to rest and moves no more") {
+  tests::Plane plane;
+  plane.slope_x = -0.4;
+  plane.slope_y = -0.3;
+  const terrain::Rectangle walls{-1, -1, 1, 1};
+  const Parameters p{.gravity = 9.81, .drag = 0.2, .friction = 0.05, .edge_restitution = 0.5};
+  const auto run = tests::run<Forces<true, true, false>>(plane, p, moving({0, 0}, {}), 60, 6000, walls, [](const Louse&) { return true; });
+  CHECK(run.louse.resting == 1);
+  CHECK(run.louse.position == core::Vec2{1.0, 1.0});
+}
+
+TEST_CASE("a louse slides down along a wall as down an incline of the wall's slope") {
+  tests::Plane plane;
+  plane.slope_x = -1.0;
+  plane.slope_y = -0.2;
+  const terrain::Rectangle walls{-1, -100, 1, 100};
+  const Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .edge_restitution = 0.0};
+  const auto run = tests::run<Forces<false, false, false>>(plane, p, moving({1, 0}, {}), 60, 120, walls, [](const Louse&) { return true; });
+  CHECK(run.louse.position.x == 1.0);
+  // In the vertical plane of the wall the slope is zy alone: a = g zy / (1 + zy^2).
+  CHECK(run.louse.position.y == Approx(0.5 * 4.0 * 9.81 * 0.2 / 1.04).epsilon(1e-12));
+}
+
+TEST_CASE("a bouncing louse on the flat hits where the closed form says") {
+  tests::Plane plane;
+  const terrain::Rectangle walls{0, -1, 1, 1};
+  const Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .edge_restitution = 0.5};
+  const auto run = tests::run<Forces<false, false, false>>(plane, p, moving({0.5, 0}, {1, 0}), 60, 150, walls, [](const Louse&) { return true; });
+  // 0.5 s to the wall, 2 s back at half the speed: it is at the other wall at 2.5 s.
+  CHECK(run.louse.position.x == Approx(0.0).margin(1e-12));
+  CHECK(run.counters.bounces >= 1);
+}
