@@ -84,8 +84,8 @@ unsigned advance_lanes(const BatchContext& context, Louse* const* lice) {
   special = special | ~((x.x > L(walls.x_min)) & (x.x < L(walls.x_max)) & (x.y > L(walls.y_min)) & (x.y < L(walls.y_max)));
 
   const BasicMotion<L> end = nystrom4(
-      start, a1, h, [&](Pair<L> at) [[gnu::always_inline]] { return sample(at); },
-      [&](const BasicSurfaceSample<L>& at, Pair<L> v) [[gnu::always_inline]] { return acceleration<F>(at, v, drive, p); });
+      start, a1, h, [&](Pair<L> at) __attribute__((always_inline)) { return sample(at); },
+      [&](const BasicSurfaceSample<L>& at, Pair<L> v) __attribute__((always_inline)) { return acceleration<F>(at, v, drive, p); });
   const Pair<L> y = end.position;
   const L way2 = dot(end.velocity, end.velocity);
   const auto inside = (y.x >= L(walls.x_min)) & (y.x <= L(walls.x_max)) & (y.y >= L(walls.y_min)) & (y.y <= L(walls.y_max));

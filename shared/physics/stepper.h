@@ -1,5 +1,5 @@
-// One louse through one tick: Nystrom-4 (nystrom.h) with sub-steps (sub_step_rules.h), the friction stop and the
-// walls (walls.h).
+// One louse through one tick: an integrator's steps (integrators.h, precise.h) with the sub-step rules
+// (sub_step_rules.h), the friction stop and the walls (walls.h).
 //
 // A sub-step is halved at most to 1/256 of the tick; one that wanted to be shorter still is counted, and its
 // energy bounded.
@@ -14,7 +14,7 @@
 
 #include <cmath>
 
-#include "shared/physics/nystrom.h"
+#include "shared/physics/integrators.h"
 #include "shared/physics/sub_step_rules.h"
 #include "shared/physics/surface_motion.h"
 #include "shared/physics/walls.h"
@@ -22,9 +22,13 @@
 
 namespace woodlouse::physics {
 
-/// S: the surface; F: the Forces the map has. Cheap to make, one per batch; refers to `surface`.
-template <terrain::Surface S, typename F>
+/// S: the surface; F: the Forces the map has; E: the equations; I: the integrator. Equations that are not exact
+/// and integrators without sub-steps run bare: no sub-steps, no stop, no rest. Cheap to make, one per batch;
+/// refers to `surface`.
+template <terrain::Surface S, typename F, typename E = SurfaceEquations, typename I = Nystrom4>
 class Stepper {
+  static_assert(!E::kExact || terrain::kHasHessian<S>, "the exact equations need the surface's Hessian");
+
  public:
   /// walls: where the louse is kept (infinite: nowhere); tick: [s].
   Stepper(const S& surface, const Parameters& parameters, const terrain::Rectangle& walls, double tick)
@@ -39,7 +43,8 @@ class Stepper {
   /// Moves the louse through one tick. Its thrust is not counted down here.
   void advance(Louse& louse, StepCounters& counters) const {
     const Drive drive = drive_of(louse);
-    const bool turns_with_v = F::friction || (F::thrust && drive.along != 0.0);
+    const bool turns_with_v = kRules && (F::friction || (F::thrust && drive.along != 0.0));
+    I integrator;
     Motion at{louse.position, louse.velocity};
     double remaining = tick_;
     int bounces = 0;
@@ -52,14 +57,14 @@ class Stepper {
       }
       Start start = begin(at, drive, bounces, counters);
       at = start.at;
-      if (start.speed2 == 0.0 && !set_off(start, louse.heading, drive)) {
+      if (kRules && start.speed2 == 0.0 && !set_off(start, louse.heading, drive)) {
         louse.resting = 1;
         break;
       }
       const double speed = std::sqrt(start.speed2);
       double h = remaining;
-      while (h > shortest_ && is_too_long(start, h)) h *= 0.5;
-      const bool capped = h <= shortest_ && is_too_long(start, h);
+      while (kRules && h > shortest_ && is_too_long(start, h)) h *= 0.5;
+      const bool capped = kRules && h <= shortest_ && is_too_long(start, h);
       ++counters.sub_steps;
 
       if (turns_with_v && start.speed2 > 0.0 && turns_too_far(start, h)) {
@@ -72,6 +77,7 @@ class Stepper {
           louse.heading = direction(at.velocity);
           at = {inside_walls(at.position + (0.5 * time) * at.velocity), {}};
           remaining -= time;
+          integrator = I{};
           if (halt == Halt::kTurnsBack) continue;
           louse.resting = 1;
           ++counters.stops;
@@ -79,15 +85,20 @@ class Stepper {
         }
       }
 
-      Motion end = nystrom(start, drive, h);
+      const Field field{*this, start, drive};
+      StepResult step = integrator.step(start, field, h);
+      h = h == step.used ? h : step.used;
+      Motion& end = step.end;
       if (capped) {
         ++counters.capped;
         end = energy_limited(start, drive, h, end);
       }
-      if (!walls_.contains(end.position.x, end.position.y)) {
-        h = reach_wall(start, drive, h, end);
+      const bool leaves = !walls_.contains(end.position.x, end.position.y);
+      if (leaves) {
+        h = reach_wall(start, field, integrator, h, end);
         end.position = on_wall(end.position);
       }
+      if constexpr (requires { integrator.accept(leaves); }) integrator.accept(leaves || capped);
       louse.distance += h * speed;
       remaining = h == remaining ? 0.0 : remaining - h;
       at = end;
@@ -109,6 +120,7 @@ class Stepper {
   }
 
  private:
+  static constexpr bool kRules = E::kExact && I::kSubSteps;
   static constexpr double kMaxSubSteps = 256.0;
   static constexpr int kMaxBounces = 8;
   static constexpr int kMaxPieces = 2048;  // sub-steps, impacts and stops of one tick, whatever happens
@@ -130,9 +142,30 @@ class Stepper {
 
   [[nodiscard]] static core::Vec2 direction(core::Vec2 v) { return (1.0 / std::sqrt(dot(v, v))) * v; }
 
-  [[nodiscard, gnu::always_inline]] core::Vec2 accelerate(const terrain::SurfaceSample& s, core::Vec2 v, const Drive& drive,
-                                      Contact contact) const {
-    const core::Vec2 a = acceleration<F>(s, v, drive, parameters_);
+  /// The motion's right side, as integrators ask for it.
+  struct Field {
+    const Stepper& stepper;
+    const Start& start;
+    const Drive& drive;
+
+    [[nodiscard]] const S& surface() const { return stepper.surface_; }
+    [[nodiscard, gnu::always_inline]] inline terrain::SurfaceSample sample(core::Vec2 x) const {
+      return stepper.surface_.sample(x.x, x.y);
+    }
+    [[nodiscard, gnu::always_inline]] inline core::Vec2 accelerate(const terrain::SurfaceSample& s, core::Vec2 v) const {
+      return stepper.accelerate(s, v, drive, start.contact);
+    }
+    [[nodiscard]] core::Vec2 kick(const terrain::SurfaceSample& s, core::Vec2 v, double k) const
+      requires E::kExact
+    {
+      const core::Vec2 kicked = implicit_kick<F>(s, v, k, drive, stepper.parameters_);
+      return start.contact.any() ? bounced(s, start.contact, kicked, 0.0) : kicked;
+    }
+  };
+
+  [[nodiscard, gnu::always_inline]] inline core::Vec2 accelerate(const terrain::SurfaceSample& s, core::Vec2 v,
+                                                                 const Drive& drive, Contact contact) const {
+    const core::Vec2 a = E::template acceleration<F>(s, v, drive, parameters_);
     return contact.any() ? supported(s, contact, a) : a;
   }
 
@@ -211,12 +244,6 @@ class Stepper {
     return a2 - rate * rate <= 1e-12 * a2 ? Halt::kTurnsBack : Halt::kNo;
   }
 
-  [[nodiscard]] Motion nystrom(const Start& start, const Drive& drive, double h) const {
-    return nystrom4(
-        start.at, start.acceleration, h, [this](core::Vec2 x) { return surface_.sample(x.x, x.y); },
-        [&](const terrain::SurfaceSample& s, core::Vec2 v) { return accelerate(s, v, drive, start.contact); });
-  }
-
   /// How far a state lies outside the walls [m] (negative: inside), and how fast it goes on outwards.
   [[nodiscard]] double beyond(const Motion& s, double& leaving) const {
     double distance = walls_.x_min - s.position.x;
@@ -229,7 +256,7 @@ class Stepper {
 
   /// The time after which the louse is at the wall it went through within h; `end` becomes its state there.
   /// Newton's method inside a bracket, repeating the sub-step, so that the state is the integrator's own.
-  double reach_wall(const Start& start, const Drive& drive, double h, Motion& end) const {
+  double reach_wall(const Start& start, const Field& field, I& integrator, double h, Motion& end) const {
     double low = 0.0;
     double high = h;
     double t = h;
@@ -240,7 +267,7 @@ class Stepper {
       (distance > 0.0 ? high : low) = t;
       const double guess = leaving > 0.0 ? t - distance / leaving : low;
       t = guess > low && guess < high ? guess : 0.5 * (low + high);
-      end = nystrom(start, drive, t);
+      end = integrator.step(start, field, t).end;
     }
     return t;
   }

@@ -116,6 +116,53 @@ template <typename F, typename T>
   return a;
 }
 
+/// The equations above, as a choice beside those of document_equations.h.
+struct SurfaceEquations {
+  static constexpr bool kExact = true;
+  template <typename F, typename T>
+  [[gnu::always_inline]] static inline Pair<T> acceleration(const BasicSurfaceSample<T>& s, Pair<T> v, const BasicDrive<T>& drive,
+                                                            const Parameters& p) {
+    return physics::acceleration<F>(s, v, drive, p);
+  }
+};
+
+/// The implicit half kick of VerletQ: v' = v + k a(s, v'). Gravity and curvature are a quadratic in sigma,
+///     v' = c (u - k sigma G),  sigma w^2 = g + v'Hv',  u = v + k push,  c = 1 / (1 + k resistance),
+/// solved in closed form; the resistance (drag, friction, drive along v) is taken at v, then once more at v'.
+template <typename F>
+core::Vec2 implicit_kick(const terrain::SurfaceSample& s, core::Vec2 v, double k, const Drive& drive, const Parameters& p) {
+  const double w2 = 1.0 + s.zx * s.zx + s.zy * s.zy;
+  const core::Vec2 gradient{s.zx, s.zy};
+  core::Vec2 u = v;
+  if constexpr (F::thrust) {
+    if (drive.push > 0.0) u += k * push_over_tangent(s, drive.direction, drive.push);
+  }
+  const double g_h_g = curvature_along(s, gradient);
+  const double g_h_u = (s.zxx * gradient.x + s.zxy * gradient.y) * u.x + (s.zxy * gradient.x + s.zyy * gradient.y) * u.y;
+  const double u_h_u = curvature_along(s, u);
+  core::Vec2 result = v;
+  for (int pass = 0; pass < (F::singular ? 2 : 1); ++pass) {
+    double resistance = F::drag ? p.drag : 0.0;
+    if constexpr (F::singular) {
+      const double speed2 = squared_length_in_space(s, result);
+      if (speed2 > 0.0) {
+        if constexpr (F::friction) {
+          resistance += p.friction * core::magnitude(p.gravity + curvature_along(s, result)) / core::square_root(w2 * speed2);
+        }
+        if constexpr (F::thrust) resistance -= drive.along / core::square_root(speed2);
+      }
+    }
+    const double c = 1.0 / (1.0 + k * resistance);
+    const double a2 = c * c * k * k * g_h_g;
+    const double a1 = w2 + 2.0 * c * c * k * g_h_u;
+    const double a0 = p.gravity + c * c * u_h_u;
+    const double root2 = a1 * a1 - 4.0 * a2 * a0;
+    const double sigma = 2.0 * a0 / (a1 + core::square_root(root2 > 0.0 ? root2 : 0.0));
+    result = c * (u - (k * sigma) * gradient);
+  }
+  return result;
+}
+
 /// What acts on a louse at v = 0: the pull of gravity and thrust, and how much friction and brake can hold.
 struct RestingBalance {
   core::Vec2 pull;    ///< map projection [m/s^2]

@@ -8,9 +8,9 @@
 //
 // Continuity: C2 everywhere inside the domain. Exact on bicubic polynomials with not-a-knot ends.
 // Ends: not-a-knot (default; order 4 up to the rim) or natural (the document's: curvature zero at the ends,
-//   which costs two orders near the rim), or periodic (C2 over the seam too), each axis its own. Periodic: the grid
-//   holds the seam twice, its last column (row) is the first again, so that its domain is one period;
-//   wrapped_surface.h takes points of any turn.
+//   which costs two orders near the rim), or periodic (C2 over the seam too), each axis its own. Periodic:
+//   the grid holds the seam twice, its last column (row) is the first again, so that its domain is one
+//   period; wrapped_surface.h takes points of any turn.
 // Outside the domain: the edge cell's polynomial goes on (see surface.h).
 // Memory: 128 bytes a cell. Cost: about 15 ns for z, gradient and Hessian while the cells fit the cache.
 #pragma once
@@ -27,7 +27,8 @@
 namespace woodlouse::terrain {
 
 /// z, gradient and Hessian of one cell's polynomial at (u, v); c[4 b + a] multiplies u^a v^b.
-/// Nested Horner: the sums that give the value give the derivatives too. T: double, or several (core/lanes.h).
+/// Nested Horner: the sums that give the value give the derivatives too. T: double, or several
+/// (core/lanes.h).
 template <typename T>
 [[gnu::always_inline]] inline BasicSurfaceSample<T> evaluate_cell(const T* c, T u, T v) {
   T p[4];  // in v, for the four powers of u: the value,
@@ -65,20 +66,46 @@ class BicubicSpline {
     int last_column, last_row;
   };
 
-  /// REQUIRES at least 4 knots each way for not-a-knot and periodic, 2 for natural, finite heights, spacings > 0; along
-  /// a periodic axis seam_mismatch() within 1e-9 of the heights' range (the first column or row is taken for the last).
+  /// REQUIRES at least 4 knots each way for not-a-knot and periodic, 2 for natural, finite heights, spacings
+  /// > 0; along a periodic axis seam_mismatch() within 1e-9 of the heights' range (the first column or row is
+  /// taken for the last).
   explicit BicubicSpline(const HeightGrid& grid, SplineEnds ends = SplineEnds::kNotAKnot);
   BicubicSpline(const HeightGrid& grid, SplineEnds x_ends, SplineEnds y_ends);
 
   [[nodiscard]] SurfaceSample sample(double x, double y) const;
   [[nodiscard]] Rectangle domain() const { return domain_; }
   [[nodiscard]] double cell() const { return dx_ < dy_ ? dx_ : dy_; }
+  /// Which polynomial holds at a point, its bounds, and its values wherever asked: for integrators that keep
+  /// to one cell through a step.
+  struct CellIndex {
+    long long column = 0;
+    long long row = 0;
+  };
+  [[nodiscard, gnu::always_inline]] inline CellIndex cell_at(double x, double y) const {
+    return nearest_cell(static_cast<long long>((x - x_origin_) * inverse_dx_), static_cast<long long>((y - y_origin_) * inverse_dy_));
+  }
+  [[nodiscard]] Rectangle bounds(CellIndex cell) const {
+    const double x = x_origin_ + static_cast<double>(cell.column) * dx_;
+    const double y = y_origin_ + static_cast<double>(cell.row) * dy_;
+    return {x, y, x + dx_, y + dy_};
+  }
+  [[nodiscard, gnu::always_inline]] inline SurfaceSample sample_in(CellIndex cell, double x, double y) const {
+    const CellIndex inside = nearest_cell(cell.column, cell.row);
+    return evaluate_cell(cells_[static_cast<std::size_t>(inside.row * (last_column_ + 1) + inside.column)].c.data(),
+                         x - x_origin_ - static_cast<double>(inside.column) * dx_,
+                         y - y_origin_ - static_cast<double>(inside.row) * dy_);
+  }
+
   [[nodiscard]] View view() const {
     return {cells_.front().c.data(), x_origin_, y_origin_, dx_, dy_, inverse_dx_, inverse_dy_,
             static_cast<int>(last_column_), static_cast<int>(last_row_)};
   }
 
  private:
+  [[nodiscard, gnu::always_inline]] inline CellIndex nearest_cell(long long i, long long j) const {
+    return {i < 0 ? 0 : (i > last_column_ ? last_column_ : i), j < 0 ? 0 : (j > last_row_ ? last_row_ : j)};
+  }
+
   /// c[4 b + a] multiplies u^a v^b. Two cache lines.
   struct alignas(64) Cell {
     std::array<double, 16> c;
@@ -96,7 +123,8 @@ class BicubicSpline {
   std::vector<Cell> cells_;
 };
 
-/// The largest difference [m] between the first and the last column, and row: what keeps a grid from being periodic.
+/// The largest difference [m] between the first and the last column, and row: what keeps a grid from being
+/// periodic.
 struct SeamMismatch {
   double x = 0.0;
   double y = 0.0;
@@ -105,14 +133,7 @@ SeamMismatch seam_mismatch(const HeightGrid& grid);
 
 // Inline: this is the inner loop of everything.
 [[gnu::always_inline]] inline SurfaceSample BicubicSpline::sample(double x, double y) const {
-  const double rx = x - x_origin_;
-  const double ry = y - y_origin_;
-  long long i = static_cast<long long>(rx * inverse_dx_);
-  long long j = static_cast<long long>(ry * inverse_dy_);
-  i = i < 0 ? 0 : (i > last_column_ ? last_column_ : i);
-  j = j < 0 ? 0 : (j > last_row_ ? last_row_ : j);
-  return evaluate_cell(cells_[static_cast<std::size_t>(j * (last_column_ + 1) + i)].c.data(),
-                       rx - static_cast<double>(i) * dx_, ry - static_cast<double>(j) * dy_);
+  return sample_in(cell_at(x, y), x, y);
 }
 
 }  // namespace woodlouse::terrain

@@ -6,9 +6,9 @@
 namespace woodlouse::terrain {
 namespace {
 
-/// Row i of the cyclic system is m[i-1] + 4 m[i] + m[i+1] = right[i], indices modulo p. With w = (1, 0 .. 0, -1/4) and
-/// q = (-4, 0 .. 0, 1) it is T + q w', T tridiagonal with 8 and 17/4 in its corners; so m = y - x (w'y) / (1 + w'x)
-/// where T y = right, T x = q.
+/// Row i of the cyclic system is m[i-1] + 4 m[i] + m[i+1] = right[i], indices modulo p. With w = (1, 0 .. 0,
+/// -1/4) and q = (-4, 0 .. 0, 1) it is T + q w', T tridiagonal with 8 and 17/4 in its corners; so m = y - x
+/// (w'y) / (1 + w'x) where T y = right, T x = q.
 void periodic_slopes(std::span<const double> z, double inverse, std::span<double> slopes) {
   const std::size_t p = z.size() - 1;
   std::vector<double> upper(p);

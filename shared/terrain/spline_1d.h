@@ -6,8 +6,8 @@
 // Ends:
 //     natural     curvature zero: 2 m0 + m1 = 3 (z1 - z0) / h
 //     not-a-knot  third derivative continuous at the second knot: m0 + 2 m1 = (-5 z0 + 4 z1 + z2) / (2 h)
-//     periodic    the last knot is the first again: n values, n - 1 unknowns, m[-1] = m[n-2]. The last value is
-//                 not read. The cyclic system is the tridiagonal one plus a correction of rank one
+//     periodic    the last knot is the first again: n values, n - 1 unknowns, m[-1] = m[n-2]. The last value
+//                 is not read. The cyclic system is the tridiagonal one plus a correction of rank one
 //                 (Sherman-Morrison): two eliminations.
 // Solved by elimination without pivoting (the system is diagonally dominant after the first row), O(n).
 #pragma once

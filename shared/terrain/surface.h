@@ -10,8 +10,8 @@
 //
 // A surface without a usable Hessian (its gradient jumps, or is not its height's derivative) says
 //     static constexpr bool has_hessian = false;
-// and leaves NaN (kNoHessian) in zxx, zxy, zyy, so that a use that slipped through shows. Whoever needs the Hessian
-// asks for CurvedSurface instead of Surface and is refused at compile time.
+// and leaves NaN (kNoHessian) in zxx, zxy, zyy, so that a use that slipped through shows. Whoever needs the
+// Hessian asks for CurvedSurface instead of Surface and is refused at compile time.
 #pragma once
 
 #include <concepts>
