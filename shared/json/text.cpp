@@ -1,0 +1,96 @@
+#include "shared/json/text.h"
+
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+
+#include "shared/json/digits.h"
+#include "shared/json/utf8.h"
+
+namespace woodlouse::json {
+namespace {
+
+void append_escaped(std::string& out, char c) {
+  switch (c) {
+    case '"':
+      out += "\\\"";
+      return;
+    case '\\':
+      out += "\\\\";
+      return;
+    case '\n':
+      out += "\\n";
+      return;
+    case '\t':
+      out += "\\t";
+      return;
+    case '\r':
+      out += "\\r";
+      return;
+    default:
+      break;
+  }
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  const auto byte = static_cast<unsigned char>(c);
+  out += "\\u00";
+  out += kDigits[byte >> 4];
+  out += kDigits[byte & 15u];
+}
+
+}  // namespace
+
+void append_integer(std::string& out, long long value) {
+  char buffer[kMaxNumberChars];
+  out.append(buffer, write_integer(buffer, value));
+}
+
+void append_integer(std::string& out, unsigned long long value) {
+  char buffer[kMaxNumberChars];
+  out.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+}
+
+void append_double(std::string& out, double value) {
+  char buffer[kMaxNumberChars];
+  out.append(buffer, write_double(buffer, value));
+}
+
+std::string double_text(double value) {
+  std::string text;
+  append_double(text, value);
+  return text;
+}
+
+char* write_integer(char* to, long long value) {
+  // Without a branch on the sign either.
+  const auto sign = static_cast<unsigned long long>(value >> 63);  // all bits or none
+  const unsigned long long size = (static_cast<unsigned long long>(value) ^ sign) - sign;
+  if (size >= kDigitsBelow) return std::to_chars(to, to + kMaxNumberChars, value).ptr;
+  *to = '-';
+  return write_digits(to + (sign & 1), static_cast<std::uint32_t>(size));
+}
+
+char* write_double(char* to, double value) {
+  assert(std::isfinite(value));
+  char* const end = std::to_chars(to, to + kMaxNumberChars, value).ptr;
+  const bool minus_zero = value == 0.0 && std::signbit(value);
+  return minus_zero ? std::copy_n("-0.0", 4, to) : end;
+}
+
+void append_string(std::string& out, std::string_view text) {
+  out += '"';
+  while (!text.empty()) {
+    const Utf8Character character = first_character(text);
+    if (!character.valid) {
+      out += "\xef\xbf\xbd";
+    } else if (character.code < 0x20 || character.code == 0x7f || text[0] == '"' || text[0] == '\\') {
+      append_escaped(out, text[0]);
+    } else {
+      out += text.substr(0, character.size);
+    }
+    text.remove_prefix(character.size);
+  }
+  out += '"';
+}
+
+}  // namespace woodlouse::json

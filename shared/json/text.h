@@ -1,0 +1,38 @@
+// Writes JSON, the same bytes everywhere: numbers by std::to_chars, strings escaped.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace woodlouse::json {
+
+/// "-2.2250738585072014e-308" is the longest double, "-9223372036854775808" the longest integer.
+inline constexpr std::size_t kMaxNumberChars = 24;
+
+void append_integer(std::string& out, long long value);
+void append_integer(std::string& out, unsigned long long value);
+template <std::unsigned_integral T>
+void append_integer(std::string& out, T value) {
+  append_integer(out, static_cast<unsigned long long>(value));
+}
+template <std::signed_integral T>
+void append_integer(std::string& out, T value) {
+  append_integer(out, static_cast<long long>(value));
+}
+
+/// The shortest text that reads back as the same double; minus zero is "-0.0", because readers take "-0" for
+/// an integer and lose its sign. REQUIRES a finite value.
+void append_double(std::string& out, double value);
+std::string double_text(double value);
+
+/// These write at `to`, which has room for kMaxNumberChars, and return the end.
+char* write_integer(char* to, long long value);
+/// REQUIRES a finite value.
+char* write_double(char* to, double value);
+
+/// Quoted and escaped; bytes that are not UTF-8 become U+FFFD, so that the text stays JSON whatever comes.
+void append_string(std::string& out, std::string_view text);
+
+}  // namespace woodlouse::json
