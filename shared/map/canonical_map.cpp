@@ -1,0 +1,103 @@
+#include "shared/map/canonical_map.h"
+
+#include <cassert>
+
+#include "shared/json/text.h"
+
+namespace woodlouse::map {
+namespace {
+
+std::string_view to_text(SurfaceKind kind) {
+  switch (kind) {
+    case SurfaceKind::kSpline:
+      return "spline";
+    case SurfaceKind::kNaturalSpline:
+      return "natural_spline";
+    case SurfaceKind::kFunction:
+      return "function";
+  }
+  assert(false);
+  return {};
+}
+
+void append_pair(std::string& out, double x, double y) {
+  out += '[';
+  json::append_double(out, x);
+  out += ',';
+  json::append_double(out, y);
+  out += ']';
+}
+
+void append_heights(std::string& out, const terrain::HeightGrid& grid) {
+  out += "{\"origin\":";
+  append_pair(out, grid.x_origin, grid.y_origin);
+  out += ",\"spacing\":";
+  append_pair(out, grid.dx, grid.dy);
+  out += ",\"heights\":[";
+  for (std::size_t j = 0; j < grid.rows; ++j) {
+    out += j == 0 ? "[" : ",[";
+    for (std::size_t i = 0; i < grid.columns; ++i) {
+      if (i != 0) out += ',';
+      json::append_double(out, grid.at(i, j));
+    }
+    out += ']';
+  }
+  out += "]}";
+}
+
+void append_function(std::string& out, const FunctionTerrain& function) {
+  out += "{\"function\":";
+  json::append_string(out, terrain::to_text(function.function));
+  out += ",\"grid\":" + std::to_string(function.grid) + ",\"scale\":";
+  json::append_double(out, function.scale);
+  out += '}';
+}
+
+void append_physics(std::string& out, const physics::Parameters& physics) {
+  out += "{\"gravity\":";
+  json::append_double(out, physics.gravity);
+  out += ",\"drag\":";
+  json::append_double(out, physics.drag);
+  out += ",\"friction\":";
+  json::append_double(out, physics.friction);
+  out += ",\"thrust_max\":";
+  json::append_double(out, physics.thrust_max);
+  out += ",\"edge_restitution\":";
+  json::append_double(out, physics.edge_restitution);
+  out += '}';
+}
+
+}  // namespace
+
+terrain::HeightGrid knots_of(const MapDefinition& definition) {
+  if (const auto* grid = std::get_if<terrain::HeightGrid>(&definition.terrain)) return *grid;
+  const auto& function = std::get<FunctionTerrain>(definition.terrain);
+  return terrain::sample_function(function.function, function.scale, function.grid);
+}
+
+std::string canonical_text(const MapDefinition& definition) {
+  std::string out = "{\"name\":";
+  json::append_string(out, definition.name);
+  out += ",\"terrain\":";
+  if (definition.surface == SurfaceKind::kFunction) {
+    append_function(out, std::get<FunctionTerrain>(definition.terrain));
+  } else {
+    append_heights(out, knots_of(definition));
+  }
+  out += ",\"surface\":";
+  json::append_string(out, to_text(definition.surface));
+  out += ",\"physics\":";
+  append_physics(out, definition.physics);
+  out += ",\"spawns\":[";
+  for (std::size_t k = 0; k < definition.spawns.size(); ++k) {
+    out += k == 0 ? "{\"position\":" : ",{\"position\":";
+    append_pair(out, definition.spawns[k].position.x, definition.spawns[k].position.y);
+    out += ",\"heading\":";
+    append_pair(out, definition.spawns[k].heading.x, definition.spawns[k].heading.y);
+    out += '}';
+  }
+  out += "]}";
+  return out;
+}
+
+}  // namespace woodlouse::map

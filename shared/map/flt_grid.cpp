@@ -1,0 +1,294 @@
+#include "shared/map/flt_grid.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "shared/map/whole_file.h"
+
+namespace woodlouse::map {
+namespace {
+
+constexpr std::size_t kMaxHeaderBytes = 1u << 16;
+constexpr double kMaxSide = 1e6;  ///< knots each way
+constexpr double kMaxCoordinate = 1e9;
+constexpr float kNoHeightFrom = 1e30f;
+
+constexpr std::array<std::string_view, 22> kKeys = {
+    "ncols",  "nrows",  "xllcorner", "xllcenter",    "yllcorner",     "yllcenter",   "cellsize", "ulxmap",
+    "ulymap", "xdim",   "ydim",      "nodata_value", "nodata",        "byteorder",   "nbits",    "pixeltype",
+    "nbands", "layout", "skipbytes", "bandrowbytes", "totalrowbytes", "bandgapbytes"};
+
+struct Entry {
+  std::string key;    ///< lower case
+  std::string value;  ///< lower case
+  std::size_t line;
+};
+
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return result;
+}
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  constexpr std::string_view kSpace = " \t\r\f\v";
+  for (std::size_t begin = line.find_first_not_of(kSpace); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(kSpace, begin), line.size());
+    words.push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(kSpace, end);
+  }
+  return words;
+}
+
+std::string place(const std::string& source, const Entry& entry) {
+  return source + ":" + std::to_string(entry.line) + ": " + entry.key;
+}
+
+core::Expected<std::vector<Entry>> read_entries(std::string_view text, const std::string& source) {
+  std::vector<Entry> entries;
+  std::size_t number = 0;
+  while (!text.empty()) {
+    ++number;
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::vector<std::string_view> words = words_of(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (words.empty()) continue;
+    const std::string where = source + ":" + std::to_string(number);
+    if (words.size() != 2) return core::fail(where, "is no key and value", "as in: ncols 10001");
+    Entry entry{lower_case(words[0].substr(0, 32)), lower_case(words[1].substr(0, 64)), number};
+    if (std::find(kKeys.begin(), kKeys.end(), entry.key) == kKeys.end()) {
+      return core::fail(where, "\"" + entry.key + "\" is no header key",
+                        "a float grid has ncols, nrows, xllcorner, "
+                        "yllcorner, cellsize, NODATA_value, byteorder");
+    }
+    for (const Entry& other : entries) {
+      if (other.key == entry.key) return core::fail(place(source, entry), "stands twice", "keep one of them");
+    }
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
+/// Looks keys up and collects the first thing that is wrong.
+class Header {
+ public:
+  Header(std::vector<Entry> entries, std::string source)
+      : entries_(std::move(entries)), source_(std::move(source)) {}
+
+  [[nodiscard]] const Entry* find(std::string_view key) const {
+    for (const Entry& entry : entries_) {
+      if (entry.key == key) return &entry;
+    }
+    return nullptr;
+  }
+  [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
+
+  double number(std::string_view key, double min, double max, std::string_view range) {
+    const Entry* entry = find(key);
+    if (entry == nullptr) {
+      complain(source_, std::string(key) + " is missing", {});
+      return min;
+    }
+    double value = 0.0;
+    const char* end = entry->value.data() + entry->value.size();
+    const auto [stop, error] = std::from_chars(entry->value.data(), end, value);
+    if (error != std::errc{} || stop != end) {
+      complain(place(source_, *entry), "\"" + entry->value + "\" is no number", {});
+      return min;
+    }
+    if (!(value >= min && value <= max)) {
+      complain(place(source_, *entry), "is not within " + std::string(range), {});
+      return min;
+    }
+    return value;
+  }
+  std::size_t count(std::string_view key) {
+    const double value = number(key, 4.0, kMaxSide, "4 to 1000000");
+    if (std::floor(value) != value) complain(place(source_, *find(key)), "is no whole number", {});
+    return static_cast<std::size_t>(value);
+  }
+  /// The key, if it stands there, has this value.
+  void demand(std::string_view key, std::initializer_list<std::string_view> allowed, std::string hint) {
+    const Entry* entry = find(key);
+    if (entry == nullptr || std::find(allowed.begin(), allowed.end(), entry->value) != allowed.end()) return;
+    complain(place(source_, *entry), "\"" + entry->value + "\" can't be read", std::move(hint));
+  }
+  void complain(std::string where, std::string what, std::string hint) {
+    if (!error_) error_ = core::Error{std::move(where), std::move(what), std::move(hint)};
+  }
+  [[nodiscard]] const std::optional<core::Error>& error() const { return error_; }
+  [[nodiscard]] const std::string& source() const { return source_; }
+
+ private:
+  std::vector<Entry> entries_;
+  std::string source_;
+  std::optional<core::Error> error_;
+};
+
+double spacing(Header& header, std::string_view own) {
+  const std::string_view key = header.has(own) ? own : "cellsize";
+  return header.number(key, std::numeric_limits<double>::min(), kMaxCoordinate, "above 0 to 1e9");
+}
+
+double coordinate(Header& header, std::string_view key) {
+  return header.number(key, -kMaxCoordinate, kMaxCoordinate, "-1e9 to 1e9");
+}
+
+/// The centre of the south-western cell along one axis. `from_upper` [m] from the upper left cell's centre to
+/// it.
+double origin(Header& header, std::string_view corner, std::string_view center, std::string_view upper,
+              double step, double from_upper) {
+  const int given = int{header.has(corner)} + int{header.has(center)} + int{header.has(upper)};
+  if (given > 1) {
+    header.complain(
+        header.source(),
+        std::string(corner) + ", " + std::string(center) + " and " + std::string(upper) + " say the same",
+        "keep one of them");
+  }
+  if (header.has(center)) return coordinate(header, center);
+  if (header.has(upper)) return coordinate(header, upper) + from_upper;
+  return coordinate(header, corner) + 0.5 * step;
+}
+
+void demand_plain_layout(Header& header, std::size_t columns) {
+  const std::string row_bytes = std::to_string(4 * columns);
+  header.demand("nbits", {"32"}, "convert with gdal_translate -of EHdr -ot Float32");
+  header.demand("pixeltype", {"float"}, "convert with gdal_translate -of EHdr -ot Float32");
+  header.demand("nbands", {"1"}, "take one band with gdal_translate -b 1");
+  header.demand("layout", {"bil", "bip", "bsq"}, "one band is the same in each of bil, bip, bsq");
+  header.demand("skipbytes", {"0"}, "the data begin at the file's first byte");
+  header.demand("bandrowbytes", {row_bytes}, "rows stand without gaps: 4 ncols bytes each");
+  header.demand("totalrowbytes", {row_bytes}, "rows stand without gaps: 4 ncols bytes each");
+  header.demand("bandgapbytes", {"0"}, "there is one band");
+  header.demand("byteorder", {"lsbfirst", "i", "msbfirst", "m"}, "LSBFIRST or MSBFIRST");
+}
+
+float no_data_of(Header& header) {
+  const std::string_view key = header.has("nodata_value") ? "nodata_value" : "nodata";
+  const Entry* entry = header.find(key);
+  if (entry == nullptr || entry->value == "nan" || entry->value == "-nan")
+    return std::numeric_limits<float>::quiet_NaN();
+  const double value = header.number(key, -std::numeric_limits<double>::max(),
+                                     std::numeric_limits<double>::max(), "the finite numbers");
+  // Beyond a float's range is beyond kNoHeightFrom too.
+  return std::fabs(value) >= 1e30 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(value);
+}
+
+core::Expected<std::size_t> size_of(int descriptor, const std::filesystem::path& file) {
+  struct stat status {};
+  if (::fstat(descriptor, &status) != 0) {
+    return core::fail(file.string(), std::string("can't be examined: ") + std::strerror(errno));
+  }
+  if (!S_ISREG(status.st_mode))
+    return core::fail(file.string(), "is no regular file", "a float grid is read in any order");
+  return static_cast<std::size_t>(status.st_size);
+}
+
+/// Whether all of `bytes` could be read from `offset` on.
+bool read_at(int descriptor, std::span<std::byte> bytes, std::size_t offset) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::pread(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+    offset += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+std::uint32_t swapped(std::uint32_t v) {
+  return (v >> 24) | ((v >> 8) & 0xff00u) | ((v << 8) & 0xff0000u) | (v << 24);
+}
+
+}  // namespace
+
+core::Expected<FltHeader> parse_flt_header(std::string_view text, const std::string& source) {
+  auto entries = read_entries(text, source);
+  if (!entries) return tl::unexpected(std::move(entries.error()));
+  Header header(std::move(*entries), source);
+  FltHeader result;
+  terrain::GridFrame& frame = result.frame;
+  frame.columns = header.count("ncols");
+  frame.rows = header.count("nrows");
+  frame.dx = spacing(header, "xdim");
+  frame.dy = spacing(header, "ydim");
+  frame.x_origin = origin(header, "xllcorner", "xllcenter", "ulxmap", frame.dx, 0.0);
+  frame.y_origin = origin(header, "yllcorner", "yllcenter", "ulymap", frame.dy,
+                          -static_cast<double>(frame.rows - 1) * frame.dy);
+  demand_plain_layout(header, frame.columns);
+  result.no_data = no_data_of(header);
+  if (const Entry* order = header.find("byteorder")) {
+    if (order->value == "msbfirst" || order->value == "m") result.byte_order = ByteOrder::kBigEndian;
+  }
+  if (header.error()) return tl::unexpected(*header.error());
+  return result;
+}
+
+core::Expected<std::shared_ptr<const FltGrid>> FltGrid::open(const std::filesystem::path& file) {
+  std::filesystem::path header_file = file;
+  header_file.replace_extension(".hdr");
+  const auto text = read_whole_file(header_file, kMaxHeaderBytes);
+  if (!text) return tl::unexpected(text.error());
+  const auto header = parse_flt_header(*text, header_file.string());
+  if (!header) return tl::unexpected(header.error());
+
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0)
+    return core::fail(file.string(), std::string("can't be opened: ") + std::strerror(errno));
+  std::shared_ptr<const FltGrid> grid(new FltGrid(*header, descriptor));  // owns the descriptor from here on
+  const auto size = size_of(descriptor, file);
+  if (!size) return tl::unexpected(size.error());
+  const std::size_t expected = 4 * header->frame.columns * header->frame.rows;
+  if (*size != expected) {
+    return core::fail(file.string(),
+                      "has " + std::to_string(*size) + " bytes, its header says " + std::to_string(expected),
+                      "4 bytes for each of nrows * ncols heights; compare it with " + header_file.string());
+  }
+  return grid;
+}
+
+FltGrid::~FltGrid() { ::close(descriptor_); }
+
+void FltGrid::read(std::size_t column, std::size_t row, std::span<double> out) const {
+  const terrain::GridFrame& frame = header_.frame;
+  assert(column + out.size() <= frame.columns && row < frame.rows);
+  const std::size_t first =
+      (frame.rows - 1 - row) * frame.columns + column;  // the file's first row is the northern one
+  const bool swap =
+      (header_.byte_order == ByteOrder::kLittleEndian) != (std::endian::native == std::endian::little);
+  std::array<std::uint32_t, 256> words;
+  for (std::size_t done = 0; done < out.size(); done += words.size()) {
+    const std::span<double> part = out.subspan(done, std::min(words.size(), out.size() - done));
+    const std::span<std::uint32_t> raw(words.data(), part.size());
+    const bool ok = read_at(descriptor_, std::as_writable_bytes(raw), 4 * (first + done));
+    if (!ok) read_failures_.fetch_add(1, std::memory_order_relaxed);
+    for (std::size_t k = 0; k < part.size(); ++k) {
+      const float height = std::bit_cast<float>(swap ? swapped(raw[k]) : raw[k]);
+      const bool known = ok && std::fabs(height) < kNoHeightFrom && height != header_.no_data;
+      part[k] = known ? static_cast<double>(height) : std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+}
+
+}  // namespace woodlouse::map

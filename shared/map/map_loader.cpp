@@ -1,0 +1,84 @@
+#include "shared/map/map_loader.h"
+
+#include <string>
+#include <utility>
+
+#include "shared/core/joined.h"
+#include "shared/core/stable_hash.h"
+#include "shared/json/document.h"
+#include "shared/map/canonical_map.h"
+#include "shared/map/checked_fields.h"
+#include "shared/map/map_reader.h"
+#include "shared/map/whole_file.h"
+
+namespace woodlouse::map {
+namespace {
+
+/// heights within rows within heights within terrain within the map, and some to spare.
+constexpr std::size_t kMaxDepth = 8;
+/// Every height, every row, and the rest of the map.
+constexpr std::size_t kMaxValues = 2 * kMaxKnots + 100'000;
+
+std::shared_ptr<const Map> build(MapDefinition definition) {
+  auto map = std::make_shared<Map>();
+  map->canonical = canonical_text(definition);
+  map->hash = core::stable_hash(map->canonical);
+  if (definition.surface == SurfaceKind::kFunction) {
+    const auto& function = std::get<FunctionTerrain>(definition.terrain);
+    map->terrain =
+        std::make_shared<const terrain::Terrain>(terrain::FunctionSurface(function.function, function.scale));
+  } else {
+    const auto ends = definition.surface == SurfaceKind::kNaturalSpline ? terrain::SplineEnds::kNatural
+                                                                        : terrain::SplineEnds::kNotAKnot;
+    map->terrain =
+        std::make_shared<const terrain::Terrain>(terrain::BicubicSpline(knots_of(definition), ends));
+  }
+  map->definition = std::move(definition);
+  return map;
+}
+
+std::optional<MapDefinition> read(std::string_view text, const std::filesystem::path& folder,
+                                  Problems& problems) {
+  if (text.size() > kMaxMapBytes) {
+    problems.add(0, {}, core::joined({"longer than ", std::to_string(kMaxMapBytes >> 20), " MiB"}));
+    return std::nullopt;
+  }
+  const auto document = json::parse_file(text, problems.source(), {kMaxDepth, kMaxValues});
+  if (!document) {
+    problems.add(document.error());
+    return std::nullopt;
+  }
+  return read_definition(document->root(), folder, problems);
+}
+
+/// The folder a map file lies in; never empty, which would forbid its grid file.
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.parent_path();
+  return folder.empty() ? std::filesystem::path(".") : folder;
+}
+
+}  // namespace
+
+core::Expected<std::shared_ptr<const Map>> parse_map(std::string_view text, std::string_view source,
+                                                     const std::filesystem::path& folder) {
+  Problems problems{std::string(source)};
+  std::optional<MapDefinition> definition = read(text, folder, problems);
+  if (!definition) return tl::unexpected(problems.errors().front());
+  return build(std::move(*definition));
+}
+
+core::Expected<std::shared_ptr<const Map>> load_map(const std::filesystem::path& file) {
+  const core::Expected<std::string> text = read_whole_file(file, kMaxMapBytes);
+  if (!text) return tl::unexpected(text.error());
+  return parse_map(*text, file.string(), folder_of(file));
+}
+
+std::vector<core::Error> check_map(const std::filesystem::path& file) {
+  const core::Expected<std::string> text = read_whole_file(file, kMaxMapBytes);
+  if (!text) return {text.error()};
+  Problems problems(file.string());
+  read(*text, folder_of(file), problems);
+  return std::move(problems.errors());
+}
+
+}  // namespace woodlouse::map

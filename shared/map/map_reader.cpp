@@ -1,0 +1,180 @@
+#include "shared/map/map_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "shared/core/joined.h"
+#include "shared/core/portable_trigonometry.h"
+#include "shared/json/text.h"
+#include "shared/map/terrain_reader.h"
+
+namespace woodlouse::map {
+namespace {
+
+constexpr Range kGravity{0.0, 1000.0, "m/s^2"};
+constexpr Range kDrag{0.0, 100.0, "1/s"};
+constexpr Range kFriction{0.0, 10.0, ""};
+constexpr Range kThrustMax{0.0, 1000.0, "m/s^2"};
+constexpr Range kEdgeRestitution{0.0, 1.0, ""};
+constexpr Range kDegrees{-360.0, 360.0, "degrees"};
+constexpr Range kCoordinate{-1e12, 1e12, "m"};
+constexpr Range kHeadingComponent{-1e6, 1e6, ""};
+constexpr std::size_t kMaxNameBytes = 64;
+constexpr std::size_t kMaxSpawns = 1024;
+/// A pair this near to length 1 is taken as it stands, so that a written unit vector reads back bit for bit.
+constexpr double kUnitTolerance = 1e-14;
+
+SurfaceKind read_surface(const json::Value& value, Problems& problems) {
+  if (value.is(json::Kind::kString)) {
+    const std::string_view text = value.text();
+    if (text == "spline") return SurfaceKind::kSpline;
+    if (text == "natural_spline") return SurfaceKind::kNaturalSpline;
+    if (text == "function") return SurfaceKind::kFunction;
+    const std::string hint = did_you_mean(text, {"spline", "natural_spline", "function"});
+    problems.add(value, "is no kind of surface", hint.empty() ? "spline, natural_spline or function" : hint);
+  } else {
+    problems.add(value, "the name of a surface is wanted", "spline, natural_spline or function");
+  }
+  return SurfaceKind::kSpline;
+}
+
+physics::Parameters read_physics(const json::Value& value, Problems& problems) {
+  const Fields fields(value, {"gravity", "drag", "friction", "thrust_max", "edge_restitution"}, problems);
+  physics::Parameters result;
+  result.gravity = fields.number_or("gravity", kGravity, result.gravity);
+  result.drag = fields.number_or("drag", kDrag, result.drag);
+  result.friction = fields.number_or("friction", kFriction, result.friction);
+  result.thrust_max = fields.number_or("thrust_max", kThrustMax, result.thrust_max);
+  result.edge_restitution = fields.number_or("edge_restitution", kEdgeRestitution, result.edge_restitution);
+  return result;
+}
+
+core::Vec2 read_heading(const json::Value& value, Problems& problems) {
+  if (value.is_number()) {
+    const std::optional<double> degrees = number_in(value, kDegrees, problems);
+    return degrees ? heading_from_degrees(*degrees) : core::Vec2{1.0, 0.0};
+  }
+  if (!value.is(json::Kind::kArray)) {
+    problems.add(value, "degrees or a pair [x, y] are wanted", "degrees run counter-clockwise, 0 is east");
+    return {1.0, 0.0};
+  }
+  const core::Vec2 pair = pair_in(value, kHeadingComponent, problems).value_or(core::Vec2{1.0, 0.0});
+  const double square = core::dot(pair, pair);
+  if (std::abs(square - 1.0) <= kUnitTolerance) return pair;
+  if (square < 1e-12) {
+    problems.add(value, "a heading of length 0 points nowhere");
+    return {1.0, 0.0};
+  }
+  const double length = std::sqrt(square);
+  return {pair.x / length, pair.y / length};
+}
+
+std::vector<SpawnPoint> read_spawns(const json::Value& value, const terrain::Rectangle& domain,
+                                    Problems& problems) {
+  std::vector<SpawnPoint> result;
+  const std::vector<json::Value> points = value.children();
+  if (!value.is(json::Kind::kArray) || points.empty() || points.size() > kMaxSpawns) {
+    problems.add(value, "a list of 1 to 1024 spawn points is wanted", "leave it out for a ring of eight");
+    return result;
+  }
+  for (const json::Value& point : points) {
+    const Fields fields(point, {"position", "heading"}, problems);
+    SpawnPoint spawn;
+    if (const auto position = fields.demand("position", "[x, y] in metres")) {
+      spawn.position =
+          pair_in(*position, kCoordinate, problems).value_or(core::Vec2{domain.x_min, domain.y_min});
+      if (!domain.contains(spawn.position.x, spawn.position.y)) {
+        problems.add(*position, "lies outside the map",
+                     core::joined({"x ", json::double_text(domain.x_min), " to ",
+                                   json::double_text(domain.x_max), " m, y ", json::double_text(domain.y_min),
+                                   " to ", json::double_text(domain.y_max), " m"}));
+      }
+    }
+    if (const auto heading = fields.find("heading")) spawn.heading = read_heading(*heading, problems);
+    result.push_back(spawn);
+    if (problems.is_full()) break;
+  }
+  return result;
+}
+
+/// The domain the surface will have; a spline's last knot may lie an ulp off the function's square.
+terrain::Rectangle domain_of(const MapDefinition& definition) {
+  if (const auto* grid = std::get_if<terrain::HeightGrid>(&definition.terrain)) return grid->domain();
+  const auto& function = std::get<FunctionTerrain>(definition.terrain);
+  if (definition.surface == SurfaceKind::kFunction) {
+    return terrain::FunctionSurface(function.function, function.scale).domain();
+  }
+  return terrain::sample_function(function.function, function.scale, function.grid).domain();
+}
+
+}  // namespace
+
+core::Vec2 heading_from_degrees(double degrees) {
+  // The quadrant is taken off in degrees, where it is exact.
+  const double turns = degrees / 90.0;
+  const auto quadrant = static_cast<long long>(turns + (turns >= 0.0 ? 0.5 : -0.5));
+  constexpr double kRadians = 0.017453292519943295769;
+  const auto [s, c] = core::portable_sincos((degrees - 90.0 * static_cast<double>(quadrant)) * kRadians);
+  // "+ 0.0" turns -0.0 into 0.0.
+  switch (quadrant & 3) {
+    case 0:
+      return {c + 0.0, s + 0.0};
+    case 1:
+      return {-s + 0.0, c + 0.0};
+    case 2:
+      return {-c + 0.0, -s + 0.0};
+    default:
+      return {s + 0.0, -c + 0.0};
+  }
+}
+
+std::vector<SpawnPoint> default_spawns(const terrain::Rectangle& domain) {
+  constexpr int kCount = 8;
+  constexpr double kShare = 0.6;  // of the way from the middle to the nearer walls
+  const core::Vec2 middle{0.5 * (domain.x_min + domain.x_max), 0.5 * (domain.y_min + domain.y_max)};
+  const double radius = kShare * 0.5 * std::min(domain.x_max - domain.x_min, domain.y_max - domain.y_min);
+  std::vector<SpawnPoint> result;
+  for (int k = 0; k < kCount; ++k) {
+    const core::Vec2 outward = heading_from_degrees(k * 360.0 / kCount);
+    result.push_back({middle + radius * outward, {0.0 - outward.x, 0.0 - outward.y}});
+  }
+  return result;
+}
+
+std::optional<MapDefinition> read_definition(const json::Value& root, const std::filesystem::path& folder,
+                                             Problems& problems) {
+  const Fields fields(root, {"name", "terrain", "surface", "physics", "spawns"}, problems);
+  MapDefinition result;
+  if (const auto name = fields.demand("name")) {
+    result.name = text_in(*name, 1, kMaxNameBytes, problems).value_or("");
+  }
+  const auto terrain_value =
+      fields.demand("terrain", "{\"function\": ...}, {\"file\": ...} or {\"heights\": ...}");
+  std::optional<TerrainDefinition> terrain;
+  if (terrain_value) terrain = read_terrain(*terrain_value, folder, problems);
+  if (terrain) result.terrain = std::move(*terrain);
+  if (const auto surface = fields.find("surface")) {
+    result.surface = read_surface(*surface, problems);
+    if (terrain && result.surface == SurfaceKind::kFunction &&
+        !std::holds_alternative<FunctionTerrain>(result.terrain)) {
+      problems.add(*surface, "\"function\" needs a terrain that names a function", "take spline");
+      result.surface = SurfaceKind::kSpline;
+    }
+  }
+  if (const auto physics = fields.find("physics")) result.physics = read_physics(*physics, problems);
+
+  // Without a terrain the spawn points are still checked for all but their place.
+  const double anywhere = kCoordinate.max;
+  const terrain::Rectangle domain =
+      terrain ? domain_of(result) : terrain::Rectangle{-anywhere, -anywhere, anywhere, anywhere};
+  if (const auto spawns = fields.find("spawns")) {
+    result.spawns = read_spawns(*spawns, domain, problems);
+  } else {
+    result.spawns = default_spawns(domain);
+  }
+  if (problems.count() != 0) return std::nullopt;
+  return result;
+}
+
+}  // namespace woodlouse::map

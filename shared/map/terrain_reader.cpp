@@ -1,0 +1,216 @@
+#include "shared/map/terrain_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "shared/core/joined.h"
+#include "shared/map/esri_ascii_grid.h"
+#include "shared/map/map_loader.h"
+#include "shared/map/whole_file.h"
+
+namespace woodlouse::map {
+namespace {
+
+using terrain::HeightGrid;
+
+constexpr Range kFunctionScale{0.1, 1e5, "m"};
+constexpr Range kGridScale{1e-6, 1e6, ""};
+constexpr Range kSpacing{1e-3, 1e6, "m"};
+constexpr Range kOrigin{-1e7, 1e7, "m"};
+constexpr Range kHeight{-1e6, 1e6, "m"};
+constexpr std::uint64_t kMinFunctionGrid = 2;
+constexpr std::uint64_t kMaxFunctionGrid = 999;
+constexpr std::size_t kMinKnotsEachWay = 4;
+/// 89.4 degrees between neighbouring knots. Steeper is a wall, and walls are the map's edge's business.
+constexpr double kMaxSlope = 100.0;
+
+bool within(double value, const Range& range) { return value >= range.min && value <= range.max; }
+
+FunctionTerrain read_function(const json::Value& value, const json::Value& name, Problems& problems) {
+  const Fields fields(value, {"function", "grid", "scale"}, problems);
+  FunctionTerrain result;
+  if (!name.is(json::Kind::kString)) {
+    problems.add(name, "the name of a function is wanted", "parabolic_pot, wavy_pot, volcano or hills");
+  } else if (const auto function = terrain::function_from_text(name.text())) {
+    result.function = *function;
+  } else {
+    const std::string hint = did_you_mean(name.text(), {"parabolic_pot", "wavy_pot", "volcano", "hills"});
+    problems.add(name, "is no function we have",
+                 hint.empty() ? "parabolic_pot, wavy_pot, volcano or hills" : hint);
+  }
+  if (const auto grid = fields.find("grid")) {
+    result.grid = integer_in(*grid, kMinFunctionGrid, kMaxFunctionGrid, problems).value_or(result.grid);
+  }
+  result.scale = fields.number_or("scale", kFunctionScale, result.scale);
+  return result;
+}
+
+/// The path of a grid file, if it stays in the map's folder.
+std::optional<std::filesystem::path> grid_path(const json::Value& name, const std::filesystem::path& folder,
+                                               Problems& problems) {
+  const std::optional<std::string> text = text_in(name, 1, 255, problems);
+  if (!text) return std::nullopt;
+  if (folder.empty()) {
+    problems.add(name, "a map that comes without a folder can't name a file", "send its heights in place");
+    return std::nullopt;
+  }
+  const std::filesystem::path relative(*text);
+  const bool climbs =
+      std::any_of(relative.begin(), relative.end(), [](const auto& part) { return part == ".."; });
+  if (relative.is_absolute() || climbs) {
+    problems.add(name, "leaves the map's folder", "put the grid beside the map and name it without a path");
+    return std::nullopt;
+  }
+  std::error_code error;
+  const auto base = std::filesystem::weakly_canonical(folder, error);
+  const auto file = error ? folder / relative : std::filesystem::weakly_canonical(folder / relative, error);
+  const auto inside = std::mismatch(base.begin(), base.end(), file.begin(), file.end()).first == base.end();
+  if (error || !inside) {
+    problems.add(name, "leaves the map's folder by a link", "put the grid itself beside the map");
+    return std::nullopt;
+  }
+  return folder / relative;
+}
+
+/// A grid file, its middle laid at the origin: real-world coordinates would cost digits and help nobody.
+std::optional<HeightGrid> read_grid_file(const json::Value& value, const json::Value& name,
+                                         const std::filesystem::path& folder, Problems& problems) {
+  const Fields fields(value, {"file", "scale"}, problems);
+  const double scale = fields.number_or("scale", kGridScale, 1.0);
+  const auto path = grid_path(name, folder, problems);
+  if (!path) return std::nullopt;
+  const core::Expected<std::string> text = read_whole_file(*path, kMaxMapBytes);
+  if (!text) {
+    problems.add(name, text.error().text());
+    return std::nullopt;
+  }
+  Problems grid_problems(path->string());
+  std::optional<HeightGrid> grid = parse_esri_ascii_grid(*text, grid_problems);
+  for (core::Error& error : grid_problems.errors()) problems.add(std::move(error));
+  if (!grid) return std::nullopt;
+  grid->dx *= scale;
+  grid->dy *= scale;
+  grid->x_origin = -0.5 * (static_cast<double>(grid->columns - 1) * grid->dx);
+  grid->y_origin = -0.5 * (static_cast<double>(grid->rows - 1) * grid->dy);
+  for (double& height : grid->heights) height *= scale;
+  return grid;
+}
+
+void read_rows(const json::Value& value, double scale, HeightGrid& grid, Problems& problems) {
+  const std::vector<json::Value> rows = value.children();
+  if (!value.is(json::Kind::kArray) || rows.size() < kMinKnotsEachWay) {
+    problems.add(value, "at least 4 rows of heights are wanted",
+                 "[[south row, west to east], ..., [north row]]");
+    return;
+  }
+  grid.rows = rows.size();
+  grid.columns = rows.front().children().size();
+  if (grid.columns < kMinKnotsEachWay) {
+    problems.add(rows.front(), "a row of at least 4 heights is wanted");
+    return;
+  }
+  grid.heights.reserve(grid.rows * grid.columns);
+  for (const json::Value& row : rows) {
+    const std::vector<json::Value> heights = row.children();
+    if (heights.size() != grid.columns) {
+      problems.add(row, core::joined({std::to_string(heights.size()), " heights, the first row has ",
+                                      std::to_string(grid.columns)}));
+    }
+    if (problems.is_full()) return;
+    for (const json::Value& height : heights) {
+      grid.heights.push_back(scale * number_in(height, kHeight, problems).value_or(0.0));
+    }
+  }
+}
+
+HeightGrid read_inline(const json::Value& value, const json::Value& heights, Problems& problems) {
+  const Fields fields(value, {"origin", "spacing", "heights", "scale"}, problems);
+  const double scale = fields.number_or("scale", kGridScale, 1.0);
+  HeightGrid grid;
+  core::Vec2 spacing{1.0, 1.0};
+  if (const auto found = fields.demand("spacing", "metres between knots: a number or [dx, dy]")) {
+    if (found->is(json::Kind::kArray)) {
+      spacing = pair_in(*found, kSpacing, problems).value_or(spacing);
+    } else {
+      spacing.x = spacing.y = number_in(*found, kSpacing, problems).value_or(1.0);
+    }
+  }
+  grid.dx = scale * spacing.x;
+  grid.dy = scale * spacing.y;
+  read_rows(heights, scale, grid, problems);
+  if (const auto origin = fields.find("origin")) {
+    const core::Vec2 corner = pair_in(*origin, kOrigin, problems).value_or(core::Vec2{});
+    grid.x_origin = scale * corner.x;
+    grid.y_origin = scale * corner.y;
+  } else if (grid.columns != 0 && grid.rows != 0) {
+    grid.x_origin = -0.5 * (static_cast<double>(grid.columns - 1) * grid.dx);
+    grid.y_origin = -0.5 * (static_cast<double>(grid.rows - 1) * grid.dy);
+  }
+  return grid;
+}
+
+/// What only shows once the scale is applied.
+void check_grid(const json::Value& value, const HeightGrid& grid, Problems& problems) {
+  if (!within(grid.dx, kSpacing) || !within(grid.dy, kSpacing)) {
+    problems.add(value, "knots less than 1 mm or more than 1000 km apart", "choose another scale");
+    return;
+  }
+  if (!within(grid.x_origin, kOrigin) || !within(grid.y_origin, kOrigin)) {
+    problems.add(value, "the origin is more than 10000 km off", "choose another scale or origin");
+  }
+  for (std::size_t k = 0; k < grid.heights.size(); ++k) {
+    const std::size_t i = k % grid.columns;
+    const std::size_t j = k / grid.columns;
+    const double z = grid.heights[k];
+    const double east = i + 1 < grid.columns ? std::abs(grid.heights[k + 1] - z) / grid.dx : 0.0;
+    const double north = j + 1 < grid.rows ? std::abs(grid.heights[k + grid.columns] - z) / grid.dy : 0.0;
+    const bool is_high = !within(z, kHeight);
+    if (!is_high && east <= kMaxSlope && north <= kMaxSlope) continue;
+    problems.add(
+        value,
+        core::joined({"column ", std::to_string(i + 1), " from the west, row ", std::to_string(j + 1),
+                      " from the south: ",
+                      is_high ? "a height past 1000 km" : "steeper than 100 m a metre to the next knot"}),
+        is_high ? "choose another scale" : "smooth the heights, or check their unit against the spacing's");
+    return;
+  }
+}
+
+}  // namespace
+
+std::optional<TerrainDefinition> read_terrain(const json::Value& value, const std::filesystem::path& folder,
+                                              Problems& problems) {
+  const std::size_t problems_before = problems.count();
+  const auto function = value.find("function");
+  const auto file = value.find("file");
+  const auto heights = value.find("heights");
+  const int ways = (function ? 1 : 0) + (file ? 1 : 0) + (heights ? 1 : 0);
+  if (ways != 1) {
+    const Fields fields(value, {"function", "grid", "scale", "file", "origin", "spacing", "heights"},
+                        problems);
+    if (value.is(json::Kind::kObject)) {
+      problems.add(value, core::joined({"exactly one of function, file and heights is wanted, not ",
+                                        std::to_string(ways)}));
+    }
+    return std::nullopt;
+  }
+  std::optional<TerrainDefinition> result;
+  if (function) {
+    result = read_function(value, *function, problems);
+  } else {
+    std::optional<HeightGrid> grid =
+        file ? read_grid_file(value, *file, folder, problems) : read_inline(value, *heights, problems);
+    if (!grid || problems.count() != problems_before || problems.is_full()) return std::nullopt;
+    if (grid->columns * grid->rows > kMaxKnots) {
+      problems.add(value, core::joined({"more than ", std::to_string(kMaxKnots), " knots"}));
+    } else {
+      check_grid(value, *grid, problems);
+    }
+    result = std::move(*grid);
+  }
+  if (problems.count() != problems_before || problems.is_full()) return std::nullopt;
+  return result;
+}
+
+}  // namespace woodlouse::map

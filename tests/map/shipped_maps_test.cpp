@@ -1,0 +1,66 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <string>
+
+#include "shared/map/canonical_map.h"
+#include "shared/map/map_loader.h"
+
+namespace woodlouse::map {
+namespace {
+
+const std::filesystem::path kMaps = WOODLOUSE_SOURCE_DIR "/maps";
+const char* const kNames[] = {"parabolic_pot", "wavy_pot", "volcano", "hills", "maunga_whau"};
+
+}  // namespace
+
+TEST_CASE("every map of the maps folder loads, is named as its file and reads back from its canonical text") {
+  std::size_t count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kMaps)) {
+    if (entry.path().extension() != ".json") continue;
+    ++count;
+    INFO(entry.path());
+    CHECK(check_map(entry.path()).empty());
+    const auto map = load_map(entry.path());
+    REQUIRE(map);
+    CHECK((*map)->definition.name == entry.path().stem());
+    const auto again = parse_map((*map)->canonical, "canonical", {});
+    REQUIRE(again);
+    CHECK((*again)->canonical == (*map)->canonical);
+  }
+  CHECK(count >= std::size(kNames));
+  for (const char* name : kNames) CHECK(std::filesystem::exists(kMaps / (std::string(name) + ".json")));
+}
+
+TEST_CASE("maunga whau is played a tenth of its size, its middle at the origin, its north up") {
+  const auto map = load_map(kMaps / "maunga_whau.json");
+  REQUIRE(map);
+  const auto domain = (*map)->terrain->domain();
+  CHECK(domain.x_min == Approx(-43.0));
+  CHECK(domain.x_max == Approx(43.0));
+  CHECK(domain.y_min == Approx(-30.0));
+  CHECK(domain.y_max == Approx(30.0));
+  const auto grid = knots_of((*map)->definition);
+  const auto [low, high] = std::minmax_element(grid.heights.begin(), grid.heights.end());
+  CHECK(*low == Approx(9.4));
+  CHECK(*high == Approx(19.5));
+  CHECK(grid.at(0, grid.rows - 1) == Approx(10.3));    // the file's first number
+  CHECK(grid.at(grid.columns - 1, 0) == Approx(9.7));  // and its last
+}
+
+TEST_CASE("on every shipped map a louse can leave its spawn point") {
+  for (const char* name : kNames) {
+    INFO(name);
+    const auto map = load_map(kMaps / (std::string(name) + ".json"));
+    REQUIRE(map);
+    const physics::Parameters& physics = (*map)->definition.physics;
+    for (const SpawnPoint& spawn : (*map)->definition.spawns) {
+      const auto ground = (*map)->terrain->sample(spawn.position.x, spawn.position.y);
+      const double w2 = 1.0 + ground.zx * ground.zx + ground.zy * ground.zy;
+      // Thrust alone beats friction on the flat; on a slope gravity may help, never pin it.
+      CHECK(physics.thrust_max > physics.friction * physics.gravity / std::sqrt(w2));
+    }
+  }
+}
+
+}  // namespace woodlouse::map
