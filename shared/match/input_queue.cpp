@@ -1,0 +1,39 @@
+#include "shared/match/input_queue.h"
+
+#include <algorithm>
+
+namespace woodlouse::match {
+
+void InputQueue::remove_player(physics::LouseId player) {
+  players_.erase(player);
+  std::erase_if(waiting_, [player](const auto& entry) { return entry.first.player == player; });
+}
+
+Filed InputQueue::file(const Input& input, std::uint64_t next_tick) {
+  const auto found = players_.find(input.player);
+  if (found == players_.end()) return {Filed::Outcome::kNoLouse, next_tick, false};
+  Player& player = found->second;
+  const bool late = input.wanted_tick != 0 && input.wanted_tick < next_tick;
+  const std::uint64_t tick = std::max(input.wanted_tick, next_tick);
+  if (player.any && input.seq <= player.last_seq) return {Filed::Outcome::kStaleSeq, tick, late};
+  if (tick - next_tick > horizon_) return {Filed::Outcome::kTooFar, tick, late};
+  if (player.pending >= kMaxPending) return {Filed::Outcome::kQueueFull, tick, late};
+  player.any = true;
+  player.last_seq = input.seq;
+  ++player.pending;
+  waiting_.emplace(Key{tick, input.player, input.seq},
+                   AppliedInput{input.player, input.seq, input.thrust.value, input.thrust.kind, input.ticks, tick});
+  return {Filed::Outcome::kFiled, tick, late};
+}
+
+void InputQueue::take(std::uint64_t tick, std::vector<AppliedInput>& out) {
+  out.clear();
+  auto at = waiting_.begin();
+  for (; at != waiting_.end() && at->first.tick <= tick; ++at) {
+    out.push_back(at->second);
+    --players_.at(at->first.player).pending;
+  }
+  waiting_.erase(waiting_.begin(), at);
+}
+
+}  // namespace woodlouse::match

@@ -1,0 +1,80 @@
+// Inputs that wait for their tick, ordered by (tick, player, seq): arrival order never changes a result.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "shared/physics/louse.h"
+
+namespace woodlouse::match {
+
+/// A player's thrust as the wire brought it, checked and rounded (protocol/codec.h).
+struct Input {
+  physics::LouseId player = 0;
+  std::uint32_t seq = 0;             ///< the player's own count, ascending
+  physics::Thrust thrust;
+  std::uint32_t ticks = physics::kHeld;  ///< how long it acts; kHeld: until the next input
+  std::uint64_t wanted_tick = 0;     ///< the tick it asks for; 0, or one that is past: the next step takes it
+};
+
+/// An input as a step applied it; what the hash covers (40 bytes, no padding, in this order).
+struct AppliedInput {
+  physics::LouseId player = 0;
+  std::uint32_t seq = 0;
+  core::Vec2 thrust;
+  physics::ThrustKind kind = physics::ThrustKind::kNone;
+  std::uint32_t ticks = 0;
+  std::uint64_t tick = 0;
+  friend bool operator==(const AppliedInput&, const AppliedInput&) = default;
+};
+static_assert(sizeof(AppliedInput) == 40);
+
+/// What became of an input that was filed.
+struct Filed {
+  enum class Outcome {
+    kFiled,       ///< step `tick` will apply it
+    kStaleSeq,    ///< dropped: seq is not above the player's last one
+    kQueueFull,   ///< dropped: the player has kMaxPending inputs waiting
+    kTooFar,      ///< dropped: more than 2 s ahead
+    kNoLouse,     ///< dropped: the player has no louse
+  };
+  Outcome outcome = Outcome::kFiled;
+  std::uint64_t tick = 0;
+  bool late = false;  ///< the wanted tick was past; the next step takes it
+};
+
+class InputQueue {
+ public:
+  static constexpr std::size_t kMaxPending = 256;  ///< per player
+
+  /// horizon: how many ticks ahead an input may ask for.
+  explicit InputQueue(std::uint64_t horizon) : horizon_(horizon) {}
+
+  void add_player(physics::LouseId player) { players_.try_emplace(player); }
+  void remove_player(physics::LouseId player);
+  /// next_tick: the step that will run next.
+  Filed file(const Input& input, std::uint64_t next_tick);
+  /// Moves the inputs of `tick` to `out` (cleared first), by (player, seq).
+  void take(std::uint64_t tick, std::vector<AppliedInput>& out);
+
+ private:
+  struct Player {
+    std::uint32_t last_seq = 0;
+    bool any = false;
+    std::size_t pending = 0;
+  };
+  struct Key {
+    std::uint64_t tick;
+    physics::LouseId player;
+    std::uint32_t seq;
+    friend auto operator<=>(const Key&, const Key&) = default;
+  };
+
+  std::uint64_t horizon_;
+  std::map<physics::LouseId, Player> players_;
+  std::map<Key, AppliedInput> waiting_;
+};
+
+}  // namespace woodlouse::match

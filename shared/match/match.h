@@ -1,0 +1,105 @@
+// One game without a clock, a socket or a file: joins and inputs in, ticks and their proof out.
+// What a server runs live and what a replay re-runs; the same calls give the same bits.
+//
+// Tick n is the state before step n. advance() performs step n: leaves, joins and respawns queued since the
+// last step in the order they came, then the inputs filed for n in the order (player, seq), the last of a
+// player winning; then the world's step. Arrival order of inputs never changes a result.
+// Not thread safe: its room's strand owns it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "shared/core/random.h"
+#include "shared/core/stable_hash.h"
+#include "shared/map/map_definition.h"
+#include "shared/match/input_queue.h"
+#include "shared/physics/state_hash.h"
+#include "shared/physics/world.h"
+
+namespace woodlouse::match {
+
+/// Changes only when the same inputs would give another result; tied to the golden hashes in tests/.
+inline constexpr int kBehavior = 1;
+
+/// How far ahead an input may ask for its tick.
+inline constexpr std::uint64_t kHorizonSeconds = 2;
+
+using PlayerId = physics::LouseId;
+
+enum class RosterAction : std::uint32_t { kJoin = 0, kLeave = 1, kRespawn = 2 };
+
+/// A change of who plays, as applied in a step.
+struct RosterChange {
+  RosterAction action = RosterAction::kJoin;
+  PlayerId player = 0;
+  friend bool operator==(const RosterChange&, const RosterChange&) = default;
+};
+
+/// Everything one step did; with the header, all that a replay needs.
+struct StepRecord {
+  std::uint64_t tick = 0;                ///< n: the step led from tick n to n + 1
+  std::vector<RosterChange> roster;      ///< in the order applied
+  std::vector<AppliedInput> inputs;      ///< in the order applied
+  std::uint64_t hash = 0;                ///< of the state at tick n + 1
+};
+
+struct MatchSettings {
+  std::uint32_t tick_hz = 60;   ///< 1..1000
+  std::uint64_t seed = 0;
+};
+
+class Match {
+ public:
+  Match(std::shared_ptr<const map::Map> map, const MatchSettings& settings);
+
+  /// Queues a new louse for the next step; its id is fresh and known at once.
+  PlayerId join();
+  /// Queues a join under a given id, for replays. REQUIRES an id never used before in this match.
+  void join_as(PlayerId player);
+  /// Queues the removal of a louse. Its filed inputs are dropped.
+  void leave(PlayerId player);
+  /// Queues a return to a spawn point, at rest, without thrust; the distance travelled stays.
+  void respawn(PlayerId player);
+  /// Files an input for a tick; says which tick will take it.
+  Filed file(const Input& input);
+
+  /// Performs the next step. The record is valid until the next call.
+  const StepRecord& advance();
+
+  /// The next step's number; the world shows the state before it.
+  [[nodiscard]] std::uint64_t tick() const { return tick_; }
+  [[nodiscard]] const physics::World& world() const { return world_; }
+  [[nodiscard]] const map::Map& map() const { return *map_; }
+  [[nodiscard]] const MatchSettings& settings() const { return settings_; }
+  /// Of the state at tick(); 0 at tick 0 unless restored.
+  [[nodiscard]] std::uint64_t hash() const { return hash_; }
+  /// What went into hash() besides the lice.
+  [[nodiscard]] const physics::HashLink& link() const { return link_; }
+  [[nodiscard]] bool contains(PlayerId player) const { return world_.find(player) != nullptr; }
+
+ private:
+  void spawn(PlayerId player, double distance);
+  void change_roster();
+  void apply_inputs();
+
+  std::shared_ptr<const map::Map> map_;
+  MatchSettings settings_;
+  physics::World world_;
+  core::Random random_;
+  InputQueue inputs_;
+  std::vector<RosterChange> pending_roster_;
+  PlayerId next_player_ = 1;
+  std::uint64_t tick_ = 0;
+  std::uint64_t hash_ = 0;
+  physics::HashLink link_;
+  core::StableHasher hasher_;
+  StepRecord record_;
+};
+
+}  // namespace woodlouse::match

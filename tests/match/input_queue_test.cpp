@@ -1,0 +1,84 @@
+#include "shared/match/input_queue.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <vector>
+
+#include "shared/core/random.h"
+
+using namespace woodlouse;
+using namespace woodlouse::match;
+using Outcome = Filed::Outcome;
+
+namespace {
+
+Input input(physics::LouseId player, std::uint32_t seq, std::uint64_t wanted = 0) {
+  return {player, seq, {physics::ThrustKind::kMapVector, {0.5, 0.25}}, physics::kHeld, wanted};
+}
+
+}  // namespace
+
+TEST_CASE("inputs come out by player and seq, whatever order the players' inputs arrived in") {
+  core::Random random(1);
+  std::vector<AppliedInput> reference;
+  for (int round = 0; round < 50; ++round) {
+    // Each player's own inputs keep their order, as a socket keeps it; players are interleaved at random.
+    InputQueue queue(120);
+    std::uint32_t next[4] = {1, 1, 1, 1};
+    for (physics::LouseId p = 0; p < 4; ++p) queue.add_player(p);
+    for (int left = 40; left > 0;) {
+      const auto p = static_cast<physics::LouseId>(random.next() % 4);
+      if (next[p] > 10) continue;
+      REQUIRE(queue.file(input(p, next[p]++, 7), 5).outcome == Outcome::kFiled);
+      --left;
+    }
+    std::vector<AppliedInput> out;
+    queue.take(6, out);
+    REQUIRE(out.empty());
+    queue.take(7, out);
+    REQUIRE(out.size() == 40);
+    if (round == 0) reference = out;
+    REQUIRE(out == reference);
+  }
+}
+
+TEST_CASE("an input without a tick, or for a past one, is taken by the next step, only the past one is late") {
+  InputQueue queue(120);
+  queue.add_player(1);
+  const Filed now = queue.file(input(1, 1), 10);
+  CHECK(now.tick == 10);
+  CHECK_FALSE(now.late);
+  const Filed past = queue.file(input(1, 2, 9), 10);
+  CHECK(past.tick == 10);
+  CHECK(past.late);
+  CHECK(queue.file(input(1, 3, 130), 10).outcome == Outcome::kFiled);
+  CHECK(queue.file(input(1, 4, 131), 10).outcome == Outcome::kTooFar);
+}
+
+TEST_CASE("a stale seq, a full queue and a stranger are refused by name, and what was filed stays") {
+  InputQueue queue(1000);
+  queue.add_player(1);
+  CHECK(queue.file(input(2, 1), 10).outcome == Outcome::kNoLouse);
+  for (std::uint32_t i = 1; i <= InputQueue::kMaxPending; ++i) {
+    REQUIRE(queue.file(input(1, i, 20), 10).outcome == Outcome::kFiled);
+  }
+  CHECK(queue.file(input(1, 1), 10).outcome == Outcome::kStaleSeq);
+  CHECK(queue.file(input(1, 1000), 10).outcome == Outcome::kQueueFull);
+  std::vector<AppliedInput> out;
+  queue.take(20, out);
+  CHECK(out.size() == InputQueue::kMaxPending);
+  CHECK(queue.file(input(1, 1000), 10).outcome == Outcome::kFiled);
+}
+
+TEST_CASE("who leaves takes his inputs along") {
+  InputQueue queue(100);
+  queue.add_player(1);
+  queue.add_player(2);
+  queue.file(input(1, 1), 5);
+  queue.file(input(2, 1), 5);
+  queue.remove_player(1);
+  std::vector<AppliedInput> out;
+  queue.take(5, out);
+  REQUIRE(out.size() == 1);
+  CHECK(out[0].player == 2);
+}

@@ -1,0 +1,118 @@
+#include "shared/match/match.h"
+
+#include <catch2/catch.hpp>
+#include <memory>
+
+#include "shared/core/random.h"
+
+using namespace woodlouse;
+using namespace woodlouse::match;
+using physics::ThrustKind;
+
+namespace {
+
+std::shared_ptr<const map::Map> volcano() {
+  auto map = std::make_shared<map::Map>();
+  map->definition.name = "volcano";
+  map->definition.spawns = {{{5, 0}, {0, 1}}, {{-5, 0}, {0, -1}}, {{0, 8}, {1, 0}}};
+  map->terrain = std::make_shared<const terrain::Terrain>(
+      terrain::BicubicSpline(terrain::sample_function(terrain::FunctionName::kVolcano, 20.0, 10)));
+  return map;
+}
+
+Input push(PlayerId player, std::uint32_t seq, double x, double y, std::uint32_t ticks = physics::kHeld) {
+  return {player, seq, {ThrustKind::kMapVector, {x, y}}, ticks, 0};
+}
+
+/// Three players for 300 ticks with random thrusts, filed in an order that `shuffle` decides.
+std::uint64_t played(std::uint64_t shuffle) {
+  Match match(volcano(), {60, 42});
+  const PlayerId players[] = {match.join(), match.join(), match.join()};
+  core::Random thrusts(9);
+  core::Random order(shuffle);
+  for (std::uint32_t tick = 0; tick < 300; ++tick) {
+    std::vector<Input> inputs;
+    for (const PlayerId p : players) inputs.push_back(push(p, tick + 1, thrusts.uniform() - 0.5, thrusts.uniform() - 0.5));
+    for (std::size_t i = inputs.size(); i > 1; --i) std::swap(inputs[i - 1], inputs[order.next() % i]);
+    for (const Input& input : inputs) REQUIRE(match.file(input).outcome == Filed::Outcome::kFiled);
+    match.advance();
+  }
+  return match.hash();
+}
+
+}  // namespace
+
+TEST_CASE("the order in which inputs arrive within a tick never changes the hash") {
+  const std::uint64_t hash = played(0);
+  for (std::uint64_t shuffle = 1; shuffle < 20; ++shuffle) REQUIRE(played(shuffle) == hash);
+}
+
+TEST_CASE("a join takes effect in the next step, at a spawn point, at rest or rolling from it") {
+  Match match(volcano(), {60, 1});
+  const PlayerId player = match.join();
+  CHECK_FALSE(match.contains(player));
+  const StepRecord& record = match.advance();
+  CHECK(record.tick == 0);
+  CHECK(record.roster == std::vector<RosterChange>{{RosterAction::kJoin, player}});
+  CHECK(match.contains(player));
+  CHECK(match.tick() == 1);
+}
+
+TEST_CASE("the last input of a player in a tick wins, and a pulse ends by itself") {
+  Match match(volcano(), {60, 1});
+  const PlayerId player = match.join();
+  match.file(push(player, 1, 1.0, 0.0));
+  match.file(push(player, 2, 0.0, 0.5, 3));
+  const StepRecord& record = match.advance();
+  CHECK(record.inputs.size() == 2);
+  CHECK(match.world().find(player)->thrust == core::Vec2{0.0, 0.5});
+  CHECK(match.world().find(player)->thrust_ticks == 2);
+  match.advance();
+  match.advance();
+  CHECK(match.world().find(player)->thrust_kind == ThrustKind::kNone);
+}
+
+TEST_CASE("an input that moves nothing still shows in the hash") {
+  const auto hash = [](bool with_input) {
+    Match match(volcano(), {60, 1});
+    const PlayerId player = match.join();
+    match.advance();
+    if (with_input) match.file({player, 1, {ThrustKind::kNone, {}}, physics::kHeld, 0});
+    return match.advance().hash;
+  };
+  CHECK(hash(true) != hash(false));
+}
+
+TEST_CASE("leaving removes the louse, respawning brings it back to a spawn point with its distance") {
+  Match match(volcano(), {60, 5});
+  const PlayerId player = match.join();
+  match.file(push(player, 1, 1.0, 0.0));
+  for (int i = 0; i < 120; ++i) match.advance();
+  const double distance = match.world().find(player)->distance;
+  REQUIRE(distance > 0.0);
+  match.respawn(player);
+  match.advance();
+  CHECK(match.world().find(player)->thrust_kind == ThrustKind::kNone);
+  CHECK(match.world().find(player)->distance == Approx(distance).margin(0.01));
+  match.leave(player);
+  match.respawn(player);
+  const StepRecord& record = match.advance();
+  CHECK(record.roster == std::vector<RosterChange>{{RosterAction::kLeave, player}});
+  CHECK_FALSE(match.contains(player));
+  CHECK(match.file(push(player, 9, 1.0, 0.0)).outcome == Filed::Outcome::kNoLouse);
+  CHECK(match.join() == player + 1);
+}
+
+TEST_CASE("the seed chooses the spawn points") {
+  const auto places = [](std::uint64_t seed) {
+    Match match(volcano(), {60, seed});
+    std::vector<PlayerId> players;
+    for (int i = 0; i < 12; ++i) players.push_back(match.join());
+    match.advance();
+    std::vector<double> x;
+    for (const PlayerId p : players) x.push_back(match.world().find(p)->position.x);
+    return x;
+  };
+  CHECK(places(1) == places(1));
+  CHECK(places(1) != places(2));
+}
