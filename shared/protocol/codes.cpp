@@ -1,0 +1,47 @@
+#include "shared/protocol/codes.h"
+
+#include <array>
+
+namespace woodlouse::protocol {
+namespace {
+
+constexpr std::array kCodes = {
+    CodeEntry{code::kBadJson, "error, bye", Ends::kRepeated,
+              "the line is not JSON: syntax, invalid UTF-8, NaN, a number no double can hold"},
+    CodeEntry{code::kNotAnObject, "error", Ends::kNo, "the line is JSON, but not an object"},
+    CodeEntry{code::kDuplicateKey, "error", Ends::kNo, "an object holds the same key twice"},
+    CodeEntry{code::kTooDeep, "error", Ends::kNo, "objects and arrays are nested deeper than 8"},
+    CodeEntry{code::kUnknownType, "error", Ends::kNo, "no message has this `type`; the text lists those there are"},
+    CodeEntry{code::kMissingField, "error", Ends::kNo, "a required field is not there"},
+    CodeEntry{code::kBadField, "error", Ends::kNo, "a field has the wrong kind or is out of range"},
+    CodeEntry{code::kBadProtocol, "error, bye", Ends::kYes, "the client speaks another version of the protocol"},
+    CodeEntry{code::kLineTooLong, "error, bye", Ends::kYes, "a line is longer than `limits.line` bytes"},
+    CodeEntry{code::kNotJoined, "error", Ends::kNo, "this message needs a `join` first"},
+    CodeEntry{code::kAlreadyJoined, "error", Ends::kNo, "a session joins once"},
+    CodeEntry{code::kUnknownRoom, "error", Ends::kNo, "no room has this name; the text lists those there are"},
+    CodeEntry{code::kRoomFull, "error", Ends::kNo, "the room has `limits.per_room` sessions"},
+    CodeEntry{code::kTooManyConnections, "error, bye", Ends::kYes,
+              "the address has `limits.per_address` connections already"},
+    CodeEntry{code::kRateLimited, "error", Ends::kNo,
+              "more than `limits.messages_per_s`; this message was dropped, `retry_after_ms` says for how long"},
+    CodeEntry{code::kFlood, "error, bye", Ends::kYes, "messages kept coming long after `rate_limited`"},
+    CodeEntry{code::kHandshakeTimeout, "error, bye", Ends::kYes, "no `join` within `limits.handshake_s`"},
+    CodeEntry{code::kIdle, "error, bye", Ends::kYes, "nothing read and nothing written for `limits.idle_s`"},
+    CodeEntry{code::kSlow, "error, bye", Ends::kYes, "the client reads too slowly, even for keys alone"},
+    CodeEntry{code::kStaleSeq, "error", Ends::kNo, "input dropped: `seq` is not above the last one"},
+    CodeEntry{code::kQueueFull, "error", Ends::kNo, "input dropped: too many of this player's inputs wait"},
+    CodeEntry{code::kTooFar, "error", Ends::kNo, "input dropped: `tick` is more than 2 s ahead"},
+    CodeEntry{code::kNoLouse, "error", Ends::kNo, "the session has no louse: it is a spectator"},
+    CodeEntry{code::kLeft, "bye", Ends::kYes, "the client sent `leave`"},
+    CodeEntry{code::kShutdown, "bye", Ends::kYes, "the server stops"},
+    CodeEntry{code::kRateLowered, "notice", Ends::kNo, "frames come at half the rate: the client reads slowly"},
+    CodeEntry{code::kKeysOnly, "notice", Ends::kNo, "only keys come: the client reads very slowly"},
+    CodeEntry{code::kRateRestored, "notice", Ends::kNo, "frames come at the full rate again"},
+    CodeEntry{code::kDraining, "notice", Ends::kNo, "the server will stop soon"},
+};
+
+}  // namespace
+
+std::span<const CodeEntry> codes() { return kCodes; }
+
+}  // namespace woodlouse::protocol

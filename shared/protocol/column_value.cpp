@@ -1,0 +1,30 @@
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include "shared/protocol/codec.h"
+#include "shared/json/text.h"
+
+namespace woodlouse::protocol {
+
+static_assert(kMaxValueChars == json::kMaxNumberChars);
+
+namespace {
+
+// Exact: the quanta are powers of two.
+const std::array<double, kColumnCount> kPerQuantum = [] {
+  std::array<double, kColumnCount> result{};
+  for (std::size_t i = 0; i < kColumnCount; ++i) result[i] = 1.0 / quantum(static_cast<Column>(i));
+  return result;
+}();
+
+}  // namespace
+
+char* write_value(char* to, double value, Column column, Format format) {
+  if (format == Format::kExact) return json::write_double(to, value);
+  const double steps = value * kPerQuantum[static_cast<std::size_t>(column)];
+  assert(std::abs(steps) <= static_cast<double>(kMaxInteger));
+  return json::write_integer(to, std::llrint(steps));  // one instruction where there is one
+}
+
+}  // namespace woodlouse::protocol

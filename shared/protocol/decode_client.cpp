@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "shared/protocol/codec.h"
+#include "shared/protocol/codes.h"
+#include "shared/protocol/field_reader.h"
+#include "shared/protocol/field_texts.h"
+
+namespace woodlouse::protocol {
+namespace {
+
+using Decoded = tl::expected<ClientMessage, DecodeError>;
+
+constexpr double kScale = 1.0 / kThrustQuantum;
+constexpr double kHalfQuantum = 0.5 * kThrustQuantum;
+
+/// A number in [-1, 1]; what rounds to the end of the range counts as within it.
+void clamp_number(double value, Input& input) {
+  input.clamped = std::abs(value) >= 1.0 + kHalfQuantum;
+  input.thrust = {std::round(std::clamp(value, -1.0, 1.0) * kScale) * kThrustQuantum, 0.0};
+}
+
+/// A pair of length at most 1. Rounding must not lengthen it past 1, so a pair at the rim is rounded inwards.
+void clamp_pair(core::Vec2 value, Input& input) {
+  const double largest = std::max({1.0, std::abs(value.x), std::abs(value.y)});
+  const core::Vec2 small = (1.0 / largest) * value;  // its square can't overflow
+  const double length = std::sqrt(core::dot(small, small)) * largest;
+  input.clamped = length >= 1.0 + kHalfQuantum;
+  core::Vec2 steps = kScale * value;
+  if (length > 1.0) steps = (kScale * (largest / length)) * small;
+  const core::Vec2 nearest{std::round(steps.x), std::round(steps.y)};
+  const bool inside = core::dot(nearest, nearest) <= kScale * kScale;
+  const core::Vec2 rounded = inside ? nearest : core::Vec2{std::trunc(steps.x), std::trunc(steps.y)};
+  input.thrust = kThrustQuantum * rounded;
+}
+
+void read_thrust(FieldReader& reader, Input& input) {
+  constexpr std::string_view kWants = "a number from -1 to 1 (along the heading) or a pair [x, y] of length at most 1";
+  const auto value = reader.field("thrust", kWants, Presence::kRequired);
+  if (!value) return;
+  if (value->is_number()) return clamp_number(value->number(), input);
+  if (value->kind() != json::Kind::kArray || value->size() != 2) return reader.refuse("thrust", *value, kWants);
+  core::Vec2 pair;
+  reader.pair("thrust", pair);
+  input.is_pair = true;
+  clamp_pair(pair, input);
+}
+
+void append_column(FieldReader& reader, json::Value element, std::size_t index, std::vector<Column>& columns) {
+  const auto column = element.kind() == json::Kind::kString ? column_from_text(element.text()) : std::nullopt;
+  if (!column) return reader.refuse("fields", index, element, "one of: " + column_names());
+  if (std::find(columns.begin(), columns.end(), *column) != columns.end()) {
+    return reader.refuse("fields", index, element, "named once");
+  }
+  columns.push_back(*column);
+}
+
+void read_fields(FieldReader& reader, std::vector<Column>& columns) {
+  constexpr std::string_view kWants = "\"all\" or an array of column names";
+  columns = default_columns();
+  const auto value = reader.field("fields", kWants, Presence::kOptional);
+  if (!value) return;
+  if (value->kind() == json::Kind::kString && value->text() == "all") {
+    columns = all_columns();
+    return;
+  }
+  if (value->kind() != json::Kind::kArray) return reader.refuse("fields", *value, kWants);
+  columns.clear();
+  reader.array("fields", kWants, [&](json::Value element, std::size_t index) {
+    append_column(reader, element, index, columns);
+  });
+  const auto id = std::find(columns.begin(), columns.end(), Column::kId);
+  if (id != columns.end()) columns.erase(id);
+  columns.insert(columns.begin(), Column::kId);
+}
+
+Decoded read_join(FieldReader& reader) {
+  Join join;
+  reader.integer("protocol", join.protocol, kAnyUint32);
+  if (!reader.failed() && join.protocol != kProtocolVersion) {
+    reader.fail(code::kBadProtocol, "join.protocol is " + std::to_string(join.protocol) + "; this server speaks " +
+                                        std::to_string(kProtocolVersion));
+  }
+  reader.choice("role", join.role, kRoleTexts, role_from_text, Presence::kOptional);
+  reader.cleaned_text("name", join.name, {1, kMaxNameBytes});
+  reader.cleaned_text("room", join.room, {0, kMaxRoomBytes}, Presence::kOptional);
+  read_fields(reader, join.fields);
+  reader.choice("format", join.format, kFormatTexts, format_from_text, Presence::kOptional);
+  reader.integer("state_hz", join.state_hz, {1, kMaxStateHz});
+  return reader.finish<ClientMessage>(std::move(join));
+}
+
+Decoded read_input(FieldReader& reader) {
+  Input input;
+  reader.integer("seq", input.seq, kAnyUint32);
+  read_thrust(reader, input);
+  reader.integer("ticks", input.ticks, {1, kMaxThrustTicks});
+  reader.integer("tick", input.tick, kAnyTick);
+  return reader.finish<ClientMessage>(input);
+}
+
+Decoded read_chat(FieldReader& reader) {
+  Chat chat;
+  reader.cleaned_text("text", chat.text, {1, kMaxChatBytes});
+  return reader.finish<ClientMessage>(std::move(chat));
+}
+
+/// ping and pong.
+template <typename Message>
+Decoded read_time(FieldReader& reader) {
+  Message message;
+  reader.integer("t", message.t, kAnyInteger);
+  return reader.finish<ClientMessage>(message);
+}
+
+/// A message without fields.
+template <typename Message>
+Decoded read_bare(FieldReader& reader) {
+  return reader.finish<ClientMessage>(Message{});
+}
+
+using Read = Decoded (*)(FieldReader&);
+
+constexpr std::array<std::pair<std::string_view, Read>, 10> kTypes = {{
+    {"join", read_join},
+    {"input", read_input},
+    {"chat", read_chat},
+    {"list", read_bare<List>},
+    {"get_map", read_bare<GetMap>},
+    {"resync", read_bare<Resync>},
+    {"respawn", read_bare<Respawn>},
+    {"leave", read_bare<Leave>},
+    {"ping", read_time<Ping>},
+    {"pong", read_time<Pong>},
+}};
+
+}  // namespace
+
+Decoded decode_client(std::string_view line) {
+  const auto document = parse_object(line);
+  if (!document) return tl::unexpected(document.error());
+  const auto type = read_type(*document, kTypes);
+  if (!type) return tl::unexpected(type.error());
+  FieldReader reader(document->root(), std::string((*type)->first));
+  return (*type)->second(reader);
+}
+
+}  // namespace woodlouse::protocol

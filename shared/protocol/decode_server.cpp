@@ -1,0 +1,264 @@
+#include <array>
+
+#include "shared/protocol/codec.h"
+#include "shared/protocol/codes.h"
+#include "shared/protocol/decode_frame.h"
+#include "shared/protocol/field_reader.h"
+#include "shared/protocol/field_texts.h"
+#include "shared/protocol/text_cleaning.h"
+
+namespace woodlouse::protocol {
+namespace {
+
+using Decoded = tl::expected<ServerMessage, DecodeError>;
+using Context = FrameContext;
+
+constexpr IntegerRange kPositiveUint32{1, 0xffff'ffff};
+constexpr ByteRange kNameBytes{0, kMaxNameBytes};  // a spectator may be shown without one
+constexpr ByteRange kLabelBytes{1, kMaxRoomBytes};
+constexpr ByteRange kTextBytes{0, kMaxTextBytes};
+
+void read_strings(FieldReader& reader, std::string_view name, std::vector<std::string>& out) {
+  reader.array(name, "an array of strings", [&](json::Value element, std::size_t index) {
+    if (element.kind() != json::Kind::kString) return reader.refuse(name, index, element, "a string");
+    out.push_back(clean_text(element.text(), kMaxRoomBytes));
+  });
+}
+
+Decoded read_hello(FieldReader& reader, const Context&) {
+  Hello hello;
+  reader.integer("protocol", hello.protocol, {0, 0x7fff'ffff});
+  reader.integer("behavior", hello.behavior, {0, 0x7fff'ffff});
+  reader.cleaned_text("server", hello.server, {0, 200});
+  reader.cleaned_text("session", hello.session, {0, kMaxRoomBytes});
+  read_strings(reader, "rooms", hello.rooms);
+  read_strings(reader, "features", hello.features);
+  reader.object("limits", [&](FieldReader& limits) {
+    limits.integer("line", hello.limits.line, {1, kMaxInteger});
+    limits.integer("depth", hello.limits.depth, {1, 0x7fff'ffff});
+    limits.integer("messages_per_s", hello.limits.messages_per_s, kPositiveUint32);
+    limits.integer("burst", hello.limits.burst, kPositiveUint32);
+    limits.integer("outbox_bytes", hello.limits.outbox_bytes, {1, kMaxInteger});
+    limits.integer("handshake_s", hello.limits.handshake_s, kPositiveUint32);
+    limits.integer("idle_s", hello.limits.idle_s, kPositiveUint32);
+    limits.integer("per_address", hello.limits.per_address, kPositiveUint32);
+    limits.integer("per_room", hello.limits.per_room, kPositiveUint32);
+  });
+  return reader.finish<ServerMessage>(std::move(hello));
+}
+
+void read_columns(FieldReader& reader, Welcome& welcome) {
+  reader.array("fields", "an array of column names", [&](json::Value element, std::size_t index) {
+    const auto column = element.kind() == json::Kind::kString ? column_from_text(element.text()) : std::nullopt;
+    if (!column) return reader.refuse("fields", index, element, "one of: " + column_names());
+    if ((index == 0) != (*column == Column::kId)) {
+      return reader.refuse("fields", index, element, "id in the first place and there alone");
+    }
+    welcome.fields.push_back(*column);
+  });
+}
+
+/// The quanta are part of protocol 1: a server with others speaks something else.
+void check_quanta(FieldReader& reader, const Welcome& welcome) {
+  constexpr std::string_view kWants = "an array of one number per column";
+  const auto value = reader.field("quantum", kWants, Presence::kRequired);
+  if (!value) return;
+  if (value->kind() != json::Kind::kArray || value->size() != welcome.fields.size()) {
+    return reader.refuse("quantum", *value, kWants);
+  }
+  reader.array("quantum", kWants, [&](json::Value element, std::size_t index) {
+    const double wanted = welcome.format == Format::kExact ? 1.0 : quantum(welcome.fields[index]);
+    if (!element.is_number() || element.number() != wanted) {
+      reader.refuse("quantum", index, element, "the column's quantum in this protocol");
+    }
+  });
+}
+
+void read_extent(FieldReader& reader, std::array<double, 4>& extent) {
+  constexpr std::string_view kWants = "[x_min, y_min, x_max, y_max]";
+  const auto value = reader.field("extent", kWants, Presence::kRequired);
+  if (!value) return;
+  if (value->kind() != json::Kind::kArray || value->size() != extent.size()) {
+    return reader.refuse("extent", *value, kWants);
+  }
+  reader.array("extent", kWants, [&](json::Value element, std::size_t index) {
+    if (!element.is_number()) return reader.refuse("extent", index, element, "a number");
+    extent[index] = element.number();
+  });
+  const bool is_a_rectangle = extent[0] < extent[2] && extent[1] < extent[3];
+  if (!reader.failed() && !is_a_rectangle) reader.refuse("extent", *value, "a rectangle with x_min < x_max, y_min < y_max");
+}
+
+Decoded read_welcome(FieldReader& reader, const Context&) {
+  Welcome welcome;
+  reader.integer("id", welcome.id, kAnyUint32);
+  reader.cleaned_text("resume_token", welcome.resume_token, {0, kMaxRoomBytes});
+  reader.cleaned_text("room", welcome.room, kLabelBytes);
+  reader.integer("tick", welcome.tick, kAnyTick);
+  reader.integer("tick_hz", welcome.tick_hz, {1, 100'000});
+  reader.integer("state_hz", welcome.state_hz, {1, 100'000});
+  read_columns(reader, welcome);
+  reader.choice("format", welcome.format, kFormatTexts, format_from_text);
+  check_quanta(reader, welcome);
+  reader.object("map", [&](FieldReader& map) {
+    map.cleaned_text("name", welcome.map_name, kLabelBytes);
+    map.hash("hash", welcome.map_hash);
+    read_extent(map, welcome.extent);
+    map.integer("bytes", welcome.map_bytes, {0, kMaxInteger});
+  });
+  reader.object("physics", [&](FieldReader& physics) {
+    physics.number("gravity", welcome.physics.gravity);
+    physics.number("drag", welcome.physics.drag);
+    physics.number("friction", welcome.physics.friction);
+    physics.number("thrust_max", welcome.physics.thrust_max);
+    physics.number("edge_restitution", welcome.physics.edge_restitution);
+  });
+  reader.cleaned_text("mode", welcome.mode, kLabelBytes);
+  reader.objects("players", [&](FieldReader& player) {
+    PlayerEntry entry;
+    player.integer("id", entry.id, kAnyUint32);
+    player.cleaned_text("name", entry.name, kNameBytes);
+    player.choice("role", entry.role, kRoleTexts, role_from_text);
+    welcome.players.push_back(std::move(entry));
+  });
+  return reader.finish<ServerMessage>(std::move(welcome));
+}
+
+Decoded read_ack(FieldReader& reader, const Context&) {
+  Ack ack;
+  reader.integer("seq", ack.seq, kAnyUint32);
+  reader.integer("tick", ack.tick, kAnyTick);
+  reader.integer("margin_us", ack.margin_us, kAnyInteger);
+  reader.boolean("late", ack.late);
+  reader.boolean("dropped", ack.dropped);
+  reader.boolean("clamped", ack.clamped);
+  reader.object("you", [&](FieldReader& you) {
+    ExactState state;
+    you.integer("tick", state.tick, kAnyTick);
+    you.integer("id", state.id, kPositiveUint32);
+    you.number("x", state.position.x);
+    you.number("y", state.position.y);
+    you.number("vx", state.velocity.x);
+    you.number("vy", state.velocity.y);
+    you.pair("heading", state.heading);
+    you.pair("thrust", state.thrust);
+    you.integer("thrust_kind", state.thrust_kind, {0, 2});
+    you.integer("thrust_ticks", state.thrust_ticks, kAnyUint32);
+    you.integer("resting", state.resting, {0, 1});
+    you.number("distance", state.distance);
+    ack.you = state;
+  }, Presence::kOptional);
+  return reader.finish<ServerMessage>(ack);
+}
+
+/// A kind of a later version is no fault: unknown_type lets a client pass over it.
+void read_kind(FieldReader& reader, EventKind& out) {
+  constexpr std::string_view kWants = R"("joined", "left", "chat" or "respawned")";
+  const auto value = reader.field("kind", kWants, Presence::kRequired);
+  if (!value) return;
+  if (value->kind() != json::Kind::kString) return reader.refuse("kind", *value, kWants);
+  const auto kind = event_kind_from_text(value->text());
+  if (!kind) {
+    return reader.fail(code::kUnknownType, "event.kind is " + description(*value) + "; known are " + std::string(kWants));
+  }
+  out = *kind;
+}
+
+Decoded read_event(FieldReader& reader, const Context&) {
+  Event event;
+  reader.integer("n", event.n, {1, kMaxInteger});
+  reader.integer("tick", event.tick, kAnyTick);
+  read_kind(reader, event.kind);
+  reader.integer("id", event.id, kAnyUint32);
+  reader.cleaned_text("name", event.name, kNameBytes);
+  if (event.kind == EventKind::kJoined) reader.choice("role", event.role, kRoleTexts, role_from_text);
+  if (event.kind == EventKind::kChat) reader.cleaned_text("text", event.text, {1, kMaxChatBytes});
+  return reader.finish<ServerMessage>(std::move(event));
+}
+
+Decoded read_notice(FieldReader& reader, const Context&) {
+  Notice notice;
+  reader.cleaned_text("code", notice.code, kLabelBytes);
+  reader.cleaned_text("text", notice.text, kTextBytes);
+  return reader.finish<ServerMessage>(std::move(notice));
+}
+
+Decoded read_error(FieldReader& reader, const Context&) {
+  ErrorMessage error;
+  reader.cleaned_text("code", error.code, kLabelBytes);
+  reader.cleaned_text("text", error.text, kTextBytes);
+  reader.boolean("fatal", error.fatal);
+  reader.integer("retry_after_ms", error.retry_after_ms, kAnyUint32);
+  return reader.finish<ServerMessage>(std::move(error));
+}
+
+Decoded read_bye(FieldReader& reader, const Context&) {
+  Bye bye;
+  reader.cleaned_text("code", bye.code, kLabelBytes);
+  reader.cleaned_text("text", bye.text, kTextBytes);
+  reader.boolean("resumable", bye.resumable);
+  return reader.finish<ServerMessage>(std::move(bye));
+}
+
+Decoded read_rooms(FieldReader& reader, const Context&) {
+  Rooms rooms;
+  reader.objects("rooms", [&](FieldReader& room) {
+    RoomEntry entry;
+    room.cleaned_text("name", entry.name, kLabelBytes);
+    room.cleaned_text("map", entry.map, kLabelBytes);
+    room.integer("players", entry.players, kAnyUint32);
+    room.integer("bots", entry.bots, kAnyUint32);
+    room.integer("spectators", entry.spectators, kAnyUint32);
+    rooms.rooms.push_back(std::move(entry));
+  });
+  return reader.finish<ServerMessage>(std::move(rooms));
+}
+
+Decoded read_map(FieldReader& reader, const Context&) {
+  MapMessage map;
+  reader.cleaned_text("name", map.name, kLabelBytes);
+  reader.hash("hash", map.hash);
+  if (const auto definition = reader.field("definition", "an object", Presence::kRequired)) {
+    if (definition->kind() != json::Kind::kObject) reader.refuse("definition", *definition, "an object");
+    if (!reader.failed()) map.definition = definition->raw();  // the hash is taken over these bytes
+  }
+  return reader.finish<ServerMessage>(std::move(map));
+}
+
+template <typename Message>
+Decoded read_time(FieldReader& reader, const Context&) {
+  Message message;
+  reader.integer("t", message.t, kAnyInteger);
+  return reader.finish<ServerMessage>(message);
+}
+
+using Read = Decoded (*)(FieldReader&, const Context&);
+
+constexpr std::array<std::pair<std::string_view, Read>, 13> kTypes = {{
+    {"hello", read_hello},
+    {"welcome", read_welcome},
+    {"key", read_key},
+    {"delta", read_delta},
+    {"ack", read_ack},
+    {"event", read_event},
+    {"notice", read_notice},
+    {"error", read_error},
+    {"bye", read_bye},
+    {"rooms", read_rooms},
+    {"map", read_map},
+    {"ping", read_time<Ping>},
+    {"pong", read_time<Pong>},
+}};
+
+}  // namespace
+
+Decoded decode_server(std::string_view line, const std::vector<Column>& fields, Format format) {
+  const auto document = parse_object(line);
+  if (!document) return tl::unexpected(document.error());
+  const auto type = read_type(*document, kTypes);
+  if (!type) return tl::unexpected(type.error());
+  FieldReader reader(document->root(), std::string((*type)->first));
+  return (*type)->second(reader, Context{fields, format});
+}
+
+}  // namespace woodlouse::protocol

@@ -1,0 +1,47 @@
+#include "shared/protocol/codec.h"
+#include "shared/protocol/message_text.h"
+
+namespace woodlouse::protocol {
+namespace {
+
+void append_name(std::string& out, Column column) { json::append_string(out, to_text(column)); }
+
+std::string line_of(const Join& join) {
+  MessageText text("join");
+  text.integer("protocol", join.protocol).text("role", to_text(join.role)).text("name", join.name);
+  if (!join.room.empty()) text.text("room", join.room);
+  if (!join.fields.empty()) text.array("fields", join.fields, append_name);
+  text.text("format", to_text(join.format));
+  if (join.state_hz) text.integer("state_hz", *join.state_hz);
+  return std::move(text).line();
+}
+
+std::string line_of(const Input& input) {
+  MessageText text("input");
+  text.integer("seq", input.seq);
+  if (input.is_pair) {
+    text.pair("thrust", input.thrust);
+  } else {
+    text.number("thrust", input.thrust.x);
+  }
+  if (input.ticks) text.integer("ticks", *input.ticks);
+  if (input.tick) text.integer("tick", *input.tick);
+  return std::move(text).line();
+}
+
+std::string line_of(const Chat& chat) { return std::move(MessageText("chat").text("text", chat.text)).line(); }
+std::string line_of(const List&) { return MessageText("list").line(); }
+std::string line_of(const GetMap&) { return MessageText("get_map").line(); }
+std::string line_of(const Resync&) { return MessageText("resync").line(); }
+std::string line_of(const Respawn&) { return MessageText("respawn").line(); }
+std::string line_of(const Leave&) { return MessageText("leave").line(); }
+std::string line_of(const Ping& ping) { return std::move(MessageText("ping").integer("t", ping.t)).line(); }
+std::string line_of(const Pong& pong) { return std::move(MessageText("pong").integer("t", pong.t)).line(); }
+
+}  // namespace
+
+std::string encode(const ClientMessage& message) {
+  return std::visit([](const auto& alternative) { return line_of(alternative); }, message);
+}
+
+}  // namespace woodlouse::protocol

@@ -1,0 +1,105 @@
+#include "shared/protocol/field_reader.h"
+
+#include <charconv>
+
+#include "shared/protocol/codes.h"
+#include "shared/protocol/text_cleaning.h"
+
+namespace woodlouse::protocol {
+namespace {
+
+std::string wants_integer(IntegerRange range) {
+  return "an integer from " + std::to_string(range.low) + " to " + std::to_string(range.high);
+}
+
+}  // namespace
+
+std::optional<json::Value> FieldReader::field(std::string_view name, std::string_view wants, Presence presence) {
+  if (error_) return std::nullopt;
+  const auto value = object_.find(name);
+  if (!value && presence == Presence::kRequired) {
+    fail(code::kMissingField, path_ + "." + std::string(name) + " is missing; it is " + std::string(wants));
+  }
+  return value;
+}
+
+std::optional<std::int64_t> FieldReader::checked_integer(std::string_view name, IntegerRange range,
+                                                         Presence presence) {
+  if (error_) return std::nullopt;
+  const auto value = object_.find(name);
+  const auto number = value ? value->integer() : std::nullopt;
+  if (number && *number >= range.low && *number <= range.high) return number;
+  if (value) {
+    refuse(name, *value, wants_integer(range));
+  } else if (presence == Presence::kRequired) {
+    field(name, wants_integer(range), presence);
+  }
+  return std::nullopt;
+}
+
+void FieldReader::number(std::string_view name, double& out) {
+  const auto value = field(name, "a number", Presence::kRequired);
+  if (!value) return;
+  if (!value->is_number()) return refuse(name, *value, "a number");
+  out = value->number();
+}
+
+void FieldReader::boolean(std::string_view name, bool& out) {
+  const auto value = field(name, "true or false", Presence::kRequired);
+  if (!value) return;
+  if (value->kind() != json::Kind::kBoolean) return refuse(name, *value, "true or false");
+  out = value->boolean();
+}
+
+void FieldReader::pair(std::string_view name, core::Vec2& out) {
+  constexpr std::string_view kWants = "a pair of numbers [x, y]";
+  const auto value = field(name, kWants, Presence::kRequired);
+  if (!value) return;
+  if (value->kind() != json::Kind::kArray || value->size() != 2) return refuse(name, *value, kWants);
+  double numbers[2] = {};
+  array(name, kWants, [&](json::Value element, std::size_t index) {
+    if (!element.is_number()) return refuse(name, index, element, "a number");
+    numbers[index] = element.number();
+  });
+  out = {numbers[0], numbers[1]};
+}
+
+void FieldReader::hash(std::string_view name, std::uint64_t& out) {
+  constexpr std::string_view kWants = "16 hex digits in quotes";
+  const auto value = field(name, kWants, Presence::kRequired);
+  if (!value) return;
+  if (value->kind() != json::Kind::kString) return refuse(name, *value, kWants);
+  const std::string_view text = value->text();
+  const bool lower_hex = text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+  if (!lower_hex) return refuse(name, *value, kWants);
+  std::from_chars(text.data(), text.data() + text.size(), out, 16);
+}
+
+void FieldReader::cleaned_text(std::string_view name, std::string& out, ByteRange bytes, Presence presence) {
+  const std::string wants = "a string of " + std::to_string(bytes.low) + " to " + std::to_string(bytes.high) +
+                            " bytes, besides control and invisible characters";
+  const auto value = field(name, wants, presence);
+  if (!value) return;
+  if (value->kind() != json::Kind::kString) return refuse(name, *value, wants);
+  out = clean_text(value->text(), bytes.high);
+  if (out.size() < bytes.low) refuse(name, *value, wants);
+}
+
+void FieldReader::refuse(std::string_view name, json::Value found, std::string_view wants) {
+  fail(code::kBadField,
+       path_ + "." + std::string(name) + " is " + description(found) + "; it must be " + std::string(wants));
+}
+
+void FieldReader::refuse(std::string_view name, std::size_t index, json::Value found, std::string_view wants) {
+  fail(code::kBadField, element_path(name, index) + " is " + description(found) + "; it must be " + std::string(wants));
+}
+
+void FieldReader::fail(std::string_view error_code, std::string text) {
+  if (!error_) error_ = DecodeError{std::string(error_code), std::move(text), true};
+}
+
+std::string FieldReader::element_path(std::string_view name, std::size_t index) const {
+  return path_ + "." + std::string(name) + "[" + std::to_string(index) + "]";
+}
+
+}  // namespace woodlouse::protocol

@@ -1,0 +1,236 @@
+// Every message of the wire, version 1: fields, ranges, limits. The text form is docs/protocol.md.
+// Plain values: framing.h cuts lines, codec.h turns them into these and back.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "shared/core/vec2.h"
+
+namespace woodlouse::protocol {
+
+inline constexpr int kProtocolVersion = 1;
+inline constexpr std::size_t kMaxLineBytes = 4096;   ///< inbound at the server, newline excluded
+inline constexpr int kMaxDepth = 8;                  ///< nesting of an inbound line
+inline constexpr std::size_t kMaxNameBytes = 24;     ///< after cleaning
+inline constexpr std::size_t kMaxChatBytes = 400;    ///< after cleaning
+inline constexpr std::size_t kMaxRoomBytes = 64;     ///< of a room's name
+inline constexpr std::size_t kMaxTextBytes = 2048;   ///< of an error's, a notice's or a bye's text, after cleaning
+inline constexpr std::uint32_t kMaxStateHz = 1000;
+inline constexpr std::uint32_t kMaxThrustTicks = 0xffff'fffe;
+inline constexpr std::int64_t kMaxInteger = std::int64_t{1} << 53;  ///< what every JSON reader holds exactly
+inline constexpr std::size_t kMaxServerLineBytes = std::size_t{128} << 20;  ///< inbound at a client
+inline constexpr double kThrustQuantum = 1.0 / 128.0;
+
+// ---- columns -------------------------------------------------------------------------------------------
+
+/// A column of a row; the names on the wire are to_text()'s. See docs/protocol.md for units and quanta.
+enum class Column : std::uint8_t {
+  kId, kX, kY, kVx, kVy, kZ, kHeadingX, kHeadingY, kYaw, kPitch, kRoll, kSpeed,
+  kTx, kTy, kThrustKind, kTicksLeft, kResting, kDistance,
+};
+inline constexpr std::size_t kColumnCount = 18;
+
+std::string_view to_text(Column column);
+std::optional<Column> column_from_text(std::string_view text);
+/// Quantized rows carry integers, multiples of this; 1 for id, thrust_kind, ticks_left, resting.
+double quantum(Column column);
+
+/// `id x y vx vy`, what a row has unless asked otherwise.
+const std::vector<Column>& default_columns();
+/// `all`: the columns from which the state hash can be recomputed (exact format).
+const std::vector<Column>& all_columns();
+
+enum class Format : std::uint8_t { kQuantized, kExact };
+enum class Role : std::uint8_t { kPlayer, kBot, kSpectator };
+std::string_view to_text(Format format);
+std::string_view to_text(Role role);
+
+// ---- client to server ----------------------------------------------------------------------------------
+
+struct Join {
+  int protocol = kProtocolVersion;
+  Role role = Role::kPlayer;
+  std::string name;                    ///< cleaned, 1..kMaxNameBytes bytes of UTF-8
+  std::string room;                    ///< empty: the first
+  std::vector<Column> fields;          ///< as asked, default_columns() when left out; the first is always id
+  Format format = Format::kQuantized;
+  std::optional<std::uint32_t> state_hz;  ///< frames a second; empty: the room's
+  friend bool operator==(const Join&, const Join&) = default;
+};
+
+struct Input {
+  std::uint32_t seq = 0;
+  bool is_pair = false;                ///< the pair [tx, ty]; else the number
+  core::Vec2 thrust;                   ///< rounded to 1/128 and clamped; the number stands in x
+  bool clamped = false;                ///< it was out of range
+  std::optional<std::uint32_t> ticks;  ///< 1..2^32-2; empty: until the next input
+  std::optional<std::uint64_t> tick;   ///< the step asked for
+  friend bool operator==(const Input&, const Input&) = default;
+};
+
+struct Chat {
+  std::string text;     ///< cleaned, 1..kMaxChatBytes
+  friend bool operator==(const Chat&, const Chat&) = default;
+};
+struct List { friend bool operator==(const List&, const List&) = default; };
+struct GetMap { friend bool operator==(const GetMap&, const GetMap&) = default; };
+struct Resync { friend bool operator==(const Resync&, const Resync&) = default; };
+struct Respawn { friend bool operator==(const Respawn&, const Respawn&) = default; };
+struct Leave { friend bool operator==(const Leave&, const Leave&) = default; };
+struct Ping {
+  std::int64_t t = 0;   ///< within +-2^53; both directions
+  friend bool operator==(const Ping&, const Ping&) = default;
+};
+struct Pong {
+  std::int64_t t = 0;
+  friend bool operator==(const Pong&, const Pong&) = default;
+};
+
+using ClientMessage = std::variant<Join, Input, Chat, List, GetMap, Resync, Respawn, Leave, Ping, Pong>;
+
+// ---- server to client ----------------------------------------------------------------------------------
+
+struct Limits {
+  std::size_t line = kMaxLineBytes;    ///< bytes
+  int depth = kMaxDepth;
+  std::uint32_t messages_per_s = 60;   ///< sustained, per session
+  std::uint32_t burst = 120;
+  std::size_t outbox_bytes = 4u << 20; ///< queued events and answers; frames are replaced, never queued
+  std::uint32_t handshake_s = 10;
+  std::uint32_t idle_s = 60;
+  std::uint32_t per_address = 256;
+  std::uint32_t per_room = 1024;
+  friend bool operator==(const Limits&, const Limits&) = default;
+};
+
+struct Hello {
+  int protocol = kProtocolVersion;
+  int behavior = 0;
+  std::string server;                  ///< name and version
+  std::string session;                 ///< hex, for logs
+  std::vector<std::string> rooms;
+  std::vector<std::string> features;
+  Limits limits;
+  friend bool operator==(const Hello&, const Hello&) = default;
+};
+
+struct PlayerEntry {
+  std::uint32_t id = 0; std::string name; Role role = Role::kPlayer;
+  friend bool operator==(const PlayerEntry&, const PlayerEntry&) = default;
+};
+
+struct Physics {
+  double gravity = 0, drag = 0, friction = 0, thrust_max = 0, edge_restitution = 0;
+  friend bool operator==(const Physics&, const Physics&) = default;
+};
+
+struct Welcome {
+  std::uint32_t id = 0;                ///< the louse's; 0 for a spectator
+  std::string resume_token;            ///< secret; hex; empty for a spectator
+  std::string room;
+  std::uint64_t tick = 0;
+  std::uint32_t tick_hz = 60;
+  std::uint32_t state_hz = 20;
+  std::vector<Column> fields;
+  Format format = Format::kQuantized;
+  std::string map_name;
+  std::uint64_t map_hash = 0;
+  std::array<double, 4> extent{};      ///< x_min, y_min, x_max, y_max [m]
+  std::size_t map_bytes = 0;           ///< length of the `map` message's line
+  Physics physics;
+  std::string mode;                    ///< "roam"
+  std::vector<PlayerEntry> players;    ///< who is there already
+  friend bool operator==(const Welcome&, const Welcome&) = default;
+};
+
+/// A key or a delta, decoded. values: rows * columns numbers in the order of Welcome::fields, already in
+/// units (m, m/s, rad): the quantum is applied by the decoder.
+struct Frame {
+  bool is_key = true;
+  std::uint64_t tick = 0;
+  std::uint64_t base = 0;              ///< a delta's key; a key's own tick
+  std::size_t columns = 0;
+  std::vector<double> values;
+  std::vector<std::uint32_t> gone;     ///< ids that are in the key and no longer there
+  std::optional<std::uint64_t> hash;   ///< keys only
+  [[nodiscard]] std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
+  friend bool operator==(const Frame&, const Frame&) = default;
+};
+
+/// A louse's exact state, from which a client predicts with the same World.
+struct ExactState {
+  std::uint64_t tick = 0;              ///< it is the state before this step
+  std::uint32_t id = 0;
+  core::Vec2 position, velocity, heading, thrust;
+  std::uint32_t thrust_kind = 0, thrust_ticks = 0, resting = 0;
+  double distance = 0.0;
+  friend bool operator==(const ExactState&, const ExactState&) = default;
+};
+
+struct Ack {
+  std::uint32_t seq = 0;
+  std::uint64_t tick = 0;              ///< the step that took it
+  std::int64_t margin_us = 0;          ///< how long before that step it came
+  bool late = false;                   ///< it asked for a step that was past
+  bool dropped = false;                ///< it was not applied; an `error` said why
+  bool clamped = false;
+  std::optional<ExactState> you;       ///< after that step; none when dropped
+  friend bool operator==(const Ack&, const Ack&) = default;
+};
+
+enum class EventKind : std::uint8_t { kJoined, kLeft, kChat, kRespawned };
+std::string_view to_text(EventKind kind);
+
+struct Event {
+  std::uint64_t n = 0;                 ///< numbered per room from 1, without holes
+  std::uint64_t tick = 0;
+  EventKind kind = EventKind::kJoined;
+  std::uint32_t id = 0;                ///< whose; 0 for a spectator
+  std::string name;
+  Role role = Role::kPlayer;           ///< joined only
+  std::string text;                    ///< chat only
+  friend bool operator==(const Event&, const Event&) = default;
+};
+
+struct Notice {
+  std::string code, text;
+  friend bool operator==(const Notice&, const Notice&) = default;
+};
+struct ErrorMessage {
+  std::string code, text;
+  bool fatal = false;
+  std::optional<std::uint32_t> retry_after_ms;
+  friend bool operator==(const ErrorMessage&, const ErrorMessage&) = default;
+};
+struct Bye {
+  std::string code, text; bool resumable = false;
+  friend bool operator==(const Bye&, const Bye&) = default;
+};
+
+struct RoomEntry {
+  std::string name, map; std::uint32_t players = 0, bots = 0, spectators = 0;
+  friend bool operator==(const RoomEntry&, const RoomEntry&) = default;
+};
+struct Rooms {
+  std::vector<RoomEntry> rooms;
+  friend bool operator==(const Rooms&, const Rooms&) = default;
+};
+
+/// The whole map: `definition` is a map file (maps/README.md) as a JSON object. Where its terrain names a
+/// function, the message also carries `knots` {origin, spacing, columns, rows, heights} for who only draws.
+struct MapMessage {
+  std::string name; std::uint64_t hash = 0; std::string definition;
+  friend bool operator==(const MapMessage&, const MapMessage&) = default;
+};
+
+using ServerMessage = std::variant<Hello, Welcome, Frame, Ack, Event, Notice, ErrorMessage, Bye, Rooms,
+                                   MapMessage, Ping, Pong>;
+
+}  // namespace woodlouse::protocol

@@ -1,0 +1,15 @@
+// Makes a text that a stranger wrote safe to show on a terminal: names, chat, and what a server says.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace woodlouse::protocol {
+
+/// Without control characters (C0, DEL, C1) and without characters that have no width or turn the direction of
+/// writing; blanks and line ends become single spaces, none at either end; cut to `max_bytes` between two
+/// characters. Bytes that are not UTF-8 are left out. May be empty. Cleaning twice changes nothing.
+std::string clean_text(std::string_view text, std::size_t max_bytes);
+
+}  // namespace woodlouse::protocol

@@ -1,0 +1,186 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "shared/protocol/codec.h"
+#include "shared/protocol/codes.h"
+
+using namespace woodlouse;
+using namespace woodlouse::protocol;
+
+namespace {
+
+std::string line_of(const ServerMessage& message) {
+  std::string line = encode(message);
+  REQUIRE(line.back() == '\n');
+  line.pop_back();
+  REQUIRE(line.find('\n') == std::string::npos);
+  return line;
+}
+
+tl::expected<ServerMessage, DecodeError> decode(const std::string& line) {
+  return decode_server(line, default_columns(), Format::kQuantized);
+}
+
+std::string refused(const std::string& line, Format format = Format::kQuantized) {
+  const auto message = decode_server(line, default_columns(), format);
+  INFO(line);
+  REQUIRE_FALSE(message);
+  CHECK_FALSE(message.error().text.empty());
+  return message.error().code;
+}
+
+Welcome some_welcome(Format format) {
+  Welcome welcome;
+  welcome.id = 7;
+  welcome.resume_token = "00ff";
+  welcome.room = "volcano";
+  welcome.tick = 123456789012;
+  welcome.fields = {Column::kId, Column::kX, Column::kYaw, Column::kTx, Column::kDistance};
+  welcome.format = format;
+  welcome.map_name = "volcano";
+  welcome.map_hash = 0x00123456789abcde;
+  welcome.extent = {-20.0, -20.0, 20.0, 20.5};
+  welcome.map_bytes = 4321;
+  welcome.physics = {9.81, 0.2, 0.05, 4.0, 0.5};
+  welcome.mode = "roam";
+  welcome.players = {{1, "ann", Role::kPlayer}, {2, "bob\"", Role::kBot}};
+  return welcome;
+}
+
+}  // namespace
+
+TEST_CASE("every server message comes back as it was sent") {
+  Hello hello{kProtocolVersion, 1, "woodlouse 0.1.0", "9f", {"volcano", "hills"}, {"exact"}, {}};
+  hello.limits.burst = 9;
+  Welcome spectator = some_welcome(Format::kExact);
+  spectator.id = 0;
+  spectator.resume_token.clear();
+  spectator.players.clear();
+  Ack ack{5, 77, -1500, true, false, true, ExactState{}};
+  ack.you->tick = 78;
+  ack.you->id = 3;
+  ack.you->position = {0.1, -1e-300};
+  ack.you->velocity = {1.0 / 3.0, -0.0};
+  ack.you->heading = {0.6, 0.8};
+  ack.you->thrust = {0.5, -0.25};
+  ack.you->thrust_kind = 2;
+  ack.you->thrust_ticks = 0xffff'ffff;
+  ack.you->distance = 123456.789;
+  const std::vector<ServerMessage> messages = {
+      hello, some_welcome(Format::kQuantized), some_welcome(Format::kExact), spectator, ack,
+      Ack{0, 0, 0, false, true, false, std::nullopt},
+      Event{1, 2, EventKind::kJoined, 3, "ann", Role::kBot, ""}, Event{2, 2, EventKind::kLeft, 3, "ann", {}, ""},
+      Event{3, 9, EventKind::kChat, 0, "eve", {}, "hi \\ \"all\""}, Event{4, 9, EventKind::kRespawned, 1, "x", {}, ""},
+      Notice{std::string(code::kRateLowered), "slow"}, ErrorMessage{std::string(code::kBadField), "no", false, std::nullopt},
+      ErrorMessage{std::string(code::kRateLimited), "slow down", false, 250u}, Bye{std::string(code::kShutdown), "", true},
+      Rooms{{{"volcano", "volcano", 1, 2, 3}, {"b", "hills", 0, 0, 0}}}, Rooms{},
+      MapMessage{"volcano", 0xfedcba9876543210, R"({"name":"volcano","terrain":{"heights":[[1,2.50],[3,4e0]]}})"},
+      Ping{12}, Pong{-12}};
+  for (const ServerMessage& message : messages) {
+    INFO(line_of(message));
+    const auto back = decode(line_of(message));
+    if (!back) FAIL(back.error().text);
+    CHECK(*back == message);
+  }
+}
+
+TEST_CASE("a minus zero keeps its sign, for the state hash's sake") {
+  Ack ack;
+  ack.you = ExactState{};
+  ack.you->id = 1;
+  ack.you->velocity = {-0.0, 0.0};
+  const auto back = decode(line_of(ack));
+  REQUIRE(back);
+  CHECK(std::signbit(std::get<Ack>(*back).you->velocity.x));
+  CHECK_FALSE(std::signbit(std::get<Ack>(*back).you->velocity.y));
+}
+
+TEST_CASE("a map's definition comes back byte for byte, with knots or without, whatever stands around it") {
+  const MapMessage map{"m", 1, R"({"name":"a \"definition\":{ ]","physics":{"drag":0.20},"terrain":[[1,2],[3,4]]})"};
+  const std::string knots = R"({"origin":[0,0],"spacing":[1,1],"columns":2,"rows":2,"heights":[[1,2],[3,4]]})";
+  for (const std::string& line : {encode_map(map, ""), encode_map(map, knots)}) {
+    const auto back = decode(line);
+    REQUIRE(back);
+    CHECK(std::get<MapMessage>(*back) == map);
+  }
+  CHECK(encode_map(map, knots).find(",\"knots\":" + knots + "}\n") != std::string::npos);
+  const auto shuffled = decode(R"({ "x":"definition", "definition" : {"a":{"definition":1}} ,"hash":"0000000000000001",)"
+                               R"("name":"m","type":"map"})");
+  REQUIRE(shuffled);
+  CHECK(std::get<MapMessage>(*shuffled).definition == R"({"a":{"definition":1}})");
+  const auto escaped = decode(R"({"type":"map","name":"m","hash":"0000000000000001","\u0064efinition":{"a":1.50}})");
+  REQUIRE(escaped);
+  CHECK(std::get<MapMessage>(*escaped).definition == R"({"a":1.50})");
+  CHECK(refused(R"({"type":"map","name":"m","hash":"0000000000000001","definition":[]})") == code::kBadField);
+}
+
+TEST_CASE("strings that are not UTF-8 or hold control characters still make a line of JSON") {
+  const auto back = decode(line_of(ErrorMessage{"bad_field", "a\xff\x01\x1b[2J\n\"b\\", false, std::nullopt}));
+  REQUIRE(back);
+  CHECK(std::get<ErrorMessage>(*back).text == "a\ufffd[2J \"b\\");
+}
+
+TEST_CASE("a client does not trust what it is told to show") {
+  const auto back = decode(R"({"type":"event","n":1,"tick":1,"kind":"chat","id":1,"name":"\u001b]0;x\u0007","text":"\u202eab"})");
+  REQUIRE(back);
+  CHECK(std::get<Event>(*back).name == "]0;x");
+  CHECK(std::get<Event>(*back).text == "ab");
+}
+
+TEST_CASE("server lines out of shape are refused with the code that says why") {
+  CHECK(refused("") == code::kBadJson);
+  CHECK(refused("[]") == code::kNotAnObject);
+  CHECK(refused(R"({"type":"frame"})") == code::kUnknownType);
+  CHECK(refused(R"({"type":"error","code":"x","code":"y","text":"","fatal":false})") == code::kDuplicateKey);
+  CHECK(refused(R"({"type":"bye","code":"x","text":"","x":[[[[[[[[]]]]]]]]})") == code::kTooDeep);
+  CHECK(refused(R"({"type":"bye","code":"x","text":""})") == code::kMissingField);
+  CHECK(refused(R"({"type":"bye","code":"x","text":"","resumable":0})") == code::kBadField);
+  CHECK(refused(R"({"type":"event","n":1,"tick":1,"kind":"gate","id":1,"name":""})") == code::kUnknownType);
+  CHECK(refused(R"({"type":"event","n":0,"tick":1,"kind":"left","id":1,"name":""})") == code::kBadField);
+}
+
+TEST_CASE("a welcome whose columns, quanta or extent make no sense is refused") {
+  const std::string good = line_of(some_welcome(Format::kQuantized));
+  REQUIRE(decode(good));
+  const auto with = [&good](const std::string& from, const std::string& to) {
+    std::string line = good;
+    REQUIRE(line.find(from) != std::string::npos);
+    return line.replace(line.find(from), from.size(), to);
+  };
+  CHECK(refused(with("[\"id\",", "[\"z\",")) == code::kBadField);
+  CHECK(refused(with("\"yaw\"", "\"id\"")) == code::kBadField);
+  CHECK(refused(with("\"yaw\"", "\"height\"")) == code::kBadField);
+  CHECK(refused(with("\"quantum\":[1,", "\"quantum\":[2,")) == code::kBadField);
+  CHECK(refused(with("\"quantum\":[1,", "\"quantum\":[")) == code::kBadField);
+  CHECK(refused(with("[-20,-20,20,20.5]", "[20,-20,-20,20.5]")) == code::kBadField);
+  CHECK(refused(with("[-20,-20,20,20.5]", "[20]")) == code::kBadField);
+  CHECK(refused(with("\"00123456789abcde\"", "\"123\"")) == code::kBadField);
+  CHECK(refused(with("\"00123456789abcde\"", "\"00123456789ABCDE\"")) == code::kBadField);
+  CHECK(refused(with("\"tick_hz\":60", "\"tick_hz\":0")) == code::kBadField);
+  CHECK(refused(with("\"gravity\":9.81", "\"gravity\":\"9.81\"")) == code::kBadField);
+  CHECK(refused(with("\"role\":\"bot\"", "\"role\":\"king\"")) == code::kBadField);
+}
+
+TEST_CASE("frames out of shape are refused") {
+  const auto key = [](const std::string& rows) {
+    return R"({"type":"key","tick":1,"louse":)" + rows + R"(,"hash":"0000000000000000"})";
+  };
+  REQUIRE(decode(key("[[1,2,3,4,5]]")));
+  REQUIRE(decode(key("[]")));
+  CHECK(refused(key("[[1,2,3,4]]")) == code::kBadField);
+  CHECK(refused(key("[[1,2,3,4,5,6]]")) == code::kBadField);
+  CHECK(refused(key("[1,2,3,4,5]")) == code::kBadField);
+  CHECK(refused(key("{}")) == code::kBadField);
+  CHECK(refused(key("[[1,2.5,3,4,5]]")) == code::kBadField);
+  CHECK(refused(key("[[0,2,3,4,5]]")) == code::kBadField);
+  CHECK(refused(key("[[1.5,2,3,4,5]]"), Format::kExact) == code::kBadField);
+  CHECK(refused(key("[[1,null,3,4,5]]"), Format::kExact) == code::kBadField);
+  CHECK(refused(key("[[4294967296,2,3,4,5]]")) == code::kBadField);
+  CHECK(refused(R"({"type":"key","tick":1,"louse":[]})") == code::kMissingField);
+  CHECK(refused(R"({"type":"delta","tick":5,"base":6,"louse":[]})") == code::kBadField);
+  CHECK(refused(R"({"type":"delta","tick":5,"louse":[]})") == code::kMissingField);
+  CHECK(refused(R"({"type":"delta","tick":5,"base":5,"louse":[],"gone":[0]})") == code::kBadField);
+  CHECK(decode_server(key("[]"), {}, Format::kExact).error().code == code::kNotJoined);
+}
