@@ -1,0 +1,14 @@
+// The first line of a recording.
+#pragma once
+
+#include "shared/json/document.h"
+#include "shared/map/checked_fields.h"
+#include "shared/replay/replay_file.h"
+
+namespace woodlouse::replay {
+
+/// The header, every field checked. A line of another format, version or behavior is one problem, that names
+/// both.
+Header read_header(const json::Value& root, map::Problems& problems);
+
+}  // namespace woodlouse::replay

@@ -1,0 +1,197 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "shared/map/map_loader.h"
+#include "shared/replay/replay_file.h"
+#include "shared/replay/replayer.h"
+#include "tests/replay/recorded_match.h"
+
+namespace woodlouse::replay {
+namespace {
+
+/// How many whole step lines the first `length` bytes hold.
+std::uint64_t whole_steps(const Recording& recording, std::size_t length) {
+  std::uint64_t steps = 0;
+  std::size_t end = 0;
+  for (const std::string& line : recording.lines) {
+    end += line.size();
+    if (end <= length && line.compare(0, 8, "{\"step\":") == 0) ++steps;
+  }
+  return steps;
+}
+
+}  // namespace
+
+TEST_CASE("a recorded match verifies, on every kind of surface, whoever came, went and overtook") {
+  for (const char* surface : {"spline", "natural_spline", "function"}) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      INFO(surface << " " << seed);
+      const Recording recording = record({.seed = seed, .surface = surface});
+      // The game is not a dull one.
+      CHECK(recording.inputs > 50);
+      CHECK(recording.overtaken > 5);
+      CHECK(recording.leaves > 0);
+      CHECK(recording.respawns > 0);
+      const Verification verification = verdict(recording.text());
+      CHECK(to_text(verification) == "ok 400 ticks\n");
+      CHECK(verification.ticks == 400);
+      CHECK_FALSE(verification.cut_off);
+    }
+  }
+}
+
+TEST_CASE("a match of no steps verifies") {
+  CHECK(to_text(verdict(record({.steps = 0}).text())) == "ok 0 ticks\n");
+}
+
+TEST_CASE("a recording that breaks off at any byte is good up to its last whole line") {
+  const Recording recording = record({.steps = 61, .keyframe_ticks = 60});
+  const std::string text = recording.text();
+  const std::size_t first = recording.lines.front().size();
+  std::size_t tail = 0;  // the last two steps, the keyframe between them and the end
+  for (std::size_t k = recording.line_of_step(58); k < recording.lines.size(); ++k)
+    tail += recording.lines[k].size();
+  for (std::size_t length = text.size() - tail; length < text.size(); ++length) {
+    const Verification verification = verdict(text.substr(0, length));
+    INFO(length);
+    CHECK(verification.ok());
+    CHECK(verification.cut_off);
+    CHECK(verification.ticks == whole_steps(recording, length));
+  }
+  CHECK(to_text(verdict(text.substr(0, text.size() - 1))) ==
+        "ok 61 ticks, then the recording is cut off: it has no end line\n");
+  CHECK(to_text(verdict(text.substr(0, first))) ==
+        "ok 0 ticks, then the recording is cut off: it has no end line\n");
+  CHECK_FALSE(verify_text(text.substr(0, first - 1)));
+  CHECK_FALSE(verify_text(""));
+}
+
+TEST_CASE("lines that are missing, doubled, out of order or behind the end are errors with their line") {
+  const Recording recording = record({.steps = 130});
+  const auto error_of = [](const std::vector<std::string>& lines) {
+    Recording altered;
+    altered.lines = lines;
+    const auto verification = verify_text(altered.text());
+    return verification ? to_text(*verification) : verification.error().text();
+  };
+  const std::size_t at = recording.line_of_step(100);
+  const std::string place = "r.jsonl:" + std::to_string(at + 1);
+  auto lines = recording.lines;
+  lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(at));
+  CHECK(error_of(lines).find(place + ": step 101 stands where step 100 is due") == 0);
+  lines = recording.lines;
+  lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(at), lines[at]);
+  CHECK(error_of(lines).find("step 100 stands where step 101 is due") != std::string::npos);
+  lines = recording.lines;
+  lines.push_back(lines[at]);
+  CHECK(error_of(lines) == "r.jsonl:" + std::to_string(lines.size()) + ": stands after the end");
+  lines = recording.lines;
+  lines.back() = "{\"end\":129,\"reason\":\"\"}\n";
+  CHECK(error_of(lines).find("r.jsonl:" + std::to_string(lines.size()) +
+                             ": end: tick 129 after step lines up to tick 130") == 0);
+  lines = recording.lines;
+  lines[at] = "garbage\n";
+  CHECK(error_of(lines).find(place + ": not JSON") == 0);
+  lines[at] = "\n";
+  CHECK(error_of(lines).find(place + ": not JSON") == 0);
+  lines[at] = std::string(50000, '[') + "\n";
+  CHECK(error_of(lines).find(place + ": nested more than") == 0);
+  lines[at] = std::string("{\"step\":100,\0}\n", 15);
+  CHECK(error_of(lines).find(place + ": not JSON") == 0);
+  const std::size_t keyframe = recording.line_of_step(59) + 1;
+  lines = recording.lines;
+  std::swap(lines[keyframe], lines[keyframe + 1]);
+  CHECK(error_of(lines).find("a keyframe of tick 60 stands where tick 61 is reached") != std::string::npos);
+}
+
+TEST_CASE("a join of an id that was used is an error") {
+  Recording recording = record({.steps = 130});
+  for (std::uint64_t step = 100;; ++step) {
+    std::string& line = recording.lines[recording.line_of_step(step)];
+    if (line.find("roster") != std::string::npos) continue;
+    line.insert(line.find(','), ",\"roster\":[{\"join\":1}]");
+    break;
+  }
+  const auto verification = verify_text(recording.text());
+  REQUIRE_FALSE(verification);
+  CHECK(verification.error().text().find(": player 1 joins after player") != std::string::npos);
+}
+
+TEST_CASE("a map that was altered in the recording is refused") {
+  Recording recording = record({.steps = 3});
+  std::string& header = recording.lines.front();
+  const NumberPlace drag = find_number(header, "\"drag\":");
+  header.replace(drag.begin, drag.end - drag.begin, "0.25");
+  const auto verification = verify_text(recording.text());
+  REQUIRE_FALSE(verification);
+  CHECK(verification.error().text().find("r.jsonl:1: map.hash: the map's hash is ") == 0);
+}
+
+TEST_CASE("a large map is named by its hash and found beside the recording") {
+  const auto folder = std::filesystem::path(WOODLOUSE_BINARY_DIR) / "tests" / "replay_large_map";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  const auto write = [&](const std::string& name, const std::string& text) {
+    std::ofstream(folder / name, std::ios::binary) << text;
+  };
+  const std::string map_text = R"({"name":"large","terrain":{"function":"hills","grid":160,"scale":20}})";
+  const auto map = map::parse_map(map_text, "large.json", {});
+  REQUIRE(map);
+  REQUIRE((*map)->canonical.size() > kMaxInlineMapBytes);
+  match::Match match(*map, {60, 9});
+  std::string text;
+  ReplayWriter writer(60);
+  writer.append_header(text, make_header(match, "tests", "somewhere/else/large.json"));
+  CHECK(text.size() < 1000);
+  match.join();
+  for (int k = 0; k < 100; ++k) writer.append_step(text, match.advance(), match.world().lice());
+  writer.append_end(text, match.tick(), "");
+
+  const auto missing = verify_text(text, folder);
+  REQUIRE_FALSE(missing);
+  CHECK(missing.error().text().find("somewhere/else/large.json: no such file") == 0);
+  write("large.json", map_text);
+  const auto found = verify_text(text, folder);
+  REQUIRE(found);
+  CHECK(to_text(*found) == "ok 100 ticks\n");
+  write("large.json", R"({"name":"large","terrain":{"function":"hills","grid":161,"scale":20}})");
+  const auto other = verify_text(text, folder);
+  REQUIRE_FALSE(other);
+  CHECK(other.error().text().find("put the map it was played on beside the recording") != std::string::npos);
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("verify says its verdict and exits with it") {
+  const auto folder = std::filesystem::path(WOODLOUSE_BINARY_DIR) / "tests" / "replay_command";
+  std::filesystem::create_directories(folder);
+  const auto file = folder / "game.jsonl";
+  const auto run = [&](const std::string& text) {
+    std::ofstream(file, std::ios::binary) << text;
+    std::ostringstream out;
+    const int code = verify_command(file, out);
+    return std::pair(code, out.str());
+  };
+  const Recording recording = record({.steps = 100});
+  CHECK(run(recording.text()) == std::pair(0, std::string("ok 100 ticks\n")));
+  Recording altered = recording;
+  std::string& line = altered.lines[altered.line_of_step(40)];
+  line[line.size() - 4] = line[line.size() - 4] == '0' ? '1' : '0';
+  const auto [code, text] = run(altered.text());
+  CHECK(code == 1);
+  CHECK(text.find("differs at tick 41: hash ") == 0);
+  CHECK(text.find("\nkeyframe 60: the same lice") != std::string::npos);
+  CHECK(std::count(text.begin(), text.end(), '\n') == 2);
+  CHECK(run("x\n").first == 1);
+  std::ostringstream out;
+  CHECK(verify_command(folder / "none.jsonl", out) == 1);
+  CHECK(verify_command(folder, out) == 1);
+  CHECK(out.str() == (folder / "none.jsonl").string() + ": can't be opened: No such file or directory\n" +
+                         folder.string() + ": is a folder, not a recording\n");
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace woodlouse::replay
