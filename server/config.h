@@ -1,0 +1,46 @@
+// What the command line, WOODLOUSE_* variables and a JSON file ask of the server.
+// Flag over variable over file over default; every value is checked here, once.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "server/listen_address.h"
+#include "server/log.h"
+#include "shared/core/error.h"
+
+namespace woodlouse::server {
+
+struct ServeConfig {
+  std::vector<std::filesystem::path> maps;  ///< a room each; at least one
+  ListenAddress listen;
+  std::uint32_t tick_hz = 60;   ///< 1..1000
+  std::uint32_t state_hz = 20;  ///< divides tick_hz
+  std::optional<std::filesystem::path> record;
+  std::optional<std::uint64_t> ticks;  ///< stop after so many
+  std::optional<std::uint64_t> seed;   ///< empty: from the machine's entropy
+  std::uint32_t bots = 0;              ///< of the house, in every room
+  LogFormat log_format = LogFormat::kText;
+};
+
+struct CheckConfig {
+  std::vector<std::filesystem::path> maps;
+};
+struct VerifyConfig {
+  std::filesystem::path file;
+};
+/// Help or the version was asked for.
+struct PrintConfig {
+  std::string text;
+};
+
+using Config = std::variant<ServeConfig, CheckConfig, VerifyConfig, PrintConfig>;
+
+/// Errors: where = the option, or FILE: key of the config file.
+core::Expected<Config> parse_config(int argc, const char* const* argv);
+
+}  // namespace woodlouse::server

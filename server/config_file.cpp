@@ -1,0 +1,51 @@
+#include "server/config_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+namespace woodlouse::server {
+namespace {
+
+using Json = nlohmann::json;
+
+core::Expected<std::string> as_typed(const Json& value, const std::string& where) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number()) return value.dump();
+  return core::fail(where, "must be text, a number, or a list of them, not " + value.dump().substr(0, 40));
+}
+
+}  // namespace
+
+core::Expected<std::vector<FileOption>> read_config_file(const std::filesystem::path& file) {
+  errno = 0;
+  std::ifstream in(file);
+  if (!in) return core::fail("--config " + file.string(), std::strerror(errno));
+  Json document;
+  try {
+    document = Json::parse(in);
+  } catch (const Json::parse_error& error) {
+    return core::fail("--config " + file.string(), error.what());
+  }
+  if (!document.is_object())
+    return core::fail("--config " + file.string(), "is not a JSON object", R"(for example {"bots": 3})");
+  std::vector<FileOption> options;
+  for (const auto& [key, value] : document.items()) {
+    FileOption option{key, {}};
+    std::replace(option.first.begin(), option.first.end(), '_', '-');
+    const std::string where = file.string() + ": " + key;
+    const Json list = value.is_array() ? value : Json::array({value});
+    for (const Json& element : list) {
+      auto text = as_typed(element, where);
+      if (!text) return tl::unexpected(text.error());
+      option.second.push_back(std::move(*text));
+    }
+    options.push_back(std::move(option));
+  }
+  return options;
+}
+
+}  // namespace woodlouse::server

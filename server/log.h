@@ -1,0 +1,21 @@
+// The server's log: on standard error, as text for people or one JSON object a line for machines.
+#pragma once
+
+#include <spdlog/logger.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace woodlouse::server {
+
+enum class LogFormat : std::uint8_t { kText, kJson };
+
+/// Thread safe.
+std::shared_ptr<spdlog::logger> make_logger(LogFormat format);
+
+/// The text as the inside of a JSON string; bytes that are no UTF-8 become '?'.
+std::string json_escaped(std::string_view text);
+
+}  // namespace woodlouse::server

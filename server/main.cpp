@@ -1,0 +1,62 @@
+// woodlouse-server: parses, wires, runs.
+#include <csignal>
+#include <iostream>
+#include <variant>
+
+#include "server/config.h"
+#include "server/log.h"
+#include "server/server.h"
+#include "shared/map/map_loader.h"
+#include "shared/replay/replayer.h"
+
+namespace {
+
+namespace core = woodlouse::core;
+using namespace woodlouse::server;
+
+constexpr int kOk = 0;
+constexpr int kFailed = 1;
+constexpr int kUsage = 2;
+
+int report(const core::Error& error, int exit_code) {
+  std::cerr << "woodlouse-server: " << (error.where.empty() ? "" : error.where + ": ") << error.what << '\n';
+  if (!error.hint.empty()) std::cerr << "      " << error.hint << '\n';
+  return exit_code;
+}
+
+int run(const PrintConfig& config) {
+  std::cout << config.text;
+  return kOk;
+}
+
+int run(const CheckConfig& config) {
+  int exit_code = kOk;
+  for (const auto& file : config.maps) {
+    const std::vector<core::Error> errors = woodlouse::map::check_map(file);
+    if (errors.empty()) std::cout << file.string() << ": ok\n";
+    for (const core::Error& error : errors) std::cout << error.text() << '\n';
+    if (!errors.empty()) exit_code = kFailed;
+  }
+  return exit_code;
+}
+
+int run(const VerifyConfig& config) { return woodlouse::replay::verify_command(config.file, std::cout); }
+
+int run(const ServeConfig& config) {
+  auto server = Server::create(config, make_logger(config.log_format));
+  if (!server) return report(server.error(), kFailed);
+  std::cout << "listening " << (*server)->address() << std::endl;
+  (*server)->run();
+  (*server)->print_summary(std::cout);
+  return kOk;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  // A closed pipe behind standard output or error is no reason to end a game.
+  std::signal(SIGPIPE, SIG_IGN);
+  const auto config = parse_config(argc, argv);
+  if (!config) return report(config.error(), kUsage);
+  return std::visit([](const auto& chosen) { return run(chosen); }, *config);
+}

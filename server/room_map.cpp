@@ -1,0 +1,48 @@
+#include "server/room_map.h"
+
+#include <string>
+#include <variant>
+
+#include "shared/json/text.h"
+#include "shared/protocol/codec.h"
+#include "shared/terrain/terrain.h"
+
+namespace woodlouse::server {
+namespace {
+
+/// {origin, spacing, columns, rows, heights: row by row from the south, each from west to east}
+std::string encode_knots(const terrain::HeightGrid& grid) {
+  std::string out = R"({"origin":[)";
+  json::append_double(out, grid.x_origin);
+  out += ',';
+  json::append_double(out, grid.y_origin);
+  out += R"(],"spacing":[)";
+  json::append_double(out, grid.dx);
+  out += ',';
+  json::append_double(out, grid.dy);
+  out += R"(],"columns":)" + std::to_string(grid.columns) + R"(,"rows":)" + std::to_string(grid.rows) +
+         R"(,"heights":[)";
+  for (std::size_t j = 0; j < grid.rows; ++j) {
+    out += j == 0 ? "[" : ",[";
+    for (std::size_t i = 0; i < grid.columns; ++i) {
+      if (i > 0) out += ',';
+      json::append_double(out, grid.at(i, j));
+    }
+    out += ']';
+  }
+  return out + "]}";
+}
+
+}  // namespace
+
+Line encode_map_line(const map::Map& map) {
+  std::string knots;
+  if (const auto* function = std::get_if<map::FunctionTerrain>(&map.definition.terrain)) {
+    const std::size_t side = 2 * function->grid + 1;
+    knots = encode_knots(terrain::sample_grid(*map.terrain, side, side));
+  }
+  const protocol::MapMessage message{map.definition.name, map.hash, map.canonical};
+  return std::make_shared<const std::string>(protocol::encode_map(message, knots));
+}
+
+}  // namespace woodlouse::server

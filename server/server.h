@@ -1,0 +1,83 @@
+// The whole server: rooms, port, threads, signals, and the order in which they start and stop.
+//
+// Threads: rooms tick in a context of their own (one thread for each room, at most one a core), sockets and
+// broadcasts run in another (kIoThreads), recordings are written on one more. A tick so never waits for a
+// socket or a disk.
+#pragma once
+
+#include <spdlog/logger.h>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/strand.hpp>
+#include <boost/asio/thread_pool.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "server/acceptor.h"
+#include "server/config.h"
+#include "server/lobby.h"
+#include "server/metrics.h"
+#include "server/room.h"
+#include "server/session.h"
+#include "shared/core/error.h"
+
+namespace woodlouse::server {
+
+class Server {
+ public:
+  static constexpr std::size_t kIoThreads = 2;
+  /// From the signal to the exit at most.
+  static constexpr Duration kStopWithin = std::chrono::milliseconds(800);
+
+  /// Loads the maps, creates the recordings, opens the port.
+  static core::Expected<std::unique_ptr<Server>> create(const ServeConfig& config,
+                                                        std::shared_ptr<spdlog::logger> log);
+  ~Server();
+
+  /// `127.0.0.1:7777`, with the port that was really taken.
+  [[nodiscard]] const std::string& address() const { return address_; }
+
+  /// Serves until SIGINT, SIGTERM or the tick limit; everybody has been told and all is written when it
+  /// returns.
+  void run();
+
+  /// Ticks, lateness, moves of the clock, frames; one line a room and one for all. After run().
+  void print_summary(std::ostream& out) const;
+
+ private:
+  Server(const ServeConfig& config, std::shared_ptr<spdlog::logger> log);
+  core::Expected<bool> open_rooms(const ServeConfig& config);
+  void await_signal();
+  void room_ended();
+  void stop(const std::string& text, const std::string& reason);
+  void part_stopped();
+  void give_up_waiting();
+  void stop_contexts();
+
+  std::shared_ptr<spdlog::logger> log_;
+  boost::asio::thread_pool disk_{1};
+  boost::asio::io_context ticks_;
+  boost::asio::io_context io_;
+  boost::asio::strand<boost::asio::io_context::executor_type> strand_;
+  boost::asio::signal_set signals_;
+  boost::asio::steady_timer deadline_;
+
+  protocol::Limits limits_;
+  TrafficMetrics traffic_;
+  Lobby lobby_;
+  std::vector<std::unique_ptr<Room>> rooms_;
+  SessionEnvironment environment_;
+  Acceptor acceptor_;
+  std::string address_;
+  // The strand's:
+  std::size_t rooms_ended_ = 0;
+  std::size_t parts_running_ = 0;  ///< once stopping: rooms and the acceptor
+  bool stopping_ = false;
+};
+
+}  // namespace woodlouse::server

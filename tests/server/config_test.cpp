@@ -1,0 +1,144 @@
+#include "server/config.h"
+
+#include <catch2/catch.hpp>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+using namespace woodlouse;
+using namespace woodlouse::server;
+
+namespace {
+
+core::Expected<Config> parse(std::vector<const char*> arguments) {
+  arguments.insert(arguments.begin(), "woodlouse-server");
+  return parse_config(static_cast<int>(arguments.size()), arguments.data());
+}
+
+ServeConfig serve(const std::vector<const char*>& arguments) {
+  const auto config = parse(arguments);
+  if (!config) FAIL(config.error().text());
+  REQUIRE(std::holds_alternative<ServeConfig>(*config));
+  return std::get<ServeConfig>(*config);
+}
+
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) { ::setenv(name, value, 1); }
+  ~Variable() { ::unsetenv(name_); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  const char* name_;
+};
+
+class File {
+ public:
+  explicit File(const std::string& text)
+      : path_((std::filesystem::temp_directory_path() / "woodlouse_config_test.json").string()) {
+    std::ofstream(path_) << text;
+  }
+  ~File() { std::filesystem::remove(path_); }
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  [[nodiscard]] const char* path() const { return path_.c_str(); }
+
+ private:
+  std::string path_;
+};
+
+}  // namespace
+
+TEST_CASE("what is not asked for has its default") {
+  const ServeConfig config = serve({"--map", "a.json"});
+  CHECK(config.listen == ListenAddress{"127.0.0.1", 7777});
+  CHECK(config.tick_hz == 60);
+  CHECK(config.state_hz == 20);
+  CHECK(config.bots == 0);
+  CHECK_FALSE(config.seed);
+  CHECK_FALSE(config.record);
+  CHECK_FALSE(config.ticks);
+}
+
+TEST_CASE("flags are read, several maps make several rooms") {
+  const ServeConfig config = serve({"--map", "a.json", "b.json", "--listen", "[::1]:0", "--tick-hz", "120",
+                                    "--state-hz", "40", "--record", "game.ndjson", "--ticks", "7", "--seed",
+                                    "18446744073709551615", "--bots", "3", "--log-format", "json"});
+  CHECK(config.maps == std::vector<std::filesystem::path>{"a.json", "b.json"});
+  CHECK(config.listen == ListenAddress{"::1", 0});
+  CHECK(config.tick_hz == 120);
+  CHECK(config.state_hz == 40);
+  CHECK(config.record == std::filesystem::path("game.ndjson"));
+  CHECK(config.ticks == 7u);
+  CHECK(config.seed == 18446744073709551615u);
+  CHECK(config.bots == 3);
+  CHECK(config.log_format == LogFormat::kJson);
+}
+
+TEST_CASE("a flag goes over a variable, a variable over the file, the file over the default") {
+  const File file(
+      R"({"map": ["f.json", "g.json"], "bots": 1, "tick_hz": 30, "state-hz": 10, "seed": 5, "record": "r"})");
+  const Variable bots("WOODLOUSE_BOTS", "2");
+  const Variable hz("WOODLOUSE_TICK_HZ", "50");
+  const ServeConfig config = serve({"--config", file.path(), "--bots", "3"});
+  CHECK(config.bots == 3);
+  CHECK(config.tick_hz == 50);
+  CHECK(config.state_hz == 10);
+  CHECK(config.seed == 5u);
+  CHECK(config.record == std::filesystem::path("r"));
+  CHECK(config.maps == std::vector<std::filesystem::path>{"f.json", "g.json"});
+}
+
+TEST_CASE("the file may be named by a variable too") {
+  const File file(R"({"map": "f.json", "bots": 9})");
+  const Variable config_file("WOODLOUSE_CONFIG", file.path());
+  CHECK(serve({}).bots == 9);
+}
+
+TEST_CASE("a wrong option is refused by its name") {
+  const auto [arguments, names] = GENERATE(table<std::vector<const char*>, std::string>({
+      {std::vector<const char*>{}, "--map"},
+      {{"--map", "a", "--tick-hz", "0"}, "--tick-hz"},
+      {{"--map", "a", "--tick-hz", "1001"}, "--tick-hz"},
+      {{"--map", "a", "--tick-hz", "sixty"}, "--tick-hz"},
+      {{"--map", "a", "--state-hz", "25"}, "--state-hz"},
+      {{"--map", "a", "--state-hz", "120"}, "--state-hz"},
+      {{"--map", "a", "--bots", "-1"}, "--bots"},
+      {{"--map", "a", "--ticks", "0"}, "--ticks"},
+      {{"--map", "a", "--seed", "1.5"}, "--seed"},
+      {{"--map", "a", "--log-format", "xml"}, "--log-format"},
+      {{"--map", "a", "--listen", "host:seven"}, "--listen"},
+      {{"--map", "a", "--frobnicate"}, "--frobnicate"},
+      {{"--map", "a", "--config", "/no/such/file.json"}, "/no/such/file.json"},
+  }));
+  const auto config = parse(arguments);
+  REQUIRE_FALSE(config);
+  CHECK_THAT(config.error().text(), Catch::Contains(names));
+}
+
+TEST_CASE("a wrong config file is refused by its key or place") {
+  const auto [text, names] = GENERATE(table<std::string, std::string>({
+      {R"({"bots": 3, "botts": 4})", "botts"},
+      {R"({"bots": {"a": 1}})", "bots"},
+      {R"({"bots": "many"})", "bots"},
+      {R"({"config": "x.json"})", "config"},
+      {R"([1, 2])", "object"},
+      {R"({"bots": )", "parse error"},
+  }));
+  const File file(text);
+  const auto config = parse({"--map", "a", "--config", file.path()});
+  REQUIRE_FALSE(config);
+  CHECK_THAT(config.error().text(), Catch::Contains(names));
+}
+
+TEST_CASE("check and verify take their files, help and version are texts") {
+  CHECK(std::get<CheckConfig>(*parse({"check", "a.json", "b.json"})).maps.size() == 2);
+  CHECK(std::get<VerifyConfig>(*parse({"verify", "game.ndjson"})).file == "game.ndjson");
+  CHECK_THAT(std::get<PrintConfig>(*parse({"--help"})).text, Catch::Contains("--state-hz"));
+  CHECK_THAT(std::get<PrintConfig>(*parse({"--version"})).text, Catch::Contains("woodlouse-server"));
+  CHECK_FALSE(parse({"verify"}));
+}
