@@ -1,0 +1,245 @@
+#include "client/config.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+#include "shared/protocol/messages.h"
+
+namespace woodlouse::client {
+namespace {
+
+constexpr std::string_view kVersion = "woodlouse 0.1.0";
+constexpr int kUsage = 2;
+
+std::string environment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? std::string() : std::string(value);
+}
+
+/// The words an option takes, with their values. Used by the command line and the config file alike.
+template <typename T>
+struct Words {
+  std::vector<std::pair<std::string, T>> entries;
+
+  std::optional<T> find(const std::string& word) const {
+    for (const auto& [name, value] : entries) {
+      if (name == word) return value;
+    }
+    return std::nullopt;
+  }
+  std::string word(T value) const {
+    for (const auto& [name, known] : entries) {
+      if (known == value) return name;
+    }
+    return {};
+  }
+  std::string list() const {
+    std::string text;
+    for (const auto& [name, value] : entries) text += (text.empty() ? "" : "|") + name;
+    return text;
+  }
+};
+
+const Words<ColorChoice>& color_words() {
+  static const Words<ColorChoice> words{{{"auto", ColorChoice::kAuto},
+                                         {"truecolor", ColorChoice::kTruecolor},
+                                         {"256", ColorChoice::k256},
+                                         {"16", ColorChoice::k16},
+                                         {"mono", ColorChoice::kMono}}};
+  return words;
+}
+const Words<GlyphChoice>& glyph_words() {
+  static const Words<GlyphChoice> words{{{"auto", GlyphChoice::kAuto},
+                                         {"half", GlyphChoice::kHalfBlocks},
+                                         {"ascii", GlyphChoice::kAscii},
+                                         {"text", GlyphChoice::kText}}};
+  return words;
+}
+const Words<std::optional<View>>& view_words() {
+  static const Words<std::optional<View>> words{{{"auto", std::nullopt},
+                                                 {"map", View::kMap},
+                                                 {"oblique", View::kOblique},
+                                                 {"follow", View::kFollow},
+                                                 {"slope", View::kSlope}}};
+  return words;
+}
+
+/// Everything as it is written, before it is understood.
+struct Raw {
+  std::string server, map, name, room, color, glyphs, view;
+  int fps = 30;
+  bool watch = false;
+};
+
+Raw raw_of(const Config& config) {
+  return {.server = config.server ? config.server->text() : "",
+          .map = config.map,
+          .name = config.name,
+          .room = config.room,
+          .color = color_words().word(config.color),
+          .glyphs = glyph_words().word(config.glyphs),
+          .view = view_words().word(config.view),
+          .fps = config.fps,
+          .watch = config.part == Part::kWatch};
+}
+
+core::Expected<Config> understood(const Raw& raw) {
+  Config config;
+  if (!raw.server.empty()) {
+    auto address = parse_address(raw.server);
+    if (!address) return tl::unexpected(address.error());
+    config.server = std::move(*address);
+  }
+  const auto color = color_words().find(raw.color);
+  if (!color) return core::fail("color", "\"" + raw.color + "\" is none", "one of " + color_words().list());
+  const auto glyphs = glyph_words().find(raw.glyphs);
+  if (!glyphs)
+    return core::fail("glyphs", "\"" + raw.glyphs + "\" is none", "one of " + glyph_words().list());
+  const auto view = view_words().find(raw.view);
+  if (!view) return core::fail("view", "\"" + raw.view + "\" is none", "one of " + view_words().list());
+  if (raw.fps < 5 || raw.fps > 60) return core::fail("fps", std::to_string(raw.fps) + " is not from 5 to 60");
+  if (raw.name.empty() || raw.name.size() > protocol::kMaxNameBytes) {
+    return core::fail("name", "it has " + std::to_string(raw.name.size()) + " bytes",
+                      "from 1 to 24 bytes of UTF-8");
+  }
+  config.map = raw.map;
+  config.name = raw.name;
+  config.room = raw.room;
+  config.part = raw.watch ? Part::kWatch : Part::kPlay;
+  config.color = *color;
+  config.glyphs = *glyphs;
+  config.view = *view;
+  config.fps = raw.fps;
+  return config;
+}
+
+std::string default_name() {
+  std::string name = environment("USER");
+  if (name.empty()) name = "louse";
+  if (name.size() > protocol::kMaxNameBytes) name.resize(protocol::kMaxNameBytes);
+  return name;
+}
+
+std::filesystem::path config_file() {
+  const std::string xdg = environment("XDG_CONFIG_HOME");
+  if (!xdg.empty()) return std::filesystem::path(xdg) / "woodlouse" / "config.json";
+  const std::string home = environment("HOME");
+  return home.empty() ? std::filesystem::path()
+                      : std::filesystem::path(home) / ".config" / "woodlouse" / "config.json";
+}
+
+/// The defaults: the program's, then the config file's.
+core::Expected<Config> defaults() {
+  Config config;
+  config.name = default_name();
+  const std::filesystem::path file = config_file();
+  std::error_code error;
+  if (file.empty() || !std::filesystem::exists(file, error)) return config;
+  std::ifstream stream(file);
+  const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  if (!stream) return core::fail(file.string(), "it can't be read");
+  return read_config_file(text, file.string(), config);
+}
+
+Parsed mistake(const core::Error& error) {
+  Parsed parsed;
+  parsed.exit_code = kUsage;
+  parsed.output = "woodlouse: " + error.where + ": " + error.what + "\n      " +
+                  (error.hint.empty() ? "see:  woodlouse --help" : error.hint) + "\n";
+  return parsed;
+}
+
+void add_options(CLI::App& app, Raw& raw) {
+  app.add_option("server", raw.server, "HOST:PORT; without it a server is started here")
+      ->envname("WOODLOUSE_SERVER");
+  app.add_option("--map", raw.map, "map of the server started here: a file, or a name")
+      ->envname("WOODLOUSE_MAP")
+      ->capture_default_str();
+  app.add_option("--name", raw.name, "your name, at most 24 bytes")
+      ->envname("WOODLOUSE_NAME")
+      ->capture_default_str();
+  app.add_option("--room", raw.room, "room of the server; default: its first")->envname("WOODLOUSE_ROOM");
+  app.add_flag("--watch,!--play", raw.watch, "watch, without a louse of your own")
+      ->envname("WOODLOUSE_WATCH");
+  app.add_option("--color", raw.color, color_words().list())
+      ->envname("WOODLOUSE_COLOR")
+      ->capture_default_str();
+  app.add_option("--glyphs", raw.glyphs,
+                 glyph_words().list() + "; text: lines, for a screen reader or a pipe")
+      ->envname("WOODLOUSE_GLYPHS")
+      ->capture_default_str();
+  app.add_option("--view", raw.view, view_words().list())->envname("WOODLOUSE_VIEW")->capture_default_str();
+  app.add_option("--fps", raw.fps, "frames a second, 5..60")->envname("WOODLOUSE_FPS")->capture_default_str();
+}
+
+}  // namespace
+
+core::Expected<Config> read_config_file(const std::string& text, const std::string& file, Config config) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object())
+    return core::fail(file, "it is not a JSON object", "for example {\"name\": \"mara\"}");
+  Raw raw = raw_of(config);
+  const std::initializer_list<std::pair<const char*, std::string*>> texts = {
+      {"server", &raw.server}, {"map", &raw.map},       {"name", &raw.name}, {"room", &raw.room},
+      {"color", &raw.color},   {"glyphs", &raw.glyphs}, {"view", &raw.view}};
+  for (const auto& entry : json.items()) {
+    const std::string& key = entry.key();
+    const nlohmann::json& value = entry.value();
+    const std::string where = file + ": " + key;
+    const auto* const known =
+        std::find_if(texts.begin(), texts.end(), [&key](const auto& t) { return key == t.first; });
+    if (known != texts.end()) {
+      if (!value.is_string()) return core::fail(where, "it is not a string");
+      *known->second = value.get<std::string>();
+    } else if (key == "fps") {
+      if (!value.is_number_integer()) return core::fail(where, "it is not a whole number");
+      raw.fps = static_cast<int>(std::clamp<std::int64_t>(value.get<std::int64_t>(), -1, 1000));
+    } else if (key == "watch") {
+      if (!value.is_boolean()) return core::fail(where, "it is not true or false");
+      raw.watch = value.get<bool>();
+    } else {
+      return core::fail(where, "no such setting", "known: server map name room color glyphs view fps watch");
+    }
+  }
+  auto result = understood(raw);
+  if (!result)
+    return core::fail(file + ": " + result.error().where, result.error().what, result.error().hint);
+  return result;
+}
+
+Parsed parse_arguments(int argc, const char* const* argv) {
+  const auto base = defaults();
+  if (!base) return mistake(base.error());
+  Raw raw = raw_of(*base);
+  CLI::App app("Wood-lice on a spline hill: the terminal client.", "woodlouse");
+  app.set_version_flag("--version", std::string(kVersion));
+  app.footer(
+      "Keys: W push, S brake, A D turn, Space cruise, T chat, Tab scores, V view, ? help, Q quit.\n"
+      "Exit: 0 fine, 2 usage, 69 server unreachable, 74 terminal lost, 130 Ctrl-C.");
+  add_options(app, raw);
+  Parsed parsed;
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {
+    parsed.exit_code = 0;
+    parsed.output = dynamic_cast<const CLI::CallForHelp*>(&success) != nullptr ? app.help()
+                                                                               : std::string(kVersion) + "\n";
+    return parsed;
+  } catch (const CLI::ParseError& error) {
+    return mistake({"arguments", error.what(), ""});
+  }
+  auto config = understood(raw);
+  if (!config) return mistake(config.error());
+  parsed.config = std::move(*config);
+  return parsed;
+}
+
+}  // namespace woodlouse::client

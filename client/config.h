@@ -1,0 +1,42 @@
+// What the player asked for: command line over WOODLOUSE_* over config.json over default, checked once.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "client/address.h"
+#include "client/look_choice.h"
+#include "client/scene.h"
+#include "shared/core/error.h"
+
+namespace woodlouse::client {
+
+enum class Part : std::uint8_t { kPlay, kWatch };
+
+struct Config {
+  std::optional<Address> server;  ///< none: start one here
+  std::string map = "volcano";    ///< of the server started here: a file, or a name
+  std::string name;               ///< at most 24 bytes
+  std::string room;               ///< empty: the server's first
+  Part part = Part::kPlay;
+  ColorChoice color = ColorChoice::kAuto;
+  GlyphChoice glyphs = GlyphChoice::kAuto;
+  std::optional<View> view;  ///< none: what suits the terminal
+  int fps = 30;              ///< 5..60
+};
+
+/// A configuration, or why the program ends now: help and version end it with 0, mistakes with 2.
+struct Parsed {
+  Config config;
+  std::optional<int> exit_code;
+  std::string output;  ///< what to print then
+};
+
+/// Reads the command line, the environment and the config file.
+Parsed parse_arguments(int argc, const char* const* argv);
+
+/// What a config.json says, over `config`. Error: where = "file: field".
+core::Expected<Config> read_config_file(const std::string& text, const std::string& file, Config config);
+
+}  // namespace woodlouse::client

@@ -1,0 +1,20 @@
+// The lines and boxes around the map: who plays, how you move, what is said, which keys there are.
+#pragma once
+
+#include "client/badges.h"
+#include "client/cell_buffer.h"
+#include "client/layout.h"
+#include "client/scene.h"
+
+namespace woodlouse::client {
+
+/// Game, map, lice, rank, round-trip time, rates.
+void draw_status_line(const Scene& scene, CellBuffer& cells);
+
+/// The keys; while chatting the line being typed; a notice, when there is one, in the row above.
+void draw_key_line(const Scene& scene, const Layout& layout, CellBuffer& cells);
+
+/// PLAYERS, YOU (THE ROOM for a spectator) and CHAT.
+void draw_panel(const Scene& scene, const Badges& badges, const Viewport& panel, CellBuffer& cells);
+
+}  // namespace woodlouse::client

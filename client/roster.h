@@ -1,0 +1,51 @@
+// Who is in the room and what was said: names from welcome and events, the chat and the game's own notices.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <string>
+
+#include "shared/protocol/messages.h"
+
+namespace woodlouse::client {
+
+struct Resident {
+  std::string name;
+  protocol::Role role = protocol::Role::kPlayer;
+};
+
+/// A line of the chat; `from` is empty for a notice of the game.
+struct Utterance {
+  std::string from;
+  std::string text;
+};
+
+class Roster {
+ public:
+  static constexpr std::size_t kLines = 50;  ///< the oldest are forgotten beyond
+
+  /// A new session: who is there replaces who was; the chat stays.
+  void welcome(const protocol::Welcome& welcome);
+  void event(const protocol::Event& event);
+  void note(std::string text) { say({}, std::move(text)); }
+
+  /// The resident of that id; null for ids not announced.
+  [[nodiscard]] const Resident* find(std::uint32_t id) const;
+  [[nodiscard]] const std::deque<Utterance>& chat() const { return chat_; }
+  /// How many lines there ever were; tells what is new.
+  [[nodiscard]] std::size_t lines_said() const { return lines_said_; }
+
+ private:
+  void say(std::string from, std::string text);
+
+  std::map<std::uint32_t, Resident> residents_;
+  std::deque<Utterance> chat_;
+  std::size_t lines_said_ = 0;
+};
+
+/// What an event says, for a person: "ada joined", "bot gauss left".
+std::string describe(const protocol::Event& event);
+
+}  // namespace woodlouse::client

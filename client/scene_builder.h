@@ -1,0 +1,39 @@
+// From what the client knows to what a frame shows.
+#pragma once
+
+#include <vector>
+
+#include "client/chat_entry.h"
+#include "client/interface.h"
+#include "client/room_view.h"
+#include "client/scene.h"
+#include "client/session.h"
+
+namespace woodlouse::client {
+
+/// What a frame needs besides the session and the interface.
+struct FrameFacts {
+  Look look;
+  double fps = 0.0;  ///< shown in the last second
+  bool key_up_known = false;
+  TimePoint now{};
+};
+
+Scene build_scene(const Session& session, const Interface& interface, const ChatEntry& entry,
+                  const FrameFacts& facts);
+
+/// The lice by distance travelled, best first; the scoreboard.
+std::vector<ScoreRow> score_rows(const RoomView& room);
+
+/// Whom a spectator follows: the chosen one while there is one of that id, else the leader; 0: nobody.
+std::uint32_t followed(const RoomView& room, std::uint32_t chosen);
+/// The next one after `id` by id, round and round; 0 when there is nobody.
+std::uint32_t next_louse(const RoomView& room, std::uint32_t id);
+
+/// Slope along a unit direction [degrees], uphill positive.
+double slope_degrees(const terrain::SurfaceSample& ground, core::Vec2 direction);
+
+/// Speed in space [m/s] of a map-plane velocity on this ground.
+double speed_in_space(const terrain::SurfaceSample& ground, core::Vec2 velocity);
+
+}  // namespace woodlouse::client

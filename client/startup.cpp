@@ -1,0 +1,172 @@
+#include "client/startup.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <array>
+#include <boost/asio/io_context.hpp>
+#include <chrono>
+#include <csignal>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "client/game.h"
+#include "client/local_server.h"
+#include "client/outcome.h"
+#include "client/session.h"
+#include "client/text_game.h"
+
+namespace woodlouse::client {
+namespace {
+
+using std::chrono::steady_clock;
+constexpr std::chrono::milliseconds kIntroduction{
+    2500};  // how long the first run's text stands without a key
+
+/// A descriptor that closes itself.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] int get() const { return fd_; }
+  int release() { return std::exchange(fd_, -1); }
+
+ private:
+  int fd_;
+};
+
+int complain(int exit_code, const std::string& what, const std::string& hint) {
+  std::cerr << "woodlouse: " << what << "\n";
+  if (!hint.empty()) std::cerr << "      " << hint << "\n";
+  return exit_code;
+}
+
+std::string describe(const Look& look) {
+  const Size size = terminal_size(STDOUT_FILENO);
+  const char* color = "no colour";
+  if (look.color == ColorMode::k16) color = "16 colours";
+  if (look.color == ColorMode::k256) color = "256 colours";
+  if (look.color == ColorMode::kTruecolor) color = "true colour";
+  return std::to_string(size.columns) + "x" + std::to_string(size.rows) + ", " + color + ", " +
+         (look.glyphs == GlyphSet::kAscii ? "ascii" : "half blocks");
+}
+
+void introduce(const Config& config, const Session& session, const Look& look) {
+  const RoomView& room = session.room();
+  std::cout << "woodlouse 0.1.0 - wood-lice on a spline hill.   (no server given: started here)\n\n"
+            << "  server   listening " << session.connection().address().text() << "\n"
+            << "  map      " << room.welcome()->map_name << "   3 bots\n";
+  if (config.part == Part::kPlay)
+    std::cout << "  you      \"" << config.name << "\"   change with --name or WOODLOUSE_NAME\n";
+  std::cout << "  keys     W push (a press = 0.4 s), S brake, A D turn, Space cruise\n"
+            << "  screen   " << describe(look) << "   change with --color / --glyphs\n\n"
+            << "  joined in " << session.join_time().count()
+            << " ms.   Any key starts, ? for help, Q to leave.\n"
+            << std::flush;
+}
+
+/// Lets the introduction stand until a key or for a while; the key, or 0. What else was typed goes with it.
+char await_key(boost::asio::io_context& context, int keys) {
+  const auto end = steady_clock::now() + kIntroduction;
+  while (steady_clock::now() < end) {
+    pollfd key{keys, POLLIN, 0};
+    if (poll(&key, 1, 20) > 0) {
+      std::array<char, 256> typed{};
+      return read(keys, typed.data(), typed.size()) > 0 ? typed[0] : 'q';  // nothing to read: hung up
+    }
+    context.restart();
+    context.poll();
+  }
+  return 0;
+}
+
+Outcome play(boost::asio::io_context& context, Session& session, const Config& config, LocalServer* local) {
+  auto keys = open_terminal_for_keys(STDIN_FILENO);
+  if (!keys)
+    return {kExitIo, "woodlouse: " + keys.error().where + ": " + keys.error().what + "\n      " +
+                         keys.error().hint + "\n"};
+  Descriptor key_terminal(*keys);
+  const Look look = choose_look(config.color, config.glyphs, hints_of_environment());
+  char first = 0;
+  if (local != nullptr) {
+    introduce(config, session, look);
+    const auto guard = TerminalGuard::enter(key_terminal.get(), STDOUT_FILENO, TerminalUse::kKeysOnly);
+    if (guard) first = await_key(context, key_terminal.get());
+    if (first == 'q' || first == 'Q') return {};
+  }
+  Descriptor frames(open_terminal_for_frames(STDOUT_FILENO));
+  const Descriptor modes(dup(key_terminal.get()));  // the guard's: outlives the game, which closes its own
+  auto guard = TerminalGuard::enter(modes.get(), STDOUT_FILENO, TerminalUse::kFullScreen);
+  if (!guard) return {kExitIo, "woodlouse: " + guard.error().text() + "\n"};
+  TerminalScreen screen(frames.get() >= 0 ? frames.get() : STDOUT_FILENO, look.color);
+  Game game(context, session, **guard, key_terminal.release(), screen,
+            {look, config.view, config.fps, first == '?' ? Overlay::kHelp : Overlay::kNone},
+            local != nullptr ? [local] { return local->alive(); } : std::function<bool()>());
+  return game.run();
+}
+
+bool write_line(const std::string& line) {
+  std::cout << line << "\n" << std::flush;
+  return static_cast<bool>(std::cout);
+}
+
+Outcome tell(boost::asio::io_context& context, Session& session, LocalServer* local) {
+  const auto alive = local != nullptr ? [local] { return local->alive(); } : std::function<bool()>();
+  write_line("joined " + session.connection().address().text() + ", map " +
+             session.room().welcome()->map_name);
+  if (isatty(STDIN_FILENO) == 0) return TextGame(context, session, -1, write_line, alive).run();
+  auto keys = open_terminal_for_keys(STDIN_FILENO);
+  if (!keys) return {kExitIo, "woodlouse: " + keys.error().text() + "\n"};
+  const Descriptor modes(dup(*keys));
+  auto guard = TerminalGuard::enter(modes.get(), STDOUT_FILENO, TerminalUse::kKeysOnly);
+  return TextGame(context, session, *keys, write_line, alive).run();
+}
+
+}  // namespace
+
+int run_client(const Config& config) {
+  const bool as_text = config.glyphs == GlyphChoice::kText;
+  if (!as_text && isatty(STDOUT_FILENO) == 0) {
+    return complain(kExitUsage, "stdout is not a terminal. For scripts use:  woodlouse --watch --glyphs text",
+                    "");
+  }
+  if (!as_text && hints_of_environment().term == "dumb") {
+    return complain(kExitUsage, "this terminal can't place its cursor (TERM=dumb)",
+                    "try:  woodlouse --glyphs text");
+  }
+  std::signal(SIGPIPE, SIG_IGN);  // a pipe nobody reads is an error of write()
+  std::unique_ptr<LocalServer> local;
+  if (!config.server) {
+    const auto map = find_map(config.map);
+    if (!map) return complain(kExitUsage, map.error().where + ": " + map.error().what, map.error().hint);
+    auto started = LocalServer::start({.map = *map});
+    if (!started)
+      return complain(kExitUnreachable, started.error().where + ": " + started.error().what,
+                      started.error().hint);
+    local = std::move(*started);
+  }
+  boost::asio::io_context context(1);
+  const protocol::Role role =
+      config.part == Part::kWatch ? protocol::Role::kSpectator : protocol::Role::kPlayer;
+  Session session(context, local ? local->address() : *config.server,
+                  make_join(role, config.name, config.room));
+  if (const auto joined = session.join(); !joined) {
+    return complain(kExitUnreachable,
+                    "cannot connect to " + joined.error().where + ": " + joined.error().what,
+                    "is the server up?   try:  woodlouse-server --listen 0.0.0.0:" +
+                        std::to_string(session.connection().address().port));
+  }
+  const Outcome outcome =
+      as_text ? tell(context, session, local.get()) : play(context, session, config, local.get());
+  session.leave();
+  std::cerr << outcome.message;
+  return outcome.exit_code;
+}
+
+}  // namespace woodlouse::client

@@ -1,0 +1,161 @@
+#include "client/config.h"
+
+#include <unistd.h>
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "client/connection.h"
+
+using namespace woodlouse::client;
+
+namespace {
+
+/// An environment of its own, with a config file if asked for; put back at the end.
+class Environment {
+ public:
+  explicit Environment(const std::string& config_json = {}) {
+    folder_ =
+        std::filesystem::temp_directory_path() / ("woodlouse-config-test-" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_ / "woodlouse");
+    if (!config_json.empty()) std::ofstream(folder_ / "woodlouse" / "config.json") << config_json;
+    set("XDG_CONFIG_HOME", folder_.string());
+    for (const char* name :
+         {"WOODLOUSE_NAME", "WOODLOUSE_FPS", "WOODLOUSE_COLOR", "WOODLOUSE_SERVER", "WOODLOUSE_GLYPHS",
+          "WOODLOUSE_VIEW", "WOODLOUSE_ROOM", "WOODLOUSE_MAP", "WOODLOUSE_WATCH"}) {
+      ::unsetenv(name);
+    }
+  }
+  ~Environment() {
+    for (const std::string& name : set_) ::unsetenv(name.c_str());
+    std::filesystem::remove_all(folder_);
+  }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+  void set(const std::string& name, const std::string& value) {
+    ::setenv(name.c_str(), value.c_str(), 1);
+    set_.push_back(name);
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::vector<std::string> set_;
+};
+
+Parsed parse(std::initializer_list<const char*> arguments) {
+  std::vector<const char*> argv = {"woodlouse"};
+  argv.insert(argv.end(), arguments.begin(), arguments.end());
+  return parse_arguments(static_cast<int>(argv.size()), argv.data());
+}
+
+}  // namespace
+
+TEST_CASE("a flag wins over the environment, that over the config file, that over the default") {
+  Environment environment(R"({"name": "file", "fps": 20, "view": "slope"})");
+  REQUIRE(parse({}).config.name == "file");
+  REQUIRE(parse({}).config.fps == 20);
+  environment.set("WOODLOUSE_NAME", "environment");
+  REQUIRE(parse({}).config.name == "environment");
+  REQUIRE(parse({"--name", "flag"}).config.name == "flag");
+  REQUIRE(parse({"--name", "flag"}).config.view == View::kSlope);
+}
+
+TEST_CASE("without anything it is a game of its own at 30 frames a second") {
+  Environment environment;
+  const Parsed parsed = parse({});
+  REQUIRE_FALSE(parsed.exit_code);
+  REQUIRE_FALSE(parsed.config.server);
+  REQUIRE(parsed.config.fps == 30);
+  REQUIRE(parsed.config.part == Part::kPlay);
+}
+
+TEST_CASE("an address, watching and looks are understood") {
+  Environment environment;
+  const Parsed parsed =
+      parse({"farm.example:7001", "--watch", "--color", "256", "--glyphs", "half", "--view", "oblique"});
+  REQUIRE_FALSE(parsed.exit_code);
+  REQUIRE(parsed.config.server == Address{"farm.example", 7001});
+  REQUIRE(parsed.config.part == Part::kWatch);
+  REQUIRE(parsed.config.color == ColorChoice::k256);
+  REQUIRE(parsed.config.glyphs == GlyphChoice::kHalfBlocks);
+  REQUIRE(parsed.config.view == View::kOblique);
+}
+
+TEST_CASE("mistakes end it with 2, one line of what and one of what to do") {
+  Environment environment;
+  const std::initializer_list<std::initializer_list<const char*>> mistakes = {
+      {"--fps", "4"},
+      {"--fps", "61"},
+      {"--fps", "fast"},
+      {"--color", "pink"},
+      {"--glyphs", "emoji"},
+      {"--nonsense"},
+      {"host:0"},
+      {"host:99999"},
+      {"host:"},
+      {":7777"},
+      {"[::1"},
+      {"--name", ""},
+      {"--name", "a name of more than 24 bytes"},
+      {"--view", "inside"}};
+  for (const auto& arguments : mistakes) {
+    const Parsed parsed = parse(arguments);
+    REQUIRE(parsed.exit_code == 2);
+    REQUIRE(parsed.output.starts_with("woodlouse: "));
+    REQUIRE(std::count(parsed.output.begin(), parsed.output.end(), '\n') == 2);
+  }
+}
+
+TEST_CASE("help and version end it with 0") {
+  Environment environment;
+  REQUIRE(parse({"--help"}).exit_code == 0);
+  REQUIRE(parse({"--help"}).output.find("--watch") != std::string::npos);
+  REQUIRE(parse({"--version"}).output == "woodlouse 0.1.0\n");
+}
+
+TEST_CASE("a bad config file is named with its field") {
+  for (const char* bad : {R"({"fps": "fast"})", R"({"fps": 99})", R"({"colour": "mono"})", R"([1])",
+                          R"({"name": )", R"({"watch": 1})", R"({"server": "h:x"})"}) {
+    Environment environment(bad);
+    const Parsed parsed = parse({});
+    REQUIRE(parsed.exit_code == 2);
+    REQUIRE(parsed.output.find("config.json") != std::string::npos);
+  }
+}
+
+TEST_CASE("addresses are read as people write them") {
+  REQUIRE(parse_address("localhost").value() == Address{"localhost", 7777});
+  REQUIRE(parse_address("[::1]:7001").value() == Address{"::1", 7001});
+  REQUIRE(parse_address("::1").value() == Address{"::1", 7777});
+  REQUIRE(parse_address("[::1]").value().text() == "[::1]:7777");
+}
+
+TEST_CASE("the terminal's hints decide the look, choices overrule them, NO_COLOR is obeyed") {
+  const auto look = [](TerminalHints hints) {
+    return choose_look(ColorChoice::kAuto, GlyphChoice::kAuto, hints);
+  };
+  REQUIRE(look({"xterm-256color", "truecolor", false, true}) ==
+          Look{ColorMode::kTruecolor, GlyphSet::kHalfBlocks});
+  REQUIRE(look({"xterm-256color", "", false, true}) == Look{ColorMode::k256, GlyphSet::kHalfBlocks});
+  REQUIRE(look({"xterm-256color", "truecolor", false, false}) ==
+          Look{ColorMode::kTruecolor, GlyphSet::kAscii});
+  REQUIRE(look({"linux", "", false, true}) == Look{ColorMode::k16, GlyphSet::kAscii});
+  REQUIRE(look({"vt100", "", false, false}) == Look{ColorMode::kMono, GlyphSet::kAscii});
+  REQUIRE(look({"xterm-256color", "truecolor", true, true}) == Look{ColorMode::kMono, GlyphSet::kAscii});
+  REQUIRE(choose_look(ColorChoice::k16, GlyphChoice::kHalfBlocks, {"xterm", "", true, true}) ==
+          Look{ColorMode::k16, GlyphSet::kHalfBlocks});
+}
+
+TEST_CASE("attempts to reconnect come later and later, but not never") {
+  for (int attempt = 1; attempt < 100; ++attempt) {
+    REQUIRE(retry_delay(attempt + 1) >= retry_delay(attempt));
+    REQUIRE(retry_delay(attempt) >= std::chrono::seconds(1));
+    REQUIRE(retry_delay(attempt) <= std::chrono::seconds(15));
+  }
+}

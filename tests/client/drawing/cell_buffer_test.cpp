@@ -1,0 +1,77 @@
+#include "client/cell_buffer.h"
+
+#include <catch2/catch.hpp>
+
+#include "client/trail.h"
+#include "client/wrapping.h"
+#include "shared/core/random.h"
+
+using namespace woodlouse;
+using namespace woodlouse::client;
+
+TEST_CASE("every byte string becomes printable code points one column wide") {
+  core::Random random(7);
+  for (int round = 0; round < 20000; ++round) {
+    std::string bytes;
+    for (std::uint64_t n = random.next() % 12; n > 0; --n) bytes.push_back(static_cast<char>(random.next()));
+    for (const char32_t c : printable(bytes, GlyphSet::kAscii)) REQUIRE((c >= 0x20 && c < 0x7F));
+    for (const char32_t c : printable(bytes, GlyphSet::kHalfBlocks)) {
+      REQUIRE((c >= 0x20 && c != 0x7F && c <= 0x4FF));
+      REQUIRE_FALSE((c > 0x7F && c < 0xA1));
+      REQUIRE_FALSE((c >= 0x300 && c < 0x370));
+    }
+  }
+}
+
+TEST_CASE("letters of Europe survive, wide and combining ones become question marks") {
+  CHECK(printable("J\u00FCrgen \u0394 \u0416", GlyphSet::kHalfBlocks) == U"J\u00FCrgen \u0394 \u0416");
+  CHECK(printable("J\u00FCrgen", GlyphSet::kAscii) == U"J?rgen");
+  CHECK(printable("\u6F22e\u0301\U0001F41B\x1b[31m", GlyphSet::kHalfBlocks) == U"?e???[31m");
+  CHECK(printable("\xC0\x80\xED\xA0\x80", GlyphSet::kHalfBlocks).find(U'\0') == std::u32string::npos);
+}
+
+TEST_CASE("a code point written as UTF-8 reads back") {
+  for (const char32_t c : {U'a', U'\u00FC', U'\u0416'}) {
+    std::string bytes;
+    append_utf8(c, bytes);
+    CHECK(printable(bytes, GlyphSet::kHalfBlocks) == std::u32string(1, c));
+  }
+}
+
+TEST_CASE("writing outside the grid changes nothing") {
+  CellBuffer cells({4, 2});
+  const CellBuffer blank = cells;
+  cells.put(-1, 0, U'x', {});
+  cells.put(4, 1, U'x', {});
+  cells.put(0, 2, U'x', {});
+  cells.fill(-3, -3, {3, 3}, {{}, Color::indexed(3), kPlain});
+  cells.text(9, 0, "hello", {});
+  CHECK(cells == blank);
+  CHECK(cells.text(2, 1, "abc", {}) == 5);
+  CHECK(cells.at(3, 1).glyph == U'b');
+  CHECK(cells.text(0, 0, "abc", {}, 2) == 2);
+  CHECK(cells.at(2, 0).glyph == U' ');
+}
+
+TEST_CASE("wrapped lines fit and keep every word") {
+  const std::u32string text = U"one two three fourteenlettersandmore five";
+  for (int width = 1; width < 50; ++width) {
+    std::u32string joined;
+    for (const std::u32string& line : wrapped(text, width)) {
+      CHECK(line.size() <= static_cast<std::size_t>(width));
+      for (const char32_t c : line)
+        if (c != U' ') joined.push_back(c);
+    }
+    CHECK(joined == U"onetwothreefourteenlettersandmorefive");
+  }
+}
+
+TEST_CASE("a trail keeps points a spacing apart and forgets on a jump") {
+  Trail trail(1.0);
+  for (int i = 0; i < 1000; ++i) trail.add({0.25 * i, 0.0});
+  REQUIRE(trail.points().size() == Trail::kPoints);
+  for (std::size_t i = 1; i < trail.points().size(); ++i)
+    CHECK(trail.points()[i].x - trail.points()[i - 1].x == Approx(1.0));
+  trail.add({-50.0, 0.0});
+  CHECK(trail.points().size() == 1);
+}

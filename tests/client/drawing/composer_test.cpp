@@ -1,0 +1,166 @@
+#include "client/compose.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "client/layout.h"
+#include "client/null_screen.h"
+#include "tests/client/drawing/staged_game.h"
+
+using namespace woodlouse;
+using namespace woodlouse::client;
+using namespace woodlouse::client::testing;
+
+namespace {
+
+std::string text_of(const Scene& scene, Size size) {
+  Composer composer;
+  CellBuffer cells(size);
+  composer.draw(scene, cells);
+  NullScreen screen;
+  screen.show(cells);
+  return screen.text();
+}
+
+std::string golden(const std::string& name) {
+  std::ifstream file(std::string(WOODLOUSE_SOURCE_DIR) + "/tests/client/drawing/golden/" + name);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// Three lice at fixed places on the volcano.
+Scene still_life() {
+  Scene scene;
+  scene.terrain = named_terrain(terrain::FunctionName::kVolcano);
+  scene.map_name = "volcano";
+  const auto add = [&](std::uint32_t id, const char* name, LouseKind kind, core::Vec2 position,
+                       core::Vec2 heading) {
+    LouseMark louse;
+    louse.id = id;
+    louse.name = name;
+    louse.kind = kind;
+    louse.is_you = id == 2;
+    louse.position = position;
+    louse.heading = heading;
+    for (int i = 8; i > 0; --i) louse.trail.push_back(position - (0.9 * i) * heading);
+    scene.lice.push_back(louse);
+    scene.scores.push_back({id, name, kind, louse.is_you, 40.0 - 7.0 * id, 2.0});
+  };
+  add(1, "ada", LouseKind::kPlayer, {-9.0, 4.0}, {0.0, 1.0});
+  add(2, "mara", LouseKind::kPlayer, {3.0, -7.0}, {1.0, 0.0});
+  add(3, "gauss", LouseKind::kBot, {12.0, 11.0}, {0.6, 0.8});
+  scene.chat = {{"ada", "on your tail"}, {"", "bot gauss joined"}};
+  scene.hud = {2.31, -17.0, 1.0, 0.4, true, 26.0, 4.2, 23.0, 60.0, 30.0, 3, 1, 2};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("the contour look at 80x24 is as it was agreed") {
+  CHECK(text_of(still_life(), {80, 24}) == golden("contour_volcano_80x24.txt"));
+}
+
+TEST_CASE("the help, the scoreboard and a lost connection are as they were agreed") {
+  Scene scene = still_life();
+  scene.mode = Mode::kHelp;
+  CHECK(text_of(scene, {80, 24}) == golden("help_80x24.txt"));
+  scene.mode = Mode::kScoreboard;
+  CHECK(text_of(scene, {60, 20}) == golden("scoreboard_60x20.txt"));
+  scene.mode = Mode::kConnectionLost;
+  scene.lost = {"connection reset by peer", 2.4, 3};
+  CHECK(text_of(scene, {80, 24}) == golden("connection_lost_80x24.txt"));
+}
+
+TEST_CASE("a terminal that is too small is told what is needed") {
+  CHECK(text_of(still_life(), {52, 14}).find("WOODLOUSE needs 60 x 20, this terminal is 52 x 14.") !=
+        std::string::npos);
+}
+
+TEST_CASE("every view, look, mode and size can be drawn") {
+  StagedGame game(named_terrain(terrain::FunctionName::kWavyPot), 5, 4);
+  Composer composer;
+  for (const Size size : {Size{0, 0}, Size{1, 1}, Size{59, 20}, Size{60, 20}, Size{80, 24}, Size{300, 20},
+                          Size{60, 90}, Size{200, 60}})
+    for (const ColorMode color : {ColorMode::kMono, ColorMode::k16, ColorMode::k256, ColorMode::kTruecolor})
+      for (const GlyphSet glyphs : {GlyphSet::kAscii, GlyphSet::kHalfBlocks})
+        for (const View view : {View::kMap, View::kOblique, View::kFollow, View::kSlope}) {
+          Scene& scene = game.scene();
+          scene.look = {color, glyphs};
+          scene.view = view;
+          scene.mode = static_cast<Mode>((size.columns + static_cast<int>(view)) % 6);
+          scene.spectating = size.columns == 60;
+          CellBuffer cells(size);
+          composer.draw(scene, cells);
+          if (size.columns >= 60 && size.rows >= 20) CHECK(cells.at(1, 0).glyph == U'W');
+        }
+}
+
+TEST_CASE("a scene without a map, lice, scores or chat can be drawn") {
+  Scene scene;
+  CHECK(text_of(scene, {80, 24}).find("waiting for the map") != std::string::npos);
+  scene.terrain = named_terrain(terrain::FunctionName::kHills);
+  scene.view = View::kFollow;
+  scene.spectating = true;
+  CHECK_FALSE(text_of(scene, {80, 24}).empty());
+}
+
+TEST_CASE("a flat map can be drawn in every view") {
+  terrain::HeightGrid grid;
+  grid.columns = grid.rows = 5;
+  grid.heights.assign(25, 3.0);
+  Scene scene = still_life();
+  scene.terrain = std::make_shared<terrain::Terrain>(terrain::BicubicSpline(grid));
+  for (const GlyphSet glyphs : {GlyphSet::kAscii, GlyphSet::kHalfBlocks})
+    for (const View view : {View::kMap, View::kOblique, View::kFollow, View::kSlope}) {
+      scene.look = {ColorMode::kTruecolor, glyphs};
+      scene.view = view;
+      CHECK_FALSE(text_of(scene, {100, 30}).empty());
+    }
+}
+
+TEST_CASE("your louse is in reverse video and drawn over the others") {
+  Scene scene = still_life();
+  for (LouseMark& louse : scene.lice) louse.position = {3.0, -7.0};
+  Composer composer;
+  CellBuffer cells({80, 24});
+  composer.draw(scene, cells);
+  int found = 0;
+  const Layout layout = layout_for(cells.size(), scene.look);
+  for (int row = layout.map.row; row < layout.map.row + layout.map.size.rows; ++row)
+    for (int column = 0; column < layout.map.size.columns; ++column)
+      if (cells.at(column, row).glyph == U'@') {
+        ++found;
+        CHECK((cells.at(column, row).style.attributes & kReverse) != 0);
+      }
+  CHECK(found == 1);
+}
+
+TEST_CASE("the map and the default view follow what the terminal can do") {
+  constexpr Look kPixels{ColorMode::kTruecolor, GlyphSet::kHalfBlocks};
+  CHECK(default_view(kPixels, {120, 36}) == View::kOblique);
+  CHECK(default_view(kPixels, {80, 24}) == View::kMap);
+  CHECK(default_view({ColorMode::k16, GlyphSet::kHalfBlocks}, {120, 36}) == View::kMap);
+  CHECK(default_view({ColorMode::kTruecolor, GlyphSet::kAscii}, {120, 36}) == View::kMap);
+}
+
+TEST_CASE("lice at impossible places are left out") {
+  const double infinity = std::numeric_limits<double>::infinity();
+  Scene scene = still_life();
+  scene.lice[0].position = {std::nan(""), 0.0};
+  scene.lice[1].position = {1e300, -infinity};
+  scene.lice[2].position = {0.0, 1e6};
+  for (const Look look :
+       {Look{ColorMode::kTruecolor, GlyphSet::kHalfBlocks}, Look{ColorMode::kMono, GlyphSet::kAscii}})
+    for (const View view : {View::kMap, View::kOblique, View::kFollow}) {
+      scene.look = look;
+      scene.view = view;
+      Scene empty = scene;
+      empty.lice.clear();
+      CHECK(text_of(scene, {100, 30}) == text_of(empty, {100, 30}));
+    }
+}

@@ -1,0 +1,79 @@
+"""What people type, and what they are told."""
+
+import json
+import os
+import tempfile
+import unittest
+
+from wire import MAPS, Server, map_file, run
+
+
+class CommandLine(unittest.TestCase):
+    def test_check_says_ok_of_every_map_that_is_shipped(self):
+        files = sorted(os.path.join(MAPS, name) for name in os.listdir(MAPS) if name.endswith(".json"))
+        self.assertGreaterEqual(len(files), 5)
+        code, printed, errors = run("check", *files)
+        self.assertEqual((code, errors), (0, ""))
+        self.assertEqual(printed.splitlines(), [file + ": ok" for file in files])
+
+    def test_check_names_file_field_and_line_of_what_is_wrong(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "bad.json")
+            with open(file, "w") as out:
+                out.write('{\n"name": "bad",\n"terrain": {"function": "volcano"},\n"physics": {"gravity": "much"}\n}\n')
+            code, printed, _ = run("check", map_file("volcano"), file)
+            self.assertEqual(code, 1)
+            self.assertIn(map_file("volcano") + ": ok", printed)
+            self.assertIn(file + ":4", printed)
+            self.assertIn("gravity", printed)
+            code, printed, _ = run("check", os.path.join(folder, "missing.json"))
+            self.assertEqual(code, 1)
+            self.assertIn("missing.json", printed)
+
+    def test_a_port_in_use_is_told_in_two_lines(self):
+        with Server() as server:
+            code, printed, errors = run("--map", map_file("volcano"), "--listen", server.address)
+            self.assertEqual((code, printed), (1, ""))
+            self.assertEqual(
+                errors.splitlines(),
+                [f"woodlouse-server: cannot listen on {server.address}: address already in use",
+                 "      another woodlouse server?   try:  woodlouse-server --listen :0   (pick a free port)"],
+            )
+
+    def test_what_cannot_start_is_told_in_one_line_of_what_and_one_of_what_to_do(self):
+        for arguments, words in (
+            ([], "--map"),
+            (["--map", "/no/such/map.json"], "/no/such/map.json"),
+            (["--map", map_file("volcano"), "--state-hz", "25"], "--state-hz"),
+            (["--map", map_file("volcano"), "--listen", "127.0.0.1:99999"], "99999"),
+            (["--map", map_file("volcano"), "--listen", "127.0.0.1:0", "--record", "/no/such/folder/f"], "/no/such/folder/f"),
+            (["verify", "/no/such/recording"], "/no/such/recording"),
+        ):
+            code, printed, errors = run(*arguments)
+            self.assertNotEqual(code, 0, arguments)
+            self.assertIn(words, errors + printed)
+            told = [line for line in (errors + printed).splitlines() if " info " not in line]
+            self.assertLessEqual(len(told), 2, told)
+
+    def test_variables_and_a_config_file_configure_it_too(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "server.json")
+            with open(file, "w") as out:
+                json.dump({"map": [map_file("hills")], "listen": "127.0.0.1:0", "ticks": 500, "bots": 1}, out)
+            environment = dict(os.environ, WOODLOUSE_TICKS="20", WOODLOUSE_CONFIG=file)
+            code, printed, errors = run("--tick-hz", "100", env=environment)
+            self.assertEqual(code, 0, errors)
+            self.assertTrue(printed.startswith("listening 127.0.0.1:"))
+            self.assertIn("hills: ticks 20,", printed)
+
+    def test_the_json_log_is_one_object_a_line(self):
+        with Server("--log-format", "json") as server, server.player('q"uote') as player:
+            player.expect("delta")
+            server.stop()
+            entries = [json.loads(line) for line in server.log().splitlines()]
+            self.assertTrue(any('q"uote' in entry["message"] for entry in entries))
+            self.assertTrue(all({"time", "level", "message"} == set(entry) for entry in entries))
+
+
+if __name__ == "__main__":
+    unittest.main()

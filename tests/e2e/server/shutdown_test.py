@@ -1,0 +1,66 @@
+"""How a server ends: told to everyone, written down, in time."""
+
+import os
+import re
+import signal
+import tempfile
+import unittest
+
+from wire import Server, run
+
+
+class Shutdown(unittest.TestCase):
+    def test_a_signal_says_bye_to_all_finishes_the_recording_and_exits_zero_within_a_second(self):
+        for by in (signal.SIGTERM, signal.SIGINT):
+            with tempfile.TemporaryDirectory() as folder:
+                file = os.path.join(folder, "game.ndjson")
+                with Server("--record", file, "--bots", "2") as server:
+                    players = [server.player(f"p{i}") for i in range(5)]
+                    watcher = server.player("eye", role="spectator")
+                    greeted = server.client()
+                    greeted.expect("hello")
+                    watcher.expect("delta")
+                    code, seconds, printed = server.stop(by)
+                    self.assertEqual(code, 0, server.log())
+                    self.assertLess(seconds, 1.0)
+                    for client in [*players, watcher, greeted]:
+                        bye = client.until_end()[-1]
+                        self.assertEqual((bye["type"], bye["code"], bye["resumable"]), ("bye", "shutdown", False))
+                        client.socket.close()
+                code, verdict, errors = run("verify", file)
+                self.assertEqual((code, verdict.split()[0]), (0, "ok"), verdict + errors)
+
+    def test_a_client_that_does_not_read_cannot_hold_up_the_exit(self):
+        with Server("--bots", "40") as server, server.client(receive_buffer=4096) as stuck:
+            stuck.join(fields="all", format="exact")
+            server.client().socket.close()
+            with server.player("steady") as steady:
+                for _ in range(60):
+                    steady.expect("delta")
+            code, seconds, _ = server.stop()
+            self.assertEqual(code, 0)
+            self.assertLess(seconds, 1.0)
+
+    def test_it_stops_after_ticks_and_prints_what_it_did(self):
+        with Server("--ticks", "120", "--bots", "1", maps=("volcano", "hills")) as server, server.player() as player:
+            self.assertEqual(player.until_end()[-1]["code"], "shutdown")
+            code, _, printed = server.finish()
+        self.assertEqual(code, 0)
+        figures = r"ticks 120, lateness p50 [0-9.]+ ms p99 [0-9.]+ ms max [0-9.]+ ms, .*clock moves \d+, frames encoded \d+"
+        for room in ("volcano", "hills"):
+            self.assertRegex(printed, room + ": " + figures)
+        self.assertGreater(int(re.search(r"volcano: .*frames encoded (\d+)", printed)[1]), 10)
+        self.assertRegex(printed, r"hills: .*frames encoded 0\n")
+        self.assertGreater(int(re.search(r"frames sent (\d+)", printed)[1]), 10)
+
+    def test_the_port_is_free_again_at_once(self):
+        with Server() as server, server.player() as player:
+            address = server.address
+            player.expect("delta")
+            server.stop()
+            with Server(listen=address) as again:
+                self.assertEqual(again.address, address)
+
+
+if __name__ == "__main__":
+    unittest.main()
