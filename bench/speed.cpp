@@ -1,0 +1,135 @@
+// What the inner loops cost: spline evaluations, louse-steps, encoded rows. Google Benchmark; how to run it and
+// what it printed where: bench/results/README.md.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "server/row_writer.h"
+#include "shared/core/random.h"
+#include "shared/core/stable_hash.h"
+#include "shared/physics/state_hash.h"
+#include "shared/physics/world.h"
+#include "shared/terrain/terrain.h"
+
+namespace {
+
+using namespace woodlouse;
+using terrain::BicubicSpline;
+using terrain::FunctionName;
+
+constexpr double kScale = 20.0;
+
+BicubicSpline volcano(std::size_t knots) {
+  return BicubicSpline(terrain::sample_function(FunctionName::kVolcano, kScale, (knots - 1) / 2));
+}
+
+/// Coherent points follow a slow walk from cell to neighbouring cell; random ones jump anywhere.
+enum class Order { kRandom, kCoherent };
+
+std::vector<core::Vec2> points(Order order) {
+  core::Random random(1);
+  std::vector<core::Vec2> result(4096);
+  core::Vec2 p;
+  for (core::Vec2& point : result) {
+    const core::Vec2 u{2 * random.uniform() - 1, 2 * random.uniform() - 1};
+    p = order == Order::kRandom ? (kScale * u) : core::Vec2{p.x + 0.01 * u.x, p.y + 0.01 * u.y};
+    point = p;
+  }
+  return result;
+}
+
+void spline_evaluation(benchmark::State& state, Order order) {
+  const BicubicSpline spline = volcano(static_cast<std::size_t>(state.range(0)));
+  const auto at = points(order);
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const core::Vec2 p = at[i++ & 4095];
+    terrain::SurfaceSample s = spline.sample(p.x, p.y);
+    benchmark::DoNotOptimize(s);
+  }
+}
+
+/// `count` lice all moving under thrust on the volcano: one iteration is one tick, its state hash included.
+void world_tick(benchmark::State& state) {
+  const auto count = static_cast<std::uint32_t>(state.range(0));
+  const auto surface = std::make_shared<const terrain::Terrain>(volcano(static_cast<std::size_t>(state.range(1))));
+  physics::World world(surface, {}, 1.0 / 60);
+  core::Random random(2);
+  const auto symmetric = [&] { return 2 * random.uniform() - 1; };
+  for (std::uint32_t id = 1; id <= count; ++id) {
+    physics::Louse louse;
+    louse.id = id;
+    louse.position = {15 * symmetric(), 15 * symmetric()};
+    louse.velocity = {2 * symmetric(), 2 * symmetric()};
+    world.insert(louse);
+  }
+  core::StableHasher hasher;
+  std::uint64_t hash = 0;
+  std::uint64_t tick = 0;
+  const auto steer = [&] {
+    for (std::uint32_t id = 1; id <= count; ++id) {
+      const double angle = 3.14159 * symmetric();
+      world.set_thrust(id, {physics::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}}, physics::kHeld);
+    }
+  };
+  steer();
+  std::uint64_t hashed = 0;
+  for (auto _ : state) {
+    if (tick % 120 == 119) {  // a new direction every two seconds, not timed
+      state.PauseTiming();
+      steer();
+      state.ResumeTiming();
+    }
+    world.step();
+    hash = physics::state_hash(hasher, {hash, 0, ++tick, 0}, world.lice());
+    hashed += count;
+  }
+  const auto& c = world.counters();
+  state.counters["louse-step"] =
+      benchmark::Counter(static_cast<double>(hashed), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["awake"] = static_cast<double>(c.louse_steps) / static_cast<double>(hashed);
+  state.counters["sub-steps"] = static_cast<double>(c.sub_steps) / static_cast<double>(c.louse_steps);
+}
+
+/// One row of the default columns, as the server writes it.
+void row_encoding(benchmark::State& state, protocol::Format format) {
+  const server::RowWriter writer({protocol::default_columns(), format});
+  const terrain::Terrain terrain{volcano(21)};
+  core::Random random(3);
+  const auto metres = [&] { return 40 * random.uniform() - 20; };
+  std::vector<physics::Louse> lice(1024);
+  for (std::size_t i = 0; i < lice.size(); ++i) {
+    lice[i].id = static_cast<std::uint32_t>(i + 1);
+    lice[i].position = {metres(), metres()};
+    lice[i].velocity = {metres(), metres()};
+  }
+  std::string text;
+  std::size_t row = 0;
+  for (auto _ : state) {
+    if (row % lice.size() == 0) text.clear();
+    writer.append(text, lice[row++ % lice.size()], terrain);
+    benchmark::DoNotOptimize(text.data());
+  }
+}
+
+void state_hash(benchmark::State& state) {
+  const std::vector<physics::Louse> lice(static_cast<std::size_t>(state.range(0)));
+  core::StableHasher hasher;
+  std::uint64_t hash = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(hash = physics::state_hash(hasher, {hash, 0, 0, 0}, lice));
+}
+
+}  // namespace
+
+BENCHMARK_CAPTURE(spline_evaluation, random, Order::kRandom)->ArgName("knots")->Arg(21)->Arg(201)->Arg(1001);
+BENCHMARK_CAPTURE(spline_evaluation, coherent, Order::kCoherent)->ArgName("knots")->Arg(21)->Arg(201)->Arg(1001);
+BENCHMARK(world_tick)->ArgNames({"lice", "knots"})->ArgsProduct({{1, 1000, 10000}, {21, 201}});
+BENCHMARK_CAPTURE(row_encoding, quantized, protocol::Format::kQuantized);
+BENCHMARK_CAPTURE(row_encoding, exact, protocol::Format::kExact);
+BENCHMARK(state_hash)->ArgName("lice")->Arg(200)->Arg(10000);
+
+BENCHMARK_MAIN();
