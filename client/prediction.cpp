@@ -10,7 +10,9 @@ namespace {
 physics::Louse louse_of(const protocol::ExactState& state) {
   physics::Louse louse;
   louse.id = state.id;
-  louse.resting = state.resting;
+  louse.phase = static_cast<physics::Phase>(state.phase);
+  louse.flight_z = state.flight_z;
+  louse.flight_vz = state.flight_vz;
   louse.position = state.position;
   louse.velocity = state.velocity;
   louse.heading = state.heading;

@@ -162,7 +162,9 @@ void Room::send_acks(std::uint64_t tick, Time begun, const std::vector<PendingAc
                                      louse->thrust,
                                      static_cast<std::uint32_t>(louse->thrust_kind),
                                      louse->thrust_ticks,
-                                     louse->resting,
+                                     static_cast<std::uint32_t>(louse->phase),
+                                     louse->flight_z,
+                                     louse->flight_vz,
                                      louse->distance};
     member->subscriber->answer(ack);
   }

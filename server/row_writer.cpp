@@ -37,7 +37,7 @@ double value(Column column, const physics::Louse& louse, const Ground& ground) {
     case Column::kVy:
       return louse.velocity.y;
     case Column::kZ:
-      return ground.sample.z;
+      return louse.phase == physics::Phase::kFlying ? louse.flight_z : ground.sample.z;
     case Column::kHeadingX:
       return louse.heading.x;
     case Column::kHeadingY:
@@ -49,7 +49,9 @@ double value(Column column, const physics::Louse& louse, const Ground& ground) {
     case Column::kRoll:
       return ground.attitude.roll;
     case Column::kSpeed: {
-      const double vz = ground.sample.zx * louse.velocity.x + ground.sample.zy * louse.velocity.y;
+      const double vz = louse.phase == physics::Phase::kFlying
+                            ? louse.flight_vz
+                            : ground.sample.zx * louse.velocity.x + ground.sample.zy * louse.velocity.y;
       return std::sqrt(core::dot(louse.velocity, louse.velocity) + vz * vz);
     }
     case Column::kTx:
@@ -60,8 +62,12 @@ double value(Column column, const physics::Louse& louse, const Ground& ground) {
       return static_cast<double>(louse.thrust_kind);
     case Column::kTicksLeft:
       return louse.thrust_ticks;
-    case Column::kResting:
-      return louse.resting;
+    case Column::kPhase:
+      return static_cast<double>(louse.phase);
+    case Column::kFlightZ:
+      return louse.flight_z;
+    case Column::kFlightVz:
+      return louse.flight_vz;
     case Column::kDistance:
       return louse.distance;
   }

@@ -64,6 +64,20 @@ void append_physics(std::string& out, const physics::Parameters& physics) {
   json::append_double(out, physics.thrust_max);
   out += ",\"edge_restitution\":";
   json::append_double(out, physics.edge_restitution);
+  // What few maps have is left out where it is the default.
+  const physics::Parameters usual;
+  if (physics.central_gravity != usual.central_gravity) {
+    out += ",\"central_gravity\":";
+    json::append_double(out, physics.central_gravity);
+  }
+  if (physics.contact != usual.contact) {
+    out += ",\"contact\":";
+    json::append_string(out, physics::to_text(physics.contact));
+  }
+  if (physics.method != usual.method) {
+    out += ",\"method\":";
+    json::append_string(out, physics::to_text(physics.method));
+  }
   out += '}';
 }
 
@@ -94,6 +108,10 @@ std::string canonical_text(const MapDefinition& definition) {
     append_pair(out, definition.spawns[k].position.x, definition.spawns[k].position.y);
     out += ",\"heading\":";
     append_pair(out, definition.spawns[k].heading.x, definition.spawns[k].heading.y);
+    if (definition.spawns[k].speed != 0.0) {
+      out += ",\"speed\":";
+      json::append_double(out, definition.spawns[k].speed);
+    }
     out += '}';
   }
   out += "]}";

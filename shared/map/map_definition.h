@@ -35,6 +35,7 @@ struct FunctionTerrain {
 struct SpawnPoint {
   core::Vec2 position;           ///< [m], inside the domain
   core::Vec2 heading{1.0, 0.0};  ///< unit vector
+  double speed = 0.0;  ///< over the map, along the heading [m/s]
 };
 
 struct MapDefinition {

@@ -17,6 +17,8 @@ constexpr Range kDrag{0.0, 100.0, "1/s"};
 constexpr Range kFriction{0.0, 10.0, ""};
 constexpr Range kThrustMax{0.0, 1000.0, "m/s^2"};
 constexpr Range kEdgeRestitution{0.0, 1.0, ""};
+constexpr Range kSpawnSpeed{0.0, 1000.0, "m/s"};
+constexpr Range kCentralGravity{0.0, 1e6, "m^3/s^2"};
 constexpr Range kDegrees{-360.0, 360.0, "degrees"};
 constexpr Range kCoordinate{-1e12, 1e12, "m"};
 constexpr Range kHeadingComponent{-1e6, 1e6, ""};
@@ -39,14 +41,33 @@ SurfaceKind read_surface(const json::Value& value, Problems& problems) {
   return SurfaceKind::kSpline;
 }
 
+/// One of the texts that `from_text` knows; `wanted` lists them.
+template <typename E, typename FromText>
+void read_choice(const Fields& fields, std::string_view key, E& out, FromText from_text, std::string wanted,
+                 Problems& problems) {
+  const auto value = fields.find(key);
+  if (!value) return;
+  const std::optional<E> found = value->is(json::Kind::kString) ? from_text(value->text()) : std::nullopt;
+  if (found) {
+    out = *found;
+  } else {
+    problems.add(*value, "is none of its choices", std::move(wanted));
+  }
+}
+
 physics::Parameters read_physics(const json::Value& value, Problems& problems) {
-  const Fields fields(value, {"gravity", "drag", "friction", "thrust_max", "edge_restitution"}, problems);
+  const Fields fields(value,
+                      {"gravity", "drag", "friction", "thrust_max", "edge_restitution", "central_gravity", "contact", "method"},
+                      problems);
   physics::Parameters result;
   result.gravity = fields.number_or("gravity", kGravity, result.gravity);
   result.drag = fields.number_or("drag", kDrag, result.drag);
   result.friction = fields.number_or("friction", kFriction, result.friction);
   result.thrust_max = fields.number_or("thrust_max", kThrustMax, result.thrust_max);
   result.edge_restitution = fields.number_or("edge_restitution", kEdgeRestitution, result.edge_restitution);
+  result.central_gravity = fields.number_or("central_gravity", kCentralGravity, result.central_gravity);
+  read_choice(fields, "contact", result.contact, physics::contact_from_text, "bilateral or unilateral", problems);
+  read_choice(fields, "method", result.method, physics::method_from_text, "standard, cheap or precise", problems);
   return result;
 }
 
@@ -79,7 +100,7 @@ std::vector<SpawnPoint> read_spawns(const json::Value& value, const terrain::Rec
     return result;
   }
   for (const json::Value& point : points) {
-    const Fields fields(point, {"position", "heading"}, problems);
+    const Fields fields(point, {"position", "heading", "speed"}, problems);
     SpawnPoint spawn;
     if (const auto position = fields.demand("position", "[x, y] in metres")) {
       spawn.position =
@@ -92,6 +113,7 @@ std::vector<SpawnPoint> read_spawns(const json::Value& value, const terrain::Rec
       }
     }
     if (const auto heading = fields.find("heading")) spawn.heading = read_heading(*heading, problems);
+    spawn.speed = fields.number_or("speed", kSpawnSpeed, spawn.speed);
     result.push_back(spawn);
     if (problems.is_full()) break;
   }

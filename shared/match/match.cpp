@@ -45,6 +45,7 @@ void Match::spawn(PlayerId player, double distance) {
   louse.id = player;
   louse.position = point.position;
   louse.heading = point.heading;
+  louse.velocity = point.speed * point.heading;
   louse.distance = distance;
   world_.insert(louse);
 }

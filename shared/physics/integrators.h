@@ -11,7 +11,6 @@
 #pragma once
 
 #include "shared/physics/nystrom.h"
-#include "shared/terrain/surface.h"
 
 namespace woodlouse::physics {
 
@@ -67,7 +66,7 @@ struct VerletQ4 {
       const double k = 0.5 * part * h;
       const core::Vec2 half = at.velocity + k * a;
       at.position += (part * h) * half;
-      const terrain::SurfaceSample s = field.sample(at.position);
+      const auto s = field.sample(at.position);
       at.velocity = field.kick(s, half, k);
       a = field.accelerate(s, at.velocity);
     }
@@ -102,7 +101,7 @@ struct Nystrom4 {
   [[gnu::always_inline]] inline StepResult step(const Start& start, const Field& field, double h) const {
     return {nystrom4(
                 start.at, start.acceleration, h, [&](core::Vec2 x) { return field.sample(x); },
-                [&](const terrain::SurfaceSample& s, core::Vec2 v) { return field.accelerate(s, v); }),
+                [&](const auto& s, core::Vec2 v) { return field.accelerate(s, v); }),
             h};
   }
 };

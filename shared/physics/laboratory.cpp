@@ -41,7 +41,7 @@ class Compiled final : public LaboratoryStepper {
   void advance(std::span<Louse> lice, StepCounters& counters) const override {
     const Stepper<std::remove_cvref_t<S>, F, E, I> stepper(surface_, parameters_, walls_, tick_);
     for (Louse& louse : lice) {
-      if (louse.resting == 0) stepper.advance(louse, counters);
+      if (louse.phase != Phase::kResting) stepper.advance(louse, counters);
     }
   }
 
@@ -60,6 +60,9 @@ struct Choice {
 
 template <typename S, typename E, typename I>
 std::unique_ptr<LaboratoryStepper> with_forces(S surface, const Choice& c) {
+  if (c.parameters.central_gravity > 0.0) {
+    return std::make_unique<Compiled<S, Forces<true, true, true, true>, E, I>>(surface, c.parameters, c.walls, c.tick);
+  }
   // Friction asks for more than arithmetic (stops, sub-steps): it is compiled out where there is none.
   if (c.parameters.friction > 0.0) {
     return std::make_unique<Compiled<S, Forces<true, true, true>, E, I>>(surface, c.parameters, c.walls, c.tick);

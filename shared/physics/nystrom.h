@@ -28,11 +28,11 @@ template <typename T, typename Sample, typename Accelerate>
   const Pair<T> v = start.velocity;
   const T half = T(0.5) * h;
   const Pair<T> x2 = x + half * v + (T(0.5) * half * half) * a1;
-  const terrain::BasicSurfaceSample<T> s2 = sample(x2);
+  const auto s2 = sample(x2);
   const Pair<T> a2 = accelerate(s2, v + half * a1);
   const Pair<T> a3 = accelerate(s2, v + half * a2);
   const Pair<T> x4 = x + h * v + (h * half) * a3;
-  const terrain::BasicSurfaceSample<T> s4 = sample(x4);
+  const auto s4 = sample(x4);
   const Pair<T> a4 = accelerate(s4, v + h * a3);
   const T sixth = h * T(1.0 / 6.0);
   return {x + h * v + (h * sixth) * (a1 + a2 + a3), v + sixth * (a1 + T(2.0) * (a2 + a3) + a4)};

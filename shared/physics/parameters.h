@@ -1,7 +1,42 @@
 // What a map says about its physics, per unit mass.
 #pragma once
 
+#include <optional>
+#include <string_view>
+
 namespace woodlouse::physics {
+
+/// Whether a louse can leave the surface.
+enum class SurfaceContact {
+  kBilateral,   ///< a bead on a wire: it never does, friction takes |N|
+  kUnilateral,  ///< where N would be negative it flies, and lands (flight.h)
+};
+
+/// How a tick is integrated (integrators.h, precise.h); the error and cost of each are in docs/physics.md.
+enum class Method {
+  kStandard,  ///< Nystrom-4: the best accuracy for its time
+  kCheap,     ///< Verlet-Q: one surface call, order 2, no energy trend
+  kPrecise,   ///< Nystrom-4 split at the spline's knot lines: order 4 across cells
+};
+
+constexpr std::string_view to_text(SurfaceContact contact) {
+  return contact == SurfaceContact::kUnilateral ? "unilateral" : "bilateral";
+}
+constexpr std::string_view to_text(Method method) {
+  return method == Method::kCheap ? "cheap" : method == Method::kPrecise ? "precise" : "standard";
+}
+constexpr std::optional<SurfaceContact> contact_from_text(std::string_view text) {
+  for (const SurfaceContact contact : {SurfaceContact::kBilateral, SurfaceContact::kUnilateral}) {
+    if (to_text(contact) == text) return contact;
+  }
+  return std::nullopt;
+}
+constexpr std::optional<Method> method_from_text(std::string_view text) {
+  for (const Method method : {Method::kStandard, Method::kCheap, Method::kPrecise}) {
+    if (to_text(method) == text) return method;
+  }
+  return std::nullopt;
+}
 
 struct Parameters {
   double gravity = 9.81;           ///< g [m/s^2], >= 0
@@ -9,6 +44,10 @@ struct Parameters {
   double friction = 0.05;          ///< Coulomb coefficient mu [1], >= 0; 0 costs nothing
   double thrust_max = 4.0;         ///< acceleration of a thrust of 1 [m/s^2], >= 0; 0 costs nothing
   double edge_restitution = 0.5;   ///< walls at the domain's edge: 0 no bounce .. 1 elastic
+
+  double central_gravity = 0.0;    ///< pull towards the map's origin, k / r^2 [m^3/s^2], >= 0 (chapter 2.3); 0 costs nothing
+  SurfaceContact contact = SurfaceContact::kBilateral;
+  Method method = Method::kStandard;
 
   friend bool operator==(const Parameters&, const Parameters&) = default;
 };

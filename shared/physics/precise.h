@@ -26,8 +26,8 @@ class Precise {
       return Nystrom4{}.step(start, field, h);  // no cells: nothing to split
     } else {
       if (!known_) cell_ = spline.cell_at(start.at.position.x, start.at.position.y);
-      const auto sample = [&](core::Vec2 x) { return spline.sample_in(cell_, x.x, x.y); };
-      const auto accelerate = [&](const terrain::SurfaceSample& s, core::Vec2 v) { return field.accelerate(s, v); };
+      const auto sample = [&](core::Vec2 x) { return field.at(spline.sample_in(cell_, x.x, x.y), x); };
+      const auto accelerate = [&](const auto& s, core::Vec2 v) { return field.accelerate(s, v); };
       const auto run = [&](double t) { return nystrom4(start.at, start.acceleration, t, sample, accelerate); };
       Motion end = run(h);
       const Exit exit = first_exit(spline.bounds(cell_), start.at, end, h);

@@ -4,7 +4,7 @@
 //         hash(n-1)        8 bytes
 //         inputs           8 bytes   XXH64 over the inputs applied in step n-1 -> n, in the order applied
 //         tick n           8 bytes
-//         lice             88 bytes each, by ascending id, as in louse.h
+//         lice             104 bytes each, by ascending id, as in louse.h
 //         generator        8 bytes   the match's random state
 // Chained, so that an altered input shows even where it moved nothing.
 #pragma once

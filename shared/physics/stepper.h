@@ -8,12 +8,17 @@
 // Where it can't hold, it slows, turns and goes on; only when v and a are exactly opposite is v = 0 passed, by
 // splitting the sub-step there.
 //
+// Flight: on a unilateral map the moment at which the normal force ends is located within the sub-step; from there
+// the louse flies (flight.h).
+//
 // Walls: the crossing is located within the sub-step, the louse bounces and the rest of the tick goes on; after
 // kMaxBounces in a tick it keeps no outward velocity and slides.
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
+#include "shared/physics/flight.h"
 #include "shared/physics/integrators.h"
 #include "shared/physics/sub_step_rules.h"
 #include "shared/physics/surface_motion.h"
@@ -38,7 +43,8 @@ class Stepper {
         tick_(tick),
         shortest_(tick / kMaxSubSteps),
         wall_tolerance_(1e-13 * (walls.x_max - walls.x_min + walls.y_max - walls.y_min)),
-        rules_(parameters, surface.cell(), tick) {}
+        rules_(parameters, surface.cell(), tick),
+        unilateral_(E::kExact && parameters.contact == SurfaceContact::kUnilateral) {}
 
   /// Moves the louse through one tick. Its thrust is not counted down here.
   void advance(Louse& louse, StepCounters& counters) const {
@@ -55,10 +61,14 @@ class Stepper {
         ++counters.capped;
         break;
       }
+      if (louse.phase == Phase::kFlying) {
+        remaining -= fly(louse, at, remaining, counters);
+        continue;
+      }
       Start start = begin(at, drive, bounces, counters);
       at = start.at;
       if (kRules && start.speed2 == 0.0 && !set_off(start, louse.heading, drive)) {
-        louse.resting = 1;
+        louse.phase = Phase::kResting;
         break;
       }
       const double speed = std::sqrt(start.speed2);
@@ -79,7 +89,7 @@ class Stepper {
           remaining -= time;
           integrator = I{};
           if (halt == Halt::kTurnsBack) continue;
-          louse.resting = 1;
+          louse.phase = Phase::kResting;
           ++counters.stops;
           break;
         }
@@ -99,6 +109,13 @@ class Stepper {
         end.position = on_wall(end.position);
       }
       if constexpr (requires { integrator.accept(leaves); }) integrator.accept(leaves || capped);
+      if (unilateral_ && takes_off(start, field, integrator, h, end)) {
+        const Flight flight = taken_off(surface_.sample(end.position.x, end.position.y), end);
+        louse.phase = Phase::kFlying;
+        louse.flight_z = flight.height;
+        louse.flight_vz = flight.climb;
+        ++counters.flights;
+      }
       louse.distance += h * speed;
       remaining = h == remaining ? 0.0 : remaining - h;
       at = end;
@@ -110,11 +127,11 @@ class Stepper {
 
   /// Whether friction, brake and walls hold this louse where it is. False while it moves.
   [[nodiscard]] bool holds(const Louse& louse) const {
-    if (louse.velocity != core::Vec2{}) return false;
+    if (louse.phase == Phase::kFlying || louse.velocity != core::Vec2{}) return false;
     const Drive drive = drive_of(louse);
     Start start;
     start.at = {louse.position, {}};
-    start.sample = surface_.sample(louse.position.x, louse.position.y);
+    start.sample = site(louse.position);
     start.contact = touching(walls_, louse.position);
     return is_held(start, balance(start, louse.heading, drive));
   }
@@ -125,10 +142,26 @@ class Stepper {
   static constexpr int kMaxBounces = 8;
   static constexpr int kMaxPieces = 2048;  // sub-steps, impacts and stops of one tick, whatever happens
 
+  /// A surface sample that knows the central pull there.
+  struct Pulled : terrain::SurfaceSample {
+    core::Vec2 pull;
+  };
+  using Site = std::conditional_t<F::central, Pulled, terrain::SurfaceSample>;
+
+  [[nodiscard, gnu::always_inline]] inline Site site_of(const terrain::SurfaceSample& s, core::Vec2 x) const {
+    if constexpr (F::central) {
+      return {s, -central_pull(x, parameters_.central_gravity) * x};
+    } else {
+      return s;
+    }
+  }
+
+  [[nodiscard, gnu::always_inline]] inline Site site(core::Vec2 x) const { return site_of(surface_.sample(x.x, x.y), x); }
+
   /// What a sub-step knows of its start.
   struct Start {
     Motion at;
-    terrain::SurfaceSample sample;
+    Site sample;
     core::Vec2 acceleration;
     double speed2 = 0.0;  ///< |v|3^2
     Contact contact;      ///< the walls it may lean on: no velocity along their normals
@@ -149,23 +182,36 @@ class Stepper {
     const Drive& drive;
 
     [[nodiscard]] const S& surface() const { return stepper.surface_; }
-    [[nodiscard, gnu::always_inline]] inline terrain::SurfaceSample sample(core::Vec2 x) const {
-      return stepper.surface_.sample(x.x, x.y);
+    [[nodiscard, gnu::always_inline]] inline Site sample(core::Vec2 x) const { return stepper.site(x); }
+    /// The same for a sample that was taken otherwise.
+    [[nodiscard, gnu::always_inline]] inline Site at(const terrain::SurfaceSample& s, core::Vec2 x) const {
+      return stepper.site_of(s, x);
     }
-    [[nodiscard, gnu::always_inline]] inline core::Vec2 accelerate(const terrain::SurfaceSample& s, core::Vec2 v) const {
+    [[nodiscard, gnu::always_inline]] inline core::Vec2 accelerate(const Site& s, core::Vec2 v) const {
       return stepper.accelerate(s, v, drive, start.contact);
     }
-    [[nodiscard]] core::Vec2 kick(const terrain::SurfaceSample& s, core::Vec2 v, double k) const
+    [[nodiscard]] core::Vec2 kick(const Site& s, core::Vec2 v, double k) const
       requires E::kExact
     {
-      const core::Vec2 kicked = implicit_kick<F>(s, v, k, drive, stepper.parameters_);
+      const core::Vec2 kicked = implicit_kick<F>(s, v, k, stepper.drive_at(s, drive), stepper.parameters_);
       return start.contact.any() ? bounced(s, start.contact, kicked, 0.0) : kicked;
     }
   };
 
-  [[nodiscard, gnu::always_inline]] inline core::Vec2 accelerate(const terrain::SurfaceSample& s, core::Vec2 v,
-                                                                 const Drive& drive, Contact contact) const {
-    const core::Vec2 a = E::template acceleration<F>(s, v, drive, parameters_);
+  /// The drive with the site's pull in it.
+  [[nodiscard, gnu::always_inline]] static inline decltype(auto) drive_at(const Site& s, const Drive& drive) {
+    if constexpr (F::central) {
+      Drive pulled = drive;
+      pulled.pull = s.pull;
+      return pulled;
+    } else {
+      return (drive);
+    }
+  }
+
+  [[nodiscard, gnu::always_inline]] inline core::Vec2 accelerate(const Site& s, core::Vec2 v, const Drive& drive,
+                                                                 Contact contact) const {
+    const core::Vec2 a = E::template acceleration<F>(s, v, drive_at(s, drive), parameters_);
     return contact.any() ? supported(s, contact, a) : a;
   }
 
@@ -173,7 +219,7 @@ class Stepper {
   Start begin(const Motion& at, const Drive& drive, int& bounces, StepCounters& counters) const {
     Start start;
     start.at = at;
-    start.sample = surface_.sample(at.position.x, at.position.y);
+    start.sample = site(at.position);
     start.contact = touching(walls_, at.position);
     if (start.contact.any()) {
       core::Vec2& v = start.at.velocity;
@@ -192,7 +238,7 @@ class Stepper {
   }
 
   [[nodiscard]] RestingBalance balance(const Start& start, core::Vec2 heading, const Drive& drive) const {
-    RestingBalance b = resting_balance<F>(start.sample, heading, drive, parameters_);
+    RestingBalance b = resting_balance<F>(start.sample, heading, drive_at(start.sample, drive), parameters_);
     if (start.contact.any()) b.pull = supported(start.sample, start.contact, b.pull);
     return b;
   }
@@ -211,6 +257,9 @@ class Stepper {
   }
 
   [[nodiscard]] bool is_too_long(const Start& start, double h) const {
+    if constexpr (F::central) {
+      if (SubStepRules::swings_too_far(central_pull(start.at.position, parameters_.central_gravity), h)) return true;
+    }
     return rules_.too_long(start.sample, start.speed2, h);
   }
 
@@ -242,6 +291,44 @@ class Stepper {
     if (is_held(start, balance(start, heading, drive))) return Halt::kRests;
     const double a2 = squared_length_in_space(start.sample, start.acceleration);
     return a2 - rate * rate <= 1e-12 * a2 ? Halt::kTurnsBack : Halt::kNo;
+  }
+
+  /// Whether the normal force ends within the sub-step; then h and end become those of that moment.
+  bool takes_off(const Start& start, const Field& field, I& integrator, double& h, Motion& end) const {
+    const auto load = [&](const Motion& m) {
+      return lift(surface_.sample(m.position.x, m.position.y), m.velocity, parameters_);
+    };
+    if (!(load(end) < 0.0)) return false;
+    double low = 0.0;
+    double high = h;
+    if (!(lift(start.sample, start.at.velocity, parameters_) > 0.0)) high = 0.0;  // it is due at once
+    for (int i = 0; i < 50 && high > 0.0; ++i) {
+      const double middle = 0.5 * (low + high);
+      (load(integrator.step(start, field, middle).end) < 0.0 ? high : low) = middle;
+    }
+    end = high > 0.0 ? integrator.step(start, field, high).end : start.at;
+    h = high;
+    return true;
+  }
+
+  /// One piece of a flight; the time it took.
+  double fly(Louse& louse, Motion& at, double remaining, StepCounters& counters) const {
+    Flight flight{at, louse.flight_z, louse.flight_vz};
+    const double speed = std::sqrt(dot(at.velocity, at.velocity) + louse.flight_vz * louse.flight_vz);
+    const auto piece = Flyer<S>(surface_, parameters_, walls_, tick_).fly(flight, remaining);
+    ++counters.sub_steps;
+    if (piece.bounced) ++counters.bounces;
+    louse.distance += piece.time * speed;
+    at = flight.over;
+    louse.flight_z = flight.height;
+    louse.flight_vz = flight.climb;
+    if (piece.landed) {
+      at.position = inside_walls(at.position);
+      at.velocity = landed_velocity(surface_.sample(at.position.x, at.position.y), flight);
+      louse.phase = Phase::kMoving;
+      louse.flight_z = louse.flight_vz = 0.0;
+    }
+    return piece.time < remaining ? piece.time : remaining;
   }
 
   /// How far a state lies outside the walls [m] (negative: inside), and how fast it goes on outwards.
@@ -310,6 +397,7 @@ class Stepper {
   double shortest_;
   double wall_tolerance_;
   SubStepRules rules_;
+  bool unilateral_;
 };
 
 }  // namespace woodlouse::physics

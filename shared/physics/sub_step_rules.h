@@ -28,6 +28,9 @@ class SubStepRules {
            (way2 * T(inverse_cell2_) > T(1.0)) | (h > T(longest_));
   }
 
+  /// The same for a force of that stiffness [1/s^2] (central gravity: k / r^3).
+  [[nodiscard]] static bool swings_too_far(double stiffness, double h) { return h * h * stiffness > kSwing * kSwing; }
+
   /// Whether v may turn too far within h; only where some force turns with v.
   template <typename T>
   [[gnu::always_inline, nodiscard]] static inline auto turns_too_far(T acceleration2, T speed2, T h) {

@@ -3,6 +3,8 @@
 // G = (zx, zy) gradient, H Hessian, v map-plane velocity, vz = G.v, |v|3^2 = v.v + vz^2, w^2 = 1 + |G|^2:
 //     s = (g + v'Hv) / w^2,   N = s w                          normal force, centripetal term included
 //     a = -s G - (d + mu |N| / |v|3) v + f h / |h|3            gravity and curvature, drag, friction, thrust
+// Another force F in the map plane adds F - G (G.F) / w^2 to a and (G.F) / w to N: central gravity, F = -k x / r^3
+// (chapter 2.3), k / r^2 inside of kCoreRadius growing linearly from 0 instead.
 // with h the unit map direction of the thrust and |h|3^2 = 1 + (G.h)^2: a push f along the tangent over h.
 // From the Lagrangian of chapter 1.1 of the document with its two errors put right (the factors of Cramer's
 // rule, and v'Hv, which a local plane has not); tangential forces need no matrix, the mass matrix cancels.
@@ -28,8 +30,9 @@ using core::Pair;
 using terrain::BasicSurfaceSample;
 
 /// Which forces a map has; what it has not is compiled out.
-template <bool kDrag, bool kFriction, bool kThrust>
+template <bool kDrag, bool kFriction, bool kThrust, bool kCentral = false>
 struct Forces {
+  static constexpr bool central = kCentral;
   static constexpr bool drag = kDrag;
   static constexpr bool friction = kFriction;
   static constexpr bool thrust = kThrust;
@@ -37,12 +40,23 @@ struct Forces {
   static constexpr bool singular = kFriction || kThrust;
 };
 
+inline constexpr double kCoreRadius = 1e-3;  ///< [m]
+
+/// k / r^3 at a point: F = -(this) x.
+inline double central_pull(core::Vec2 x, double k) {
+  const double r2 = dot(x, x);
+  const double core2 = kCoreRadius * kCoreRadius;
+  const double outside2 = r2 > core2 ? r2 : core2;
+  return k / (outside2 * core::square_root(outside2));
+}
+
 /// A louse's thrust made ready for the equations, once per tick.
 template <typename T>
 struct BasicDrive {
   Pair<T> direction{1.0, 0.0};  ///< h of a map vector, unit
   T push = 0.0;                 ///< along h [m/s^2], >= 0
   T along = 0.0;                ///< along v [m/s^2]; negative brakes
+  Pair<T> pull{};               ///< central gravity where the louse is [m/s^2]; only with Forces::central
 };
 using Drive = BasicDrive<double>;
 
@@ -55,7 +69,8 @@ template <typename T>
   const T inverse = T(1.0) / length;
   return {{select(pushes, inverse * thrust.x, T(1.0)), select(pushes, inverse * thrust.y, T(0.0))},
           length * T(thrust_max),
-          T(0.0)};
+          T(0.0),
+          {}};
 }
 
 inline Drive drive_of(const Louse& louse, double thrust_max) {
@@ -83,6 +98,13 @@ template <typename T>
   return (push / core::square_root(squared_length_in_space(s, direction))) * direction;
 }
 
+/// The part of a map-plane force that acts along the surface: F - G (G.F) / w^2.
+template <typename T>
+[[gnu::always_inline]] inline Pair<T> along_surface(const BasicSurfaceSample<T>& s, Pair<T> force, T w2) {
+  const T share = (s.zx * force.x + s.zy * force.y) / w2;
+  return {force.x - share * s.zx, force.y - share * s.zy};
+}
+
 /// a at velocity v; at v = 0 without friction and drive along the heading (see resting_balance).
 template <typename F, typename T>
 [[gnu::always_inline]] inline Pair<T> acceleration(const BasicSurfaceSample<T>& s, Pair<T> v, const BasicDrive<T>& drive,
@@ -92,12 +114,17 @@ template <typename F, typename T>
   const T lift = T(p.gravity) + curvature_along(s, v);
   const T s_factor = lift / w2;
   Pair<T> a{-s_factor * s.zx, -s_factor * s.zy};
+  T load = lift;  // N w
+  if constexpr (F::central) {
+    a += along_surface(s, drive.pull, w2);
+    load = load + s.zx * drive.pull.x + s.zy * drive.pull.y;
+  }
   if constexpr (F::drag) a = a - T(p.drag) * v;
   if constexpr (F::singular) {
     const T speed2 = squared_length_in_space(s, v);
     T resistance = 0.0;
-    // mu |N| / |v|3 with N = lift / w: one root serves both lengths.
-    if constexpr (F::friction) resistance = T(p.friction) * magnitude(lift) / square_root(w2 * speed2);
+    // mu |N| / |v|3 with N = load / w: one root serves both lengths.
+    if constexpr (F::friction) resistance = T(p.friction) * magnitude(load) / square_root(w2 * speed2);
     if constexpr (F::thrust) {
       if (any(drive.along != T(0.0))) resistance = resistance - drive.along / square_root(speed2);
     }
@@ -137,6 +164,11 @@ core::Vec2 implicit_kick(const terrain::SurfaceSample& s, core::Vec2 v, double k
   if constexpr (F::thrust) {
     if (drive.push > 0.0) u += k * push_over_tangent(s, drive.direction, drive.push);
   }
+  double extra_load = 0.0;
+  if constexpr (F::central) {
+    u += k * along_surface(s, drive.pull, w2);
+    extra_load = s.zx * drive.pull.x + s.zy * drive.pull.y;
+  }
   const double g_h_g = curvature_along(s, gradient);
   const double g_h_u = (s.zxx * gradient.x + s.zxy * gradient.y) * u.x + (s.zxy * gradient.x + s.zyy * gradient.y) * u.y;
   const double u_h_u = curvature_along(s, u);
@@ -147,7 +179,7 @@ core::Vec2 implicit_kick(const terrain::SurfaceSample& s, core::Vec2 v, double k
       const double speed2 = squared_length_in_space(s, result);
       if (speed2 > 0.0) {
         if constexpr (F::friction) {
-          resistance += p.friction * core::magnitude(p.gravity + curvature_along(s, result)) / core::square_root(w2 * speed2);
+          resistance += p.friction * core::magnitude(p.gravity + extra_load + curvature_along(s, result)) / core::square_root(w2 * speed2);
         }
         if constexpr (F::thrust) resistance -= drive.along / core::square_root(speed2);
       }
@@ -175,7 +207,12 @@ RestingBalance resting_balance(const terrain::SurfaceSample& s, core::Vec2 headi
   const double w2 = 1.0 + s.zx * s.zx + s.zy * s.zy;
   RestingBalance balance;
   balance.pull = {-p.gravity / w2 * s.zx, -p.gravity / w2 * s.zy};
-  if constexpr (F::friction) balance.hold = p.friction * p.gravity / core::square_root(w2);
+  double load = p.gravity;
+  if constexpr (F::central) {
+    balance.pull += along_surface(s, drive.pull, w2);
+    load += s.zx * drive.pull.x + s.zy * drive.pull.y;
+  }
+  if constexpr (F::friction) balance.hold = p.friction * core::magnitude(load) / core::square_root(w2);
   if constexpr (F::thrust) {
     if (drive.push > 0.0) balance.pull += push_over_tangent(s, drive.direction, drive.push);
     if (drive.along > 0.0) balance.pull += push_over_tangent(s, heading, drive.along);

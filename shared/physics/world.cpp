@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "shared/physics/precise.h"
 #include "shared/physics/stepper.h"
 
 namespace woodlouse::physics {
@@ -14,6 +15,7 @@ namespace {
 /// Calls use(Forces<...>{}) with the forces these parameters have.
 template <typename Use>
 void with_forces(const Parameters& p, const Use& use) {
+  if (p.central_gravity > 0.0) return use(Forces<true, true, true, true>{});  // what is 0 of the others does nothing
   const auto choose_thrust = [&]<bool kDrag, bool kFriction>() {
     p.thrust_max > 0.0 ? use(Forces<kDrag, kFriction, true>{}) : use(Forces<kDrag, kFriction, false>{});
   };
@@ -24,9 +26,22 @@ void with_forces(const Parameters& p, const Use& use) {
   p.drag > 0.0 ? choose_friction.template operator()<true>() : choose_friction.template operator()<false>();
 }
 
+/// The same with fewer choices, for methods that are rarely run: only friction, which has rules of its own, is
+/// compiled out.
+template <typename Use>
+void with_main_forces(const Parameters& p, const Use& use) {
+  if (p.central_gravity > 0.0) return use(Forces<true, true, true, true>{});
+  p.friction > 0.0 ? use(Forces<true, true, true>{}) : use(Forces<true, false, true>{});
+}
+
 /// A resting louse is visited only while its thrust has an end.
 bool must_be_visited(const Louse& louse) {
-  return louse.resting == 0 || (louse.thrust_ticks != 0 && louse.thrust_ticks != kHeld);
+  return louse.phase != Phase::kResting || (louse.thrust_ticks != 0 && louse.thrust_ticks != kHeld);
+}
+
+template <typename Stepper>
+Phase phase_of(const Stepper& stepper, const Louse& louse) {
+  return stepper.holds(louse) ? Phase::kResting : Phase::kMoving;
 }
 
 void clear_thrust(Louse& louse) {
@@ -49,7 +64,8 @@ World::World(std::shared_ptr<const terrain::Terrain> terrain, const Parameters& 
 
 void World::use(InstructionSet set) {
   assert(is_available(set));
-  const bool has_lanes = std::holds_alternative<terrain::BicubicSpline>(terrain_->surface());
+  // Flight, central gravity and the other methods are not in the lanes.
+  const bool has_lanes = parameters_.method == Method::kStandard && parameters_.contact == SurfaceContact::kBilateral && !(parameters_.central_gravity > 0.0) && std::holds_alternative<terrain::BicubicSpline>(terrain_->surface());
   batch_ = has_lanes ? find_batch_step(set, parameters_.drag > 0.0, parameters_.friction > 0.0, parameters_.thrust_max > 0.0)
                      : BatchStep{};
 }
@@ -58,6 +74,16 @@ template <typename Use>
 void World::with_stepper(const Use& use) const {
   std::visit(
       [&]<terrain::Surface S>(const S& surface) {
+        const auto with_method = [&]<typename I>(I) {
+          with_main_forces(parameters_, [&]<typename F>(F) {
+            use(Stepper<S, F, SurfaceEquations, I>(surface, parameters_, walls_, step_));
+          });
+        };
+        switch (parameters_.method) {
+          case Method::kCheap: return with_method(VerletQ{});
+          case Method::kPrecise: return with_method(Precise{});
+          case Method::kStandard: break;
+        }
         with_forces(parameters_, [&]<typename F>(F) { use(Stepper<S, F>(surface, parameters_, walls_, step_)); });
       },
       terrain_->surface());
@@ -80,7 +106,7 @@ BatchContext World::batch_context() const {
 }
 
 void World::settle(Louse& louse) {
-  with_stepper([&](const auto& stepper) { louse.resting = stepper.holds(louse) ? 1 : 0; });
+  with_stepper([&](const auto& stepper) { louse.phase = phase_of(stepper, louse); });
 }
 
 void World::insert(const Louse& louse) {
@@ -90,7 +116,7 @@ void World::insert(const Louse& louse) {
   Louse& placed = *lice_.insert(at, louse);
   placed.position.x = std::clamp(placed.position.x, walls_.x_min, walls_.x_max);
   placed.position.y = std::clamp(placed.position.y, walls_.y_min, walls_.y_max);
-  settle(placed);
+  if (placed.phase != Phase::kFlying) settle(placed);
   awake_is_stale_ = true;
 }
 
@@ -111,7 +137,7 @@ bool World::set_thrust(LouseId id, const Thrust& thrust, std::uint32_t ticks) {
   louse.thrust_kind = thrust.kind;
   louse.thrust_ticks = ticks;
   if (thrust.kind == ThrustKind::kNone || ticks == 0) clear_thrust(louse);
-  if (louse.resting != 0) settle(louse);
+  if (louse.phase == Phase::kResting) settle(louse);
   if (must_be_visited(louse) != was_visited) awake_is_stale_ = true;
   return true;
 }
@@ -131,7 +157,7 @@ void World::advance_all(const Stepper& stepper) {
   const auto width = batch_.width;
   if (width == 0) {
     for (const std::uint32_t index : awake_) {
-      if (lice_[index].resting == 0) stepper.advance(lice_[index], counters_);
+      if (lice_[index].phase != Phase::kResting) stepper.advance(lice_[index], counters_);
     }
     return;
   }
@@ -148,7 +174,7 @@ void World::advance_all(const Stepper& stepper) {
     filled = 0;
   };
   for (const std::uint32_t index : awake_) {
-    if (lice_[index].resting != 0) continue;
+    if (lice_[index].phase == Phase::kResting) continue;
     lanes[static_cast<std::size_t>(filled++)] = &lice_[index];
     if (filled == width) flush(batch_.advance(context, lanes.data()));
   }
@@ -165,7 +191,7 @@ void World::step() {
       Louse& louse = lice_[index];
       if (louse.thrust_ticks != 0 && louse.thrust_ticks != kHeld && --louse.thrust_ticks == 0) {
         clear_thrust(louse);
-        if (louse.resting != 0) louse.resting = stepper.holds(louse) ? 1 : 0;
+        if (louse.phase == Phase::kResting) louse.phase = phase_of(stepper, louse);
       }
       changed |= !must_be_visited(louse);
     }

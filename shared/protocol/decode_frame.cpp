@@ -9,7 +9,7 @@ using Decoded = tl::expected<ServerMessage, DecodeError>;
 
 bool holds_integers(Column column) {
   return column == Column::kId || column == Column::kThrustKind || column == Column::kTicksLeft ||
-         column == Column::kResting;
+         column == Column::kPhase;
 }
 
 /// The cell's number, still in quanta; nothing when it is not what the column and format want.

@@ -144,7 +144,9 @@ Decoded read_ack(FieldReader& reader, const Context&) {
     you.pair("thrust", state.thrust);
     you.integer("thrust_kind", state.thrust_kind, {0, 2});
     you.integer("thrust_ticks", state.thrust_ticks, kAnyUint32);
-    you.integer("resting", state.resting, {0, 1});
+    you.integer("phase", state.phase, {0, 2});
+    you.number("flight_z", state.flight_z);
+    you.number("flight_vz", state.flight_vz);
     you.number("distance", state.distance);
     ack.you = state;
   }, Presence::kOptional);

@@ -68,7 +68,8 @@ std::string line_of(const Ack& ack) {
       you.number("vx", ack.you->velocity.x).number("vy", ack.you->velocity.y);
       you.pair("heading", ack.you->heading).pair("thrust", ack.you->thrust);
       you.integer("thrust_kind", ack.you->thrust_kind).integer("thrust_ticks", ack.you->thrust_ticks);
-      you.integer("resting", ack.you->resting).number("distance", ack.you->distance);
+      you.integer("phase", ack.you->phase).number("flight_z", ack.you->flight_z).number("flight_vz", ack.you->flight_vz);
+      you.number("distance", ack.you->distance);
     });
   }
   return std::move(text).line();

@@ -28,7 +28,9 @@ constexpr std::array<ColumnEntry, kColumnCount> kColumns = {{
     {"ty", kThrustQuantum},
     {"thrust_kind", 1.0},
     {"ticks_left", 1.0},
-    {"resting", 1.0},
+    {"phase", 1.0},
+    {"flight_z", 0x1p-10},
+    {"flight_vz", 0x1p-10},
     {"distance", 0x1p-7},
 }};
 
@@ -58,8 +60,8 @@ const std::vector<Column>& default_columns() {
 
 const std::vector<Column>& all_columns() {
   static const std::vector<Column> columns = {
-      Column::kId, Column::kResting, Column::kX, Column::kY, Column::kVx, Column::kVy, Column::kHeadingX,
-      Column::kHeadingY, Column::kTx, Column::kTy, Column::kDistance, Column::kThrustKind, Column::kTicksLeft};
+      Column::kId, Column::kPhase, Column::kX, Column::kY, Column::kVx, Column::kVy, Column::kHeadingX,
+      Column::kHeadingY, Column::kTx, Column::kTy, Column::kFlightZ, Column::kFlightVz, Column::kDistance, Column::kThrustKind, Column::kTicksLeft};
   return columns;
 }
 

@@ -33,13 +33,13 @@ inline constexpr double kThrustQuantum = 1.0 / 128.0;
 /// A column of a row; the names on the wire are to_text()'s. See docs/protocol.md for units and quanta.
 enum class Column : std::uint8_t {
   kId, kX, kY, kVx, kVy, kZ, kHeadingX, kHeadingY, kYaw, kPitch, kRoll, kSpeed,
-  kTx, kTy, kThrustKind, kTicksLeft, kResting, kDistance,
+  kTx, kTy, kThrustKind, kTicksLeft, kPhase, kFlightZ, kFlightVz, kDistance,
 };
-inline constexpr std::size_t kColumnCount = 18;
+inline constexpr std::size_t kColumnCount = 20;
 
 std::string_view to_text(Column column);
 std::optional<Column> column_from_text(std::string_view text);
-/// Quantized rows carry integers, multiples of this; 1 for id, thrust_kind, ticks_left, resting.
+/// Quantized rows carry integers, multiples of this; 1 for id, thrust_kind, ticks_left, phase.
 double quantum(Column column);
 
 /// `id x y vx vy`, what a row has unless asked otherwise.
@@ -169,7 +169,8 @@ struct ExactState {
   std::uint64_t tick = 0;              ///< it is the state before this step
   std::uint32_t id = 0;
   core::Vec2 position, velocity, heading, thrust;
-  std::uint32_t thrust_kind = 0, thrust_ticks = 0, resting = 0;
+  std::uint32_t thrust_kind = 0, thrust_ticks = 0, phase = 0;
+  double flight_z = 0.0, flight_vz = 0.0;
   double distance = 0.0;
   friend bool operator==(const ExactState&, const ExactState&) = default;
 };

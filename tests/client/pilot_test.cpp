@@ -106,7 +106,9 @@ Report drive(const Line& line) {
                                                louse.thrust,
                                                static_cast<std::uint32_t>(louse.thrust_kind),
                                                louse.thrust_ticks,
-                                               louse.resting,
+                                               static_cast<std::uint32_t>(louse.phase),
+                                               louse.flight_z,
+                                               louse.flight_vz,
                                                louse.distance};
         answers.push_back({delayed(now, line.down_ms, last_down), ack->second});
         waiting.erase(ack);

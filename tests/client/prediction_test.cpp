@@ -42,7 +42,9 @@ protocol::ExactState exact(const physics::Louse& louse, std::uint64_t tick) {
   state.thrust = louse.thrust;
   state.thrust_kind = static_cast<std::uint32_t>(louse.thrust_kind);
   state.thrust_ticks = louse.thrust_ticks;
-  state.resting = louse.resting;
+  state.phase = static_cast<std::uint32_t>(louse.phase);
+  state.flight_z = louse.flight_z;
+  state.flight_vz = louse.flight_vz;
   state.distance = louse.distance;
   return state;
 }

@@ -98,7 +98,7 @@ TEST_CASE("on an incline a louse stops after v^2 / (2 g (mu cos a -+ sin a)), an
       const double angle = std::atan(slope);
       const Louse end = tests::run<Rough>(plane, p, moving({}, {direction * 1.5 * std::cos(angle), 0}), 60, 60000).louse;
       const double stop = 2.25 / (2 * g * (0.05 * std::cos(angle) + direction * std::sin(angle)));
-      CHECK(end.resting == 1);
+      CHECK(end.phase == Phase::kResting);
       CHECK(std::fabs(end.position.x) / std::cos(angle) == Approx(stop).epsilon(1e-11));
     }
   }
@@ -109,7 +109,7 @@ TEST_CASE("on an incline a louse stops after v^2 / (2 g (mu cos a -+ sin a)), an
   const double back = g * (std::sin(a) - 0.05 * std::cos(a));
   const Louse end = tests::run<Rough>(steep, p, moving({}, {1.5 * std::cos(a), 0}), 60, 600).louse;
   const double slid = 10.0 - 1.5 / deceleration;
-  CHECK(end.resting == 0);
+  CHECK(end.phase == Phase::kMoving);
   CHECK(end.position.x / std::cos(a) == Approx(1.125 / deceleration - 0.5 * back * slid * slid).epsilon(1e-10));
 }
 
@@ -126,14 +126,14 @@ TEST_CASE("started across an incline of tan a = mu, |v| + v_down is constant and
   });
   CHECK(worst < 1e-6);
   CHECK(-run.louse.velocity.x * w == Approx(1.0).epsilon(1e-6));
-  CHECK(run.louse.resting == 0);
+  CHECK(run.louse.phase == Phase::kMoving);
 }
 
 TEST_CASE("on the flat, drag and friction stop a louse at the closed form's time and place") {
   const tests::Plane plane;
   const Parameters p{.gravity = 9.81, .drag = 0.2, .friction = 0.05};
   const auto run = tests::run<RoughInAir>(plane, p, moving({}, {1.5, 0}), 60, 6000);
-  CHECK(run.louse.resting == 1);
+  CHECK(run.louse.phase == Phase::kResting);
   CHECK(run.louse.position.x == Approx(1.64783986914).margin(1e-9));
   CHECK(static_cast<double>(run.counters.louse_steps) == std::ceil(2.38620188822 * 60));
 }

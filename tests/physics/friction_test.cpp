@@ -42,9 +42,9 @@ TEST_CASE("pushed below the threshold at each of a million ticks, a louse moves 
     const double tx = random.uniform() - 0.5, ty = random.uniform() - 0.5;
     louse.thrust = {tx, ty};
     louse.thrust_kind = ThrustKind::kMapVector;
-    louse.resting = 0;  // so that sleeping can't hide it
+    louse.phase = Phase::kMoving;  // so that sleeping can't hide it
     stepper.advance(louse, counters);
-    if (louse.resting != 1) break;
+    if (louse.phase != Phase::kResting) break;
   }
   CHECK(counters.louse_steps == 1'000'000);
   CHECK(louse.position == core::Vec2{0.3, -0.7});
@@ -58,11 +58,11 @@ TEST_CASE("a louse is not put to sleep at a pendulum's turning point") {
   const auto run = tests::run<Forces<false, true, false>>(bowl, p, moving({0.8, 0}, {}), 60, 60000, tests::kNowhere,
                                                           [&](const Louse& l) {
     // It may only rest where the slope is below mu.
-    if (l.resting == 1 && std::hypot(l.position.x, l.position.y) > 0.02) slept_early = true;
+    if (l.phase == Phase::kResting && std::hypot(l.position.x, l.position.y) > 0.02) slept_early = true;
     return true;
   });
   CHECK_FALSE(slept_early);
-  CHECK(run.louse.resting == 1);
+  CHECK(run.louse.phase == Phase::kResting);
 }
 
 TEST_CASE("friction and drag never add energy, on any function, at any rate") {
@@ -95,7 +95,7 @@ TEST_CASE("a brake holds on a slope where there is no friction, and never revers
   louse.thrust_kind = ThrustKind::kAlongHeading;
   louse.thrust = {-1.0, 0.0};
   const auto run = tests::run<Forces<false, false, true>>(plane, p, louse, 60, 6000);
-  CHECK(run.louse.resting == 1);
+  CHECK(run.louse.phase == Phase::kResting);
   CHECK(run.louse.velocity == core::Vec2{});
 }
 
@@ -118,17 +118,17 @@ TEST_CASE("a thrust above the threshold wakes a resting louse, its end lets it s
   Louse louse;
   louse.id = 3;
   world.insert(louse);
-  CHECK(world.find(3)->resting == 1);
+  CHECK(world.find(3)->phase == Phase::kResting);
   world.set_thrust(3, {ThrustKind::kMapVector, {0.1, 0.0}}, kHeld);  // 0.4 < mu g
   world.step();
-  CHECK(world.find(3)->resting == 1);
+  CHECK(world.find(3)->phase == Phase::kResting);
   CHECK(world.counters().louse_steps == 0);
   world.set_thrust(3, {ThrustKind::kMapVector, {0.5, 0.0}}, 30);
   for (int i = 0; i < 30; ++i) world.step();
-  CHECK(world.find(3)->resting == 0);
+  CHECK(world.find(3)->phase == Phase::kMoving);
   CHECK(world.find(3)->thrust_kind == ThrustKind::kNone);
   for (int i = 0; i < 6000; ++i) world.step();
-  CHECK(world.find(3)->resting == 1);
+  CHECK(world.find(3)->phase == Phase::kResting);
   CHECK(world.find(3)->velocity == core::Vec2{});
 }
 
@@ -142,10 +142,10 @@ TEST_CASE("a held thrust that keeps a louse on a slope lets it go when it ends")
   louse.thrust_kind = ThrustKind::kMapVector;
   louse.thrust_ticks = 10;
   world.insert(louse);
-  CHECK(world.find(1)->resting == 1);
+  CHECK(world.find(1)->phase == Phase::kResting);
   for (int i = 0; i < 10; ++i) world.step();
   CHECK(world.find(1)->position == core::Vec2{4.0, 0.0});
-  CHECK(world.find(1)->resting == 0);
+  CHECK(world.find(1)->phase == Phase::kMoving);
   for (int i = 0; i < 10; ++i) world.step();
   CHECK(world.find(1)->position.x < 4.0);
 }

@@ -55,7 +55,7 @@ TEST_CASE("rest positions under friction meet the reference to 1e-5 at 60 Hz") {
     const double error = std::hypot(end.louse.position.x - table.number(row, "x_rest"),
                                     end.louse.position.y - table.number(row, "y_rest"));
     INFO("row " << row);
-    CHECK(end.louse.resting == 1);
+    CHECK(end.louse.phase == Phase::kResting);
     CHECK(error < 1e-5);
   }
 }

@@ -102,7 +102,7 @@ TEST_CASE("pressed into a corner, a louse comes to rest and moves no more") {
   const terrain::Rectangle walls{-1, -1, 1, 1};
   const Parameters p{.gravity = 9.81, .drag = 0.2, .friction = 0.05, .edge_restitution = 0.5};
   const auto run = tests::run<Forces<true, true, false>>(plane, p, moving({0, 0}, {}), 60, 6000, walls, [](const Louse&) { return true; });
-  CHECK(run.louse.resting == 1);
+  CHECK(run.louse.phase == Phase::kResting);
   CHECK(run.louse.position == core::Vec2{1.0, 1.0});
 }
 

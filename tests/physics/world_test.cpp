@@ -1,6 +1,7 @@
 #include "shared/physics/world.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstring>
 #include <memory>
 
@@ -77,7 +78,7 @@ TEST_CASE("resting lice are not stepped") {
     world.insert(louse);
   }
   for (int i = 0; i < 600; ++i) world.step();
-  for (const Louse& louse : world.lice()) REQUIRE(louse.resting == 1);
+  for (const Louse& louse : world.lice()) REQUIRE(louse.phase == Phase::kResting);
   const auto steps = world.counters().louse_steps;
   for (int i = 0; i < 100; ++i) world.step();
   CHECK(world.counters().louse_steps == steps);
@@ -108,4 +109,25 @@ TEST_CASE("the distance travelled is the length of the path in space") {
   world.insert(louse);
   for (int i = 0; i < 60; ++i) world.step();
   CHECK(world.find(1)->distance == Approx(5.0).epsilon(1e-12));
+}
+
+TEST_CASE("every method steps the same game: cheap near standard, precise nearer") {
+  const auto end = [](Method method, double rate) {
+    World world(volcano(), {.friction = 0.0, .method = method}, 1.0 / rate);
+    Louse louse;
+    louse.id = 1;
+    louse.position = {12.0, 0.0};
+    louse.velocity = {0.0, 6.0};
+    world.insert(louse);
+    for (int i = 0; i < static_cast<int>(4 * rate); ++i) world.step();
+    return world.find(1)->position;
+  };
+  const core::Vec2 exact = end(Method::kPrecise, 1920);
+  const auto error = [&](Method method) {
+    const core::Vec2 e = end(method, 60) - exact;
+    return std::sqrt(dot(e, e));
+  };
+  CHECK(error(Method::kCheap) < 0.05);
+  CHECK(error(Method::kStandard) < 0.1 * error(Method::kCheap));
+  CHECK(error(Method::kPrecise) < error(Method::kStandard));
 }

@@ -232,17 +232,17 @@ TEST_CASE("every field of a step is checked, with line and field") {
 
 TEST_CASE("every field of a keyframe, a chat and an end is checked") {
   const std::string columns =
-      "\"columns\":[\"id\",\"resting\",\"x\",\"y\",\"vx\",\"vy\",\"heading_x\",\"heading_y\",\"tx\",\"ty\","
-      "\"distance\","
+      "\"columns\":[\"id\",\"phase\",\"x\",\"y\",\"vx\",\"vy\",\"heading_x\",\"heading_y\",\"tx\",\"ty\","
+      "\"flight_z\",\"flight_vz\",\"distance\","
       "\"thrust_kind\",\"ticks_left\"],";
   const auto keyframe_error = [&](const std::string& lice) {
     return error_of("{\"keyframe\":60," + columns + "\"lice\":[" + lice + "]}\n");
   };
-  CHECK(keyframe_error("[1,0,0,0,0,0,1,0,0,0,0,0,0]") == "no error");
-  CHECK(keyframe_error("[1,0,0,0,0,0,1,0,0,0,0,0]").find("r:1: lice[0]: a row of 13") == 0);
-  CHECK(keyframe_error("[1,0,0,0,0,0,1,0,0,0,0,3,0]").find("r:1: lice[0][11]: 3 is out of range") == 0);
-  CHECK(keyframe_error("[1,0,null,0,0,0,1,0,0,0,0,0,0]").find("r:1: lice[0][2]: a number is wanted") == 0);
-  CHECK(keyframe_error("[2,0,0,0,0,0,1,0,0,0,0,0,0],[2,0,0,0,0,0,1,0,0,0,0,0,0]")
+  CHECK(keyframe_error("[1,0,0,0,0,0,1,0,0,0,0,0,0,0,0]") == "no error");
+  CHECK(keyframe_error("[1,0,0,0,0,0,1,0,0,0,0,0,0,0]").find("r:1: lice[0]: a row of 15") == 0);
+  CHECK(keyframe_error("[1,0,0,0,0,0,1,0,0,0,0,0,0,3,0]").find("r:1: lice[0][13]: 3 is out of range") == 0);
+  CHECK(keyframe_error("[1,0,null,0,0,0,1,0,0,0,0,0,0,0,0]").find("r:1: lice[0][2]: a number is wanted") == 0);
+  CHECK(keyframe_error("[2,0,0,0,0,0,1,0,0,0,0,0,0,0,0],[2,0,0,0,0,0,1,0,0,0,0,0,0,0,0]")
             .find("r:1: lice[1]: does not follow") == 0);
   CHECK(error_of("{\"keyframe\":60,\"columns\":[\"id\"],\"lice\":[]}\n")
             .find("r:1: columns: are not the columns") == 0);

@@ -123,14 +123,16 @@ TEST_CASE("a key of all columns in exact format recomputes the state hash") {
     const double* v = &decoded.values[i * decoded.columns];
     physics::Louse louse;
     louse.id = static_cast<std::uint32_t>(v[0]);
-    louse.resting = static_cast<std::uint32_t>(v[1]);
+    louse.phase = static_cast<physics::Phase>(static_cast<std::uint32_t>(v[1]));
     louse.position = {v[2], v[3]};
     louse.velocity = {v[4], v[5]};
     louse.heading = {v[6], v[7]};
     louse.thrust = {v[8], v[9]};
-    louse.distance = v[10];
-    louse.thrust_kind = static_cast<physics::ThrustKind>(static_cast<std::uint32_t>(v[11]));
-    louse.thrust_ticks = static_cast<std::uint32_t>(v[12]);
+    louse.flight_z = v[10];
+    louse.flight_vz = v[11];
+    louse.distance = v[12];
+    louse.thrust_kind = static_cast<physics::ThrustKind>(static_cast<std::uint32_t>(v[13]));
+    louse.thrust_ticks = static_cast<std::uint32_t>(v[14]);
     lice.push_back(louse);
   }
   CHECK(decoded.hash == physics::state_hash(hasher, scenery.link, lice));

@@ -43,7 +43,8 @@ class Scenery {
     const auto number = [this] { return 20.0 * (2.0 * random.uniform() - 1.0); };
     physics::Louse one;
     one.id = next_id_++;
-    one.resting = static_cast<std::uint32_t>(random.next() % 2);
+    one.phase = static_cast<physics::Phase>(random.next() % 3);
+    if (one.phase == physics::Phase::kFlying) one.flight_z = number(), one.flight_vz = number();
     one.position = {number(), number()};
     one.velocity = {number(), number()};
     const double angle = number();
@@ -64,7 +65,8 @@ inline std::vector<double> values(const physics::Louse& louse, const std::vector
   using protocol::Column;
   const auto ground = terrain.sample(louse.position.x, louse.position.y);
   const physics::Attitude attitude = physics::attitude(louse.heading, {ground.zx, ground.zy});
-  const double vz = ground.zx * louse.velocity.x + ground.zy * louse.velocity.y;
+  const double vz = louse.phase == physics::Phase::kFlying ? louse.flight_vz
+                                                           : ground.zx * louse.velocity.x + ground.zy * louse.velocity.y;
   std::vector<double> row;
   for (const Column column : columns) {
     switch (column) {
@@ -84,7 +86,7 @@ inline std::vector<double> values(const physics::Louse& louse, const std::vector
         row.push_back(louse.velocity.y);
         break;
       case Column::kZ:
-        row.push_back(ground.z);
+        row.push_back(louse.phase == physics::Phase::kFlying ? louse.flight_z : ground.z);
         break;
       case Column::kHeadingX:
         row.push_back(louse.heading.x);
@@ -116,8 +118,14 @@ inline std::vector<double> values(const physics::Louse& louse, const std::vector
       case Column::kTicksLeft:
         row.push_back(louse.thrust_ticks);
         break;
-      case Column::kResting:
-        row.push_back(louse.resting);
+      case Column::kPhase:
+        row.push_back(static_cast<double>(louse.phase));
+        break;
+      case Column::kFlightZ:
+        row.push_back(louse.flight_z);
+        break;
+      case Column::kFlightVz:
+        row.push_back(louse.flight_vz);
         break;
       case Column::kDistance:
         row.push_back(louse.distance);

@@ -18,7 +18,7 @@ Run run(const S& surface, const physics::Parameters& parameters, physics::Louse 
         const terrain::Rectangle& walls, const Watch& watch) {
   Run result;
   const physics::Stepper<S, F> stepper(surface, parameters, walls, 1.0 / rate);
-  for (long i = 0; i < ticks && louse.resting == 0; ++i) {
+  for (long i = 0; i < ticks && louse.phase != physics::Phase::kResting; ++i) {
     stepper.advance(louse, result.counters);
     if (!watch(louse)) break;
   }

@@ -79,6 +79,7 @@ class Play(unittest.TestCase):
 
     def test_inputs_that_cannot_be_taken_are_answered_with_the_reason(self):
         with Server() as server, server.player() as player:
+            player.expect("delta")  # tick 1 is past by then
             player.send({"type": "input", "seq": 5, "thrust": 1})
             tick = player.expect("ack", seq=5)["tick"]
             player.send({"type": "input", "seq": 5, "thrust": 1})

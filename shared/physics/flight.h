@@ -1,0 +1,124 @@
+// A louse in the air: unilateral contact.
+//
+// Where the surface curves away so fast that it would have to pull (N < 0, that is v'Hv < -g), a louse on a
+// unilateral map leaves it and flies the exact parabola
+//     x = x0 + v t,   z = z0 + vz t - g t^2 / 2
+// without drag and thrust, until z <= h(x, y). Landing takes the velocity's part along the surface's normal
+// n = (-G, 1) / w and leaves the rest: v' = v + vn G / w in the map plane, vn = (vz - G.v) / w < 0.
+// Walls reach up to the sky: there the map-plane velocity's normal part is turned and multiplied by the
+// restitution.
+//
+// The landing is looked for in pieces of at most a quarter cell of way (a 32nd of the tick where there are no
+// cells) and located to rounding by bisection: a ridge thinner than a piece can be flown through.
+#pragma once
+
+#include <cmath>
+
+#include "shared/physics/nystrom.h"
+#include "shared/physics/parameters.h"
+#include "shared/physics/surface_motion.h"
+#include "shared/physics/walls.h"
+#include "shared/terrain/surface.h"
+
+namespace woodlouse::physics {
+
+/// A motion that has left the surface.
+struct Flight {
+  Motion over;          ///< the map-plane part
+  double height = 0.0;  ///< z [m]
+  double climb = 0.0;   ///< dz/dt [m/s]
+};
+
+/// g + v'Hv: the normal force's sign; below 0 a unilateral contact ends.
+inline double lift(const terrain::SurfaceSample& s, core::Vec2 v, const Parameters& p) {
+  return p.gravity + curvature_along(s, v);
+}
+
+/// The flight that begins where a motion on the surface ends.
+inline Flight taken_off(const terrain::SurfaceSample& s, const Motion& from) {
+  return {from, s.z, s.zx * from.velocity.x + s.zy * from.velocity.y};
+}
+
+/// What a landing leaves of the velocity, over the map.
+inline core::Vec2 landed_velocity(const terrain::SurfaceSample& s, const Flight& flight) {
+  const double w2 = 1.0 + s.zx * s.zx + s.zy * s.zy;
+  const core::Vec2 v = flight.over.velocity;
+  const double along_normal = (flight.climb - s.zx * v.x - s.zy * v.y) / w2;  // vn / w
+  return {v.x + along_normal * s.zx, v.y + along_normal * s.zy};
+}
+
+template <terrain::Surface S>
+class Flyer {
+ public:
+  Flyer(const S& surface, const Parameters& parameters, const terrain::Rectangle& walls, double tick)
+      : surface_(surface), parameters_(parameters), walls_(walls), longest_(tick / 32.0) {}
+
+  struct Piece {
+    double time = 0.0;    ///< [s], > 0
+    bool landed = false;  ///< the flight is at the ground: take landed_velocity there
+    bool bounced = false; ///< off a wall
+  };
+
+  /// Flies on for at most `remaining` seconds, up to a landing, a wall or the end of a piece.
+  Piece fly(Flight& flight, double remaining) const {
+    core::Vec2& v = flight.over.velocity;
+    double time = remaining < longest_ ? remaining : longest_;
+    const double speed = std::sqrt(dot(v, v));
+    if (const double quarter = 0.25 * surface_.cell(); speed * time > quarter) time = quarter / speed;
+    const double to_x = to_wall(flight.over.position.x, v.x, walls_.x_min, walls_.x_max);
+    const double to_y = to_wall(flight.over.position.y, v.y, walls_.y_min, walls_.y_max);
+    const bool meets_x = to_x <= time;
+    if (meets_x) time = to_x;
+    const bool meets_y = to_y <= time;
+    if (meets_y) time = to_y;
+
+    Flight end = after(flight, time);
+    Piece piece{time, false, false};
+    if (clearance(end) <= 0.0) {
+      double low = 0.0;
+      double high = time;
+      if (clearance(flight) > 0.0) {  // else it never rose: it touches where the piece ends
+        for (int i = 0; i < 60; ++i) {
+          const double middle = 0.5 * (low + high);
+          (clearance(after(flight, middle)) > 0.0 ? low : high) = middle;
+        }
+      }
+      flight = after(flight, high);
+      return {high, true, false};
+    }
+    flight = end;
+    const double e = parameters_.edge_restitution;
+    if (meets_y) {
+      flight.over.position.y = v.y > 0.0 ? walls_.y_max : walls_.y_min;
+      v.y = -e * v.y;
+    } else if (meets_x) {
+      flight.over.position.x = v.x > 0.0 ? walls_.x_max : walls_.x_min;
+      v.x = -e * v.x;
+    }
+    piece.bounced = meets_x || meets_y;
+    return piece;
+  }
+
+ private:
+  [[nodiscard]] static double to_wall(double at, double speed, double low, double high) {
+    if (speed > 0.0) return (high - at) / speed;
+    if (speed < 0.0) return (low - at) / speed;
+    return 1e300;
+  }
+
+  [[nodiscard]] Flight after(const Flight& f, double t) const {
+    const double g = parameters_.gravity;
+    return {{f.over.position + t * f.over.velocity, f.over.velocity}, f.height + t * f.climb - 0.5 * g * t * t, f.climb - g * t};
+  }
+
+  [[nodiscard]] double clearance(const Flight& f) const {
+    return f.height - surface_.sample(f.over.position.x, f.over.position.y).z;
+  }
+
+  const S& surface_;
+  const Parameters& parameters_;
+  terrain::Rectangle walls_;
+  double longest_;
+};
+
+}  // namespace woodlouse::physics
