@@ -1,0 +1,179 @@
+#include "bench/lab/precision_integrators.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <sstream>
+#include <vector>
+
+#include "bench/lab/motion.h"
+#include "bench/lab/progress.h"
+#include "bench/lab/race.h"
+#include "bench/lab/reference_motion.h"
+#include "shared/core/random.h"
+#include "shared/physics/laboratory.h"
+
+namespace woodlouse::lab {
+namespace {
+
+using physics::Integrator;
+
+constexpr double kSeconds = 10.0;
+
+struct Ground {
+  std::string name;
+  terrain::AnySurface surface;
+};
+
+/// Gravity and curvature alone: the hardest case for energy and phase, and one with a reference to 1e-13.
+physics::Parameters free_motion() { return {9.81, 0.0, 0.0, 0.0, 1.0}; }
+
+/// Where and how fast the measured lice start: well inside, at speeds that keep them there.
+std::vector<physics::Motion> starts(Effort effort) {
+  core::Random random(3);
+  const auto symmetric = [&](double size) { return size * (2.0 * random.uniform() - 1.0); };
+  std::vector<physics::Motion> result{{{0.8, 0.0}, {0.0, 1.5}}};
+  const std::size_t count = effort == Effort::kQuick ? 3 : 9;
+  while (result.size() < count) result.push_back({{symmetric(0.6), symmetric(0.6)}, {symmetric(1.0), symmetric(1.0)}});
+  return result;
+}
+
+std::vector<Ground> grounds(terrain::FunctionName function) {
+  std::vector<Ground> result;
+  result.push_back({"function", terrain::FunctionSurface(function, 1.0)});
+  for (const std::size_t grid : {10u, 100u}) {
+    result.push_back({"spline " + std::to_string(2 * grid + 1),
+                      terrain::BicubicSpline(terrain::sample_function(function, 1.0, grid))});
+  }
+  return result;
+}
+
+physics::Motion reference_end(const terrain::AnySurface& surface, const physics::Motion& start, double h) {
+  if (const auto* spline = std::get_if<terrain::BicubicSpline>(&surface)) {
+    return reference_motion(*spline, start, kSeconds, h, free_motion());
+  }
+  return reference_motion(std::get<terrain::FunctionSurface>(surface), start, kSeconds, h, free_motion());
+}
+
+double distance(core::Vec2 a, core::Vec2 b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+struct Measured {
+  Integrator integrator;
+  double rate;
+  double median_error, worst_error, sub_steps;
+};
+
+/// The errors after kSeconds of all starts.
+core::Expected<Measured> measure(const Ground& ground, Integrator integrator, double rate,
+                                 const std::vector<physics::Motion>& from, const std::vector<physics::Motion>& ends) {
+  const auto stepper =
+      physics::make_stepper(ground.surface, physics::Equations::kSurface, integrator, free_motion(), kNowhere, 1.0 / rate);
+  if (!stepper) return tl::unexpected(stepper.error());
+  std::vector<double> errors;
+  physics::StepCounters counters;
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    physics::Louse louse = louse_at(from[i].position, from[i].velocity);
+    for (long tick = 0; tick < std::lround(kSeconds * rate); ++tick) (*stepper)->advance({&louse, 1}, counters);
+    const double error = distance(louse.position, ends[i].position);
+    errors.push_back(std::isfinite(error) ? error : 1e300);
+  }
+  std::sort(errors.begin(), errors.end());
+  return Measured{integrator, rate, errors[errors.size() / 2], errors.back(),
+                  static_cast<double>(counters.sub_steps) / static_cast<double>(counters.louse_steps)};
+}
+
+/// One simulated second of all starts, over and over.
+core::Expected<Contestant> runner(const Ground& ground, const Measured& m, const std::vector<physics::Motion>& from) {
+  auto stepper = physics::make_stepper(ground.surface, physics::Equations::kSurface, m.integrator, free_motion(),
+                                       kNowhere, 1.0 / m.rate);
+  if (!stepper) return tl::unexpected(stepper.error());
+  const auto run = [shared = std::shared_ptr<const physics::LaboratoryStepper>(std::move(*stepper)), &from,
+                    ticks = std::lround(m.rate)] {
+    physics::StepCounters counters;
+    for (const physics::Motion& start : from) {
+      physics::Louse louse = louse_at(start.position, start.velocity);
+      for (long tick = 0; tick < ticks; ++tick) shared->advance({&louse, 1}, counters);
+      keep(louse);
+    }
+  };
+  return Contestant{std::string(to_text(m.integrator)), run, static_cast<double>(from.size())};
+}
+
+std::string picture(const Table& table, const std::vector<Ground>& all) {
+  std::ostringstream script;
+  script << "set logscale xy\nset format x '10^{%L}'\nset format y '10^{%L}'\nset grid\nset key left bottom font ',9'\n"
+         << "set xlabel 'ns per simulated second'\nset ylabel 'position error after 10 s [m]'\nset yrange [1e-14:10]\n"
+         << "set multiplot layout 1," << all.size() << "\nset xrange [1e3:1e7]\n";
+  for (const Ground& ground : all) {
+    std::ostringstream plots;
+    std::size_t index = 0;
+    for (const Integrator integrator : physics::kIntegrators) {
+      const std::string block = "$d" + std::to_string(index);
+      script << block << " << EOD\n";
+      for (const auto& row : table.rows()) {
+        if (std::get<std::string>(row[0]) != ground.name || std::get<std::string>(row[1]) != to_text(integrator)) continue;
+        if (std::get<double>(row[6]) < 10.0) script << std::get<double>(row[4]) << ' ' << std::max(std::get<double>(row[6]), 1e-14) << '\n';
+      }
+      script << "EOD\n";
+      plots << (index == 0 ? "plot " : ", ") << block << " with linespoints lw 1.5 pt " << index + 4 << " ps 0.6 title '"
+            << to_text(integrator) << "' noenhanced";
+      ++index;
+    }
+    script << "set title '" << ground.name << "' noenhanced\n" << plots.str() << '\n';
+  }
+  return script.str() + "unset multiplot\n";
+}
+
+}  // namespace
+
+core::Expected<void> measure_integrators(terrain::FunctionName function, const Output& output) {
+  const Effort effort = output.effort();
+  const std::vector<Ground> all = grounds(function);
+  const std::vector<physics::Motion> from = starts(effort);
+  const std::vector<double> rates =
+      effort == Effort::kQuick ? std::vector<double>{60, 240} : std::vector<double>{15, 30, 60, 120, 240, 480, 960};
+  const double h = effort == Effort::kQuick ? 1.0 / 1000 : 1.0 / 2000;
+  Table table({"surface", "integrator", "rate", "sub_steps", "ns_per_second", "ns_best", "error_median", "error_worst", "reference_uncertainty"});
+  for (const Ground& ground : all) {
+    std::vector<physics::Motion> ends;
+    double uncertainty = 0.0;
+    {
+      Progress progress("reference on " + ground.name, from.size());
+      for (const physics::Motion& start : from) {
+        ends.push_back(reference_end(ground.surface, start, h));
+        uncertainty = std::fmax(uncertainty, distance(ends.back().position, reference_end(ground.surface, start, 2 * h).position));
+        progress.advance();
+      }
+    }
+    std::vector<Measured> measured;
+    std::vector<Contestant> contestants;
+    {
+      Progress progress("errors on " + ground.name, physics::kIntegrators.size() * rates.size());
+      for (const Integrator integrator : physics::kIntegrators) {
+        for (const double rate : rates) {
+          auto one = measure(ground, integrator, rate, from, ends);
+          if (!one) return tl::unexpected(one.error());
+          auto contestant = runner(ground, *one, from);
+          if (!contestant) return tl::unexpected(contestant.error());
+          measured.push_back(*one);
+          contestants.push_back(std::move(*contestant));
+          progress.advance();
+        }
+      }
+    }
+    const std::vector<Timing> times = race(contestants, effort, "times on " + ground.name);
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+      const Measured& m = measured[i];
+      table.add({ground.name, std::string(to_text(m.integrator)), m.rate, m.sub_steps, times[i].median_ns,
+                 times[i].best_ns, m.median_error, m.worst_error, uncertainty});
+    }
+  }
+  std::cout << "Integrators on " << to_text(function) << ", gravity and curvature alone, " << kSeconds << " s, "
+            << from.size() << " starts; reference_uncertainty: what halving the reference's step changes\n";
+  table.print(std::cout);
+  if (auto done = output.write(table, "lab-precision-integrators"); !done) return done;
+  return output.draw(picture(table, all), "lab-precision-integrators", 1500, 560);
+}
+
+}  // namespace woodlouse::lab

@@ -1,0 +1,11 @@
+// Every integrator at every rate: ns per simulated second against the position's error.
+#pragma once
+
+#include "bench/lab/output.h"
+#include "shared/terrain/function_surface.h"
+
+namespace woodlouse::lab {
+
+core::Expected<void> measure_integrators(terrain::FunctionName function, const Output& output);
+
+}  // namespace woodlouse::lab
