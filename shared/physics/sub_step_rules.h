@@ -41,7 +41,7 @@ class SubStepRules {
   static constexpr double kBend = 0.15;
   static constexpr double kSwing = 0.20;
   static constexpr double kDecay = 0.25;
-  static constexpr double kTurn = 0.25;
+  static constexpr double kTurn = 0.10;
 
   double longest_;
   double inverse_cell2_;
