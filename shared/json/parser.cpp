@@ -30,7 +30,6 @@ struct CountedCharacter {
     return before;
   }
   friend bool operator==(const CountedCharacter& a, const CountedCharacter& b) { return a.at == b.at; }
-  friend bool operator!=(const CountedCharacter& a, const CountedCharacter& b) { return a.at != b.at; }
 };
 
 bool is_of_number(char c) {
