@@ -52,6 +52,18 @@ TEST_CASE("a radial swing in the bowl has the period 4 E(-4 a^2 A^2) / sqrt(2 g 
   CHECK(end.position.y == 0.0);
 }
 
+TEST_CASE("in a cycloid the period is 4 pi sqrt(R / g) at any amplitude") {
+  const tests::CycloidGutter cycloid;
+  const double period = 4 * 3.14159265358979323846 * std::sqrt(1.0 / 9.81);
+  constexpr long kTicks = 1200;
+  for (const double amplitude : {0.2, 1.0, 1.9}) {
+    const Louse end = tests::run<Free>(cycloid, frictionless(), moving({amplitude, 0}, {}), kTicks / period, kTicks).louse;
+    INFO("amplitude " << amplitude);
+    CHECK(end.position.x == Approx(amplitude).margin(1e-8));
+    CHECK(end.velocity.x == Approx(0.0).margin(1e-7));
+  }
+}
+
 TEST_CASE("the angular momentum in an axisymmetric bowl is conserved") {
   const tests::Bowl bowl;
   const Louse start = moving({0.8, 0.1}, {-0.3, 1.1});

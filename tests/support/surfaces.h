@@ -51,4 +51,16 @@ struct Gutter : Unbounded {
   }
 };
 
+/// The gutter whose section is the cycloid x = R (p + sin p), z = R (1 - cos p), |p| < pi.
+struct CycloidGutter : Unbounded {
+  double radius = 1.0;
+  [[nodiscard]] terrain::SurfaceSample sample(double x, double) const {
+    double p = 0.5 * x / radius;
+    for (int i = 0; i < 50; ++i) p -= (p + std::sin(p) - x / radius) / (1 + std::cos(p));
+    const double slope = std::tan(0.5 * p);
+    const double bend = 0.5 * (1 + slope * slope) / (radius * (1 + std::cos(p)));
+    return {radius * (1 - std::cos(p)), slope, 0.0, bend, 0.0, 0.0};
+  }
+};
+
 }  // namespace woodlouse::tests
