@@ -8,10 +8,11 @@ namespace woodlouse::lab {
 
 template <typename L>
 double sum_of_lanes(const terrain::BicubicSpline::View& spline, const double* x, const double* y, std::size_t n) {
-  physics::LaneSampler<L> sample(spline);
+  physics::LanePlace<L> place;
   L total(0.0);
   for (std::size_t i = 0; i < n; i += static_cast<std::size_t>(L::kCount)) {
-    const terrain::BasicSurfaceSample<L> s = sample(core::Pair<L>{L::load(x + i), L::load(y + i)});
+    physics::locate(spline, core::Pair<L>{L::load(x + i), L::load(y + i)}, place);
+    const terrain::BasicSurfaceSample<L> s = physics::evaluate(place);
     total = total + ((s.z + s.zx + s.zy) + (s.zxx + s.zxy + s.zyy));
   }
   double lanes[L::kCount];

@@ -30,6 +30,12 @@ core::Expected<terrain::AnySurface> of_map(const SurfaceOptions& options,
   const auto loaded = map::load_map(options.map);
   if (!loaded) return tl::unexpected(loaded.error());
   const map::MapDefinition& definition = (*loaded)->definition;
+  if (const auto* tiled = std::get_if<map::TiledTerrain>(&definition.terrain)) {
+    if (interpolation == terrain::Interpolation::kBSpline) {
+      return terrain::AnySurface(std::in_place_type<terrain::TiledBSpline>, tiled->heights);
+    }
+    return core::fail(options.map, "its heights are not read whole", "take --surface bspline");
+  }
   if (interpolation) return terrain::interpolate(*interpolation, map::knots_of(definition));
   if (const auto* function = std::get_if<map::FunctionTerrain>(&definition.terrain)) {
     return terrain::AnySurface(terrain::FunctionSurface(function->function, function->scale));

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "shared/core/exact_arithmetic.h"
+
 namespace woodlouse::core {
 
 inline double square_root(double a) { return std::sqrt(a); }

@@ -3,10 +3,13 @@
 
 #include <immintrin.h>
 
+#include <cstdint>
+
 namespace woodlouse::core {
 
 struct Lanes4 {
   static constexpr int kCount = 4;
+  static constexpr int kRow = 4;  ///< doubles that a transposition reads or writes of each lane
 
   /// All bits of a lane, or none.
   struct Mask {
@@ -17,6 +20,11 @@ struct Lanes4 {
       return {_mm256_xor_pd(a.bits, _mm256_castsi256_pd(_mm256_set1_epi64x(-1)))};
     }
     [[nodiscard]] unsigned lanes() const { return static_cast<unsigned>(_mm256_movemask_pd(bits)); }
+    static Mask of(unsigned lanes) {
+      const __m256i bit = _mm256_set_epi64x(8, 4, 2, 1);
+      const __m256i set = _mm256_and_si256(_mm256_set1_epi64x(lanes), bit);
+      return {_mm256_castsi256_pd(_mm256_cmpeq_epi64(set, bit))};
+    }
   };
 
   __m256d value;
@@ -45,20 +53,34 @@ struct Lanes4 {
     return _mm256_cvtepi32_pd(_mm_min_epi32(_mm_max_epi32(whole, _mm_setzero_si128()), _mm_set1_epi32(last)));
   }
 
+  /// to[l] = base + 16 * lane l, an integer below 2^31.
+  void store_pointers(const double* base, const double** to) const {
+    const __m256i bytes = _mm256_slli_epi64(_mm256_cvtepi32_epi64(_mm256_cvttpd_epi32(value)), 7);
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_add_epi64(bytes, _mm256_set1_epi64x(reinterpret_cast<long long>(base))));
+  }
+
   /// out[k] = lane l's from[l][k], k = 0..3.
   static void load_transposed(const double* const* from, Lanes4* out) {
-    const __m256d r0 = _mm256_loadu_pd(from[0]);
-    const __m256d r1 = _mm256_loadu_pd(from[1]);
-    const __m256d r2 = _mm256_loadu_pd(from[2]);
-    const __m256d r3 = _mm256_loadu_pd(from[3]);
-    const __m256d even_a = _mm256_unpacklo_pd(r0, r1);
-    const __m256d odd_a = _mm256_unpackhi_pd(r0, r1);
-    const __m256d even_b = _mm256_unpacklo_pd(r2, r3);
-    const __m256d odd_b = _mm256_unpackhi_pd(r2, r3);
-    out[0] = _mm256_permute2f128_pd(even_a, even_b, 0x20);
-    out[1] = _mm256_permute2f128_pd(odd_a, odd_b, 0x20);
-    out[2] = _mm256_permute2f128_pd(even_a, even_b, 0x31);
-    out[3] = _mm256_permute2f128_pd(odd_a, odd_b, 0x31);
+    for (int l = 0; l < 4; ++l) out[l] = load(from[l]);
+    transpose(out);
+  }
+  /// The reverse: to[l][k] = lane l of in[k].
+  static void store_transposed(const Lanes4* in, double* const* to) {
+    Lanes4 rows[4] = {in[0], in[1], in[2], in[3]};
+    transpose(rows);
+    for (int l = 0; l < 4; ++l) rows[l].store(to[l]);
+  }
+
+ private:
+  static void transpose(Lanes4* rows) {
+    const __m256d even_a = _mm256_unpacklo_pd(rows[0].value, rows[1].value);
+    const __m256d odd_a = _mm256_unpackhi_pd(rows[0].value, rows[1].value);
+    const __m256d even_b = _mm256_unpacklo_pd(rows[2].value, rows[3].value);
+    const __m256d odd_b = _mm256_unpackhi_pd(rows[2].value, rows[3].value);
+    rows[0] = _mm256_permute2f128_pd(even_a, even_b, 0x20);
+    rows[1] = _mm256_permute2f128_pd(odd_a, odd_b, 0x20);
+    rows[2] = _mm256_permute2f128_pd(even_a, even_b, 0x31);
+    rows[3] = _mm256_permute2f128_pd(odd_a, odd_b, 0x31);
   }
 };
 

@@ -2,6 +2,8 @@
 // Plain arithmetic only, in the order written: it is part of the simulation's bits.
 #pragma once
 
+#include "shared/core/exact_arithmetic.h"
+
 namespace woodlouse::core {
 
 /// T: double, or several doubles at once (lanes.h).

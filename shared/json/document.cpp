@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "shared/core/joined.h"
+#include "shared/json/text.h"
 
 namespace woodlouse::json {
 namespace {
@@ -108,7 +109,7 @@ std::string Document::path_of(std::uint32_t index) const {
     if (nodes_[parent].kind == Kind::kArray) {
       path += core::joined({"[", std::to_string(position), "]"});
     } else {
-      path += core::joined({path.empty() ? "" : ".", characters(nodes_[child].key)});
+      path += core::joined({path.empty() ? "" : ".", shown(characters(nodes_[child].key))});
     }
     parent = child;
   }

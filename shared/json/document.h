@@ -87,7 +87,7 @@ class Value {
   [[nodiscard]] std::string_view raw() const;
   /// From 1, or from what parse_file() was told. Costs a walk through the text.
   [[nodiscard]] std::size_t line() const;
-  /// As in `spawns[2].position`; empty for the whole text.
+  /// As in `spawns[2].position`, each key as shown() cites it; empty for the whole text.
   [[nodiscard]] std::string path() const;
 
  private:

@@ -93,4 +93,21 @@ void append_string(std::string& out, std::string_view text) {
   out += '"';
 }
 
+std::string shown(std::string_view text, std::size_t max_bytes) {
+  constexpr char32_t kFirstPrintable = 0x20, kDelete = 0x7f, kAfterControls = 0xa0;
+  std::string out;
+  while (!text.empty()) {
+    const Utf8Character c = first_character(text);
+    if (out.size() + c.size > max_bytes) return out += "...";
+    const bool is_control = c.code < kFirstPrintable || (c.code >= kDelete && c.code < kAfterControls);
+    if (c.valid && !is_control) {
+      out += text.substr(0, c.size);
+    } else {
+      out += '?';
+    }
+    text.remove_prefix(c.size);
+  }
+  return out;
+}
+
 }  // namespace woodlouse::json

@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "shared/core/stable_hash.h"
 #include "shared/json/text.h"
 
 namespace woodlouse::map {
@@ -45,6 +46,16 @@ void append_heights(std::string& out, const terrain::HeightGrid& grid) {
   out += "]}";
 }
 
+void append_tiled(std::string& out, const TiledTerrain& terrain) {
+  out += "{\"file\":";
+  json::append_string(out, terrain.file);
+  out += ",\"scale\":";
+  json::append_double(out, terrain.scale);
+  out += ",\"fill_level\":";
+  json::append_double(out, terrain.fill_level);
+  out += ",\"storage\":\"tiles\",\"fingerprint\":\"" + core::to_hex(terrain.fingerprint) + "\"}";
+}
+
 void append_function(std::string& out, const FunctionTerrain& function) {
   out += "{\"function\":";
   json::append_string(out, terrain::to_text(function.function));
@@ -85,6 +96,7 @@ void append_physics(std::string& out, const physics::Parameters& physics) {
 
 terrain::HeightGrid knots_of(const MapDefinition& definition) {
   if (const auto* grid = std::get_if<terrain::HeightGrid>(&definition.terrain)) return *grid;
+  assert(!std::holds_alternative<TiledTerrain>(definition.terrain));
   const auto& function = std::get<FunctionTerrain>(definition.terrain);
   return terrain::sample_function(function.function, function.scale, function.grid);
 }
@@ -95,11 +107,17 @@ std::string canonical_text(const MapDefinition& definition) {
   out += ",\"terrain\":";
   if (definition.surface == SurfaceKind::kFunction) {
     append_function(out, std::get<FunctionTerrain>(definition.terrain));
+  } else if (const auto* tiled = std::get_if<TiledTerrain>(&definition.terrain)) {
+    append_tiled(out, *tiled);
   } else {
     append_heights(out, knots_of(definition));
   }
   out += ",\"surface\":";
   json::append_string(out, to_text(definition.surface));
+  if (definition.physics.edges != physics::Parameters{}.edges) {
+    out += ",\"edges\":";
+    json::append_string(out, physics::to_text(definition.physics.edges));
+  }
   out += ",\"physics\":";
   append_physics(out, definition.physics);
   out += ",\"spawns\":[";

@@ -91,8 +91,7 @@ std::optional<std::string> text_in(const json::Value& value, std::size_t min, st
     return std::nullopt;
   }
   const std::string_view text = value.text();
-  const bool has_control = std::any_of(
-      text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+  const bool has_control = json::shown(text, text.size()) != text;
   if (text.size() < min || text.size() > max) {
     problems.add(value, core::joined({"text of ", std::to_string(text.size()), " bytes"}),
                  core::joined({std::to_string(min), " to ", std::to_string(max), " bytes"}));
@@ -125,6 +124,7 @@ Fields::Fields(const json::Value& object, std::initializer_list<std::string_view
     return;
   }
   for (const json::Value& member : object.children()) {
+    if (problems.is_full()) return;  // a suggestion costs more than its key
     if (std::find(known.begin(), known.end(), member.key()) != known.end()) continue;
     std::string hint = did_you_mean(member.key(), known);
     if (hint.empty()) {

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "shared/core/joined.h"
+#include "shared/json/text.h"
 #include "shared/map/map_loader.h"
 
 namespace woodlouse::map {
@@ -74,7 +75,7 @@ std::string lower_case(std::string_view text) {
 }
 
 /// A word of the file within a message, cut to a readable length.
-std::string quoted(std::string_view word) { return core::joined({"\"", word.substr(0, 32), "\""}); }
+std::string quoted(std::string_view word) { return core::joined({"\"", json::shown(word, 32), "\""}); }
 
 struct Entry {
   std::optional<double> value;

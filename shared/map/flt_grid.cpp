@@ -21,6 +21,7 @@
 #include <utility>
 #include <vector>
 
+#include "shared/json/text.h"
 #include "shared/map/whole_file.h"
 
 namespace woodlouse::map {
@@ -78,7 +79,7 @@ core::Expected<std::vector<Entry>> read_entries(std::string_view text, const std
     if (words.size() != 2) return core::fail(where, "is no key and value", "as in: ncols 10001");
     Entry entry{lower_case(words[0].substr(0, 32)), lower_case(words[1].substr(0, 64)), number};
     if (std::find(kKeys.begin(), kKeys.end(), entry.key) == kKeys.end()) {
-      return core::fail(where, "\"" + entry.key + "\" is no header key",
+      return core::fail(where, "\"" + json::shown(entry.key) + "\" is no header key",
                         "a float grid has ncols, nrows, xllcorner, "
                         "yllcorner, cellsize, NODATA_value, byteorder");
     }
@@ -114,7 +115,7 @@ class Header {
     const char* end = entry->value.data() + entry->value.size();
     const auto [stop, error] = std::from_chars(entry->value.data(), end, value);
     if (error != std::errc{} || stop != end) {
-      complain(place(source_, *entry), "\"" + entry->value + "\" is no number", {});
+      complain(place(source_, *entry), "\"" + json::shown(entry->value) + "\" is no number", {});
       return min;
     }
     if (!(value >= min && value <= max)) {
@@ -132,7 +133,7 @@ class Header {
   void demand(std::string_view key, std::initializer_list<std::string_view> allowed, std::string hint) {
     const Entry* entry = find(key);
     if (entry == nullptr || std::find(allowed.begin(), allowed.end(), entry->value) != allowed.end()) return;
-    complain(place(source_, *entry), "\"" + entry->value + "\" can't be read", std::move(hint));
+    complain(place(source_, *entry), "\"" + json::shown(entry->value) + "\" can't be read", std::move(hint));
   }
   void complain(std::string where, std::string what, std::string hint) {
     if (!error_) error_ = core::Error{std::move(where), std::move(what), std::move(hint)};
@@ -248,6 +249,10 @@ core::Expected<FltHeader> parse_flt_header(std::string_view text, const std::str
 core::Expected<std::shared_ptr<const FltGrid>> FltGrid::open(const std::filesystem::path& file) {
   std::filesystem::path header_file = file;
   header_file.replace_extension(".hdr");
+  if (std::error_code error; std::filesystem::exists(file, error) && !std::filesystem::exists(header_file, error)) {
+    return core::fail(header_file.string(), "no such file",
+                      "the header of " + file.filename().string() + "; gdal_translate -of EHdr writes both");
+  }
   const auto text = read_whole_file(header_file, kMaxHeaderBytes);
   if (!text) return tl::unexpected(text.error());
   const auto header = parse_flt_header(*text, header_file.string());
@@ -255,7 +260,8 @@ core::Expected<std::shared_ptr<const FltGrid>> FltGrid::open(const std::filesyst
 
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0)
-    return core::fail(file.string(), std::string("can't be opened: ") + std::strerror(errno));
+    return core::fail(file.string(), std::string("can't be opened: ") + std::strerror(errno),
+                      "the heights that " + header_file.filename().string() + " describes; check the path and its rights");
   std::shared_ptr<const FltGrid> grid(new FltGrid(*header, descriptor));  // owns the descriptor from here on
   const auto size = size_of(descriptor, file);
   if (!size) return tl::unexpected(size.error());
@@ -265,6 +271,9 @@ core::Expected<std::shared_ptr<const FltGrid>> FltGrid::open(const std::filesyst
                       "has " + std::to_string(*size) + " bytes, its header says " + std::to_string(expected),
                       "4 bytes for each of nrows * ncols heights; compare it with " + header_file.string());
   }
+  // A tile's rows lie far apart: without this the system reads 128 KB around each, and soon holds the whole file. Advice:
+  // where it is not taken, only that happens.
+  static_cast<void>(::posix_fadvise(descriptor, 0, 0, POSIX_FADV_RANDOM));
   return grid;
 }
 
@@ -277,7 +286,7 @@ void FltGrid::read(std::size_t column, std::size_t row, std::span<double> out) c
       (frame.rows - 1 - row) * frame.columns + column;  // the file's first row is the northern one
   const bool swap =
       (header_.byte_order == ByteOrder::kLittleEndian) != (std::endian::native == std::endian::little);
-  std::array<std::uint32_t, 256> words;
+  std::array<std::uint32_t, 4096> words;
   for (std::size_t done = 0; done < out.size(); done += words.size()) {
     const std::span<double> part = out.subspan(done, std::min(words.size(), out.size() - done));
     const std::span<std::uint32_t> raw(words.data(), part.size());

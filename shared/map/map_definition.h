@@ -13,6 +13,7 @@
 #include "shared/physics/parameters.h"
 #include "shared/terrain/function_surface.h"
 #include "shared/terrain/height_grid.h"
+#include "shared/terrain/height_source.h"
 #include "shared/terrain/spline_1d.h"
 #include "shared/terrain/terrain.h"
 
@@ -32,6 +33,16 @@ struct FunctionTerrain {
   double scale = 20.0;  ///< half the side of the square [m]; heights are scaled alike
 };
 
+/// A grid file that is not read whole: a surface is built where lice are (terrain/tiled_bspline.h).
+struct TiledTerrain {
+  std::string file;          ///< as the map names it, in the map's folder
+  double scale = 1.0;        ///< on lengths and heights alike; applied in what follows
+  double fill_level = 0.0;   ///< [m] deep inside regions without data
+  std::uint64_t fingerprint = 0;                          ///< height_survey.h
+  std::shared_ptr<const terrain::HeightSource> heights;   ///< any thread may read
+  terrain::HeightGrid overview;                           ///< height_survey.h
+};
+
 struct SpawnPoint {
   core::Vec2 position;           ///< [m], inside the domain
   core::Vec2 heading{1.0, 0.0};  ///< unit vector
@@ -40,16 +51,24 @@ struct SpawnPoint {
 
 struct MapDefinition {
   std::string name;
-  std::variant<FunctionTerrain, terrain::HeightGrid> terrain;  ///< heights are in metres, scale applied
+  std::variant<FunctionTerrain, terrain::HeightGrid, TiledTerrain> terrain;  ///< heights are in metres, scale applied
   SurfaceKind surface = SurfaceKind::kSpline;
   physics::Parameters physics;
   std::vector<SpawnPoint> spawns;  ///< at least one
 };
 
+/// How far a map's terrain is the one that is played on.
+enum class Detail {
+  kExact,     ///< bit for bit
+  kOverview,  ///< a client's of a big map: for drawing, and nothing may be computed from it
+};
+
 /// A map ready to play: immutable, shared between rooms, replays and clients.
 struct Map {
   MapDefinition definition;
-  std::string canonical;   ///< the definition as one line of JSON that the loader reads back to the same map
+  Detail detail = Detail::kExact;
+  /// The definition as one line of JSON that the loader reads back to the same map; a tiled terrain's beside its file.
+  std::string canonical;
   std::uint64_t hash = 0;  ///< stable_hash(canonical)
   std::shared_ptr<const terrain::Terrain> terrain;
 };

@@ -19,6 +19,11 @@ constexpr std::size_t kMaxDepth = 8;
 /// Every height, every row, and the rest of the map.
 constexpr std::size_t kMaxValues = 2 * kMaxKnots + 100'000;
 
+terrain::SplineEnds ends_of(const MapDefinition& definition) {
+  if (definition.physics.edges == physics::Edges::kWrap) return terrain::SplineEnds::kPeriodic;
+  return definition.surface == SurfaceKind::kNaturalSpline ? terrain::SplineEnds::kNatural : terrain::SplineEnds::kNotAKnot;
+}
+
 std::shared_ptr<const Map> build(MapDefinition definition) {
   auto map = std::make_shared<Map>();
   map->canonical = canonical_text(definition);
@@ -27,18 +32,20 @@ std::shared_ptr<const Map> build(MapDefinition definition) {
     const auto& function = std::get<FunctionTerrain>(definition.terrain);
     map->terrain =
         std::make_shared<const terrain::Terrain>(terrain::FunctionSurface(function.function, function.scale));
+  } else if (const auto* tiled = std::get_if<TiledTerrain>(&definition.terrain)) {
+    terrain::TiledBSplineOptions options;
+    options.no_data = terrain::NoDataPolicy::kFill;
+    options.fill_level = tiled->fill_level;
+    map->terrain = std::make_shared<const terrain::Terrain>(terrain::TiledGround(tiled->heights, options));
   } else {
-    const auto ends = definition.surface == SurfaceKind::kNaturalSpline ? terrain::SplineEnds::kNatural
-                                                                        : terrain::SplineEnds::kNotAKnot;
-    map->terrain =
-        std::make_shared<const terrain::Terrain>(terrain::BicubicSpline(knots_of(definition), ends));
+    map->terrain = std::make_shared<const terrain::Terrain>(
+        terrain::BicubicSpline(knots_of(definition), ends_of(definition)));
   }
   map->definition = std::move(definition);
   return map;
 }
 
-std::optional<MapDefinition> read(std::string_view text, const std::filesystem::path& folder,
-                                  Problems& problems) {
+std::optional<MapDefinition> read(std::string_view text, const GridPlace& place, Problems& problems) {
   if (text.size() > kMaxMapBytes) {
     problems.add(0, {}, core::joined({"longer than ", std::to_string(kMaxMapBytes >> 20), " MiB"}));
     return std::nullopt;
@@ -48,7 +55,7 @@ std::optional<MapDefinition> read(std::string_view text, const std::filesystem::
     problems.add(document.error());
     return std::nullopt;
   }
-  return read_definition(document->root(), folder, problems);
+  return read_definition(document->root(), place, problems);
 }
 
 /// The folder a map file lies in; never empty, which would forbid its grid file.
@@ -65,6 +72,20 @@ core::Expected<std::shared_ptr<const Map>> parse_map(std::string_view text, std:
   std::optional<MapDefinition> definition = read(text, folder, problems);
   if (!definition) return tl::unexpected(problems.errors().front());
   return build(std::move(*definition));
+}
+
+core::Expected<std::shared_ptr<const Map>> parse_overview(std::string_view text, std::string_view source,
+                                                          const terrain::HeightGrid& overview) {
+  Problems problems{std::string(source)};
+  std::optional<MapDefinition> definition = read(text, overview, problems);
+  if (!definition) return tl::unexpected(problems.errors().front());
+  auto map = std::make_shared<Map>();
+  map->detail = Detail::kOverview;
+  map->canonical = text;
+  map->hash = core::stable_hash(text);
+  map->terrain = std::make_shared<const terrain::Terrain>(terrain::BicubicSpline(overview));
+  map->definition = std::move(*definition);
+  return map;
 }
 
 core::Expected<std::shared_ptr<const Map>> load_map(const std::filesystem::path& file) {

@@ -7,6 +7,7 @@
 #include "shared/core/joined.h"
 #include "shared/core/portable_trigonometry.h"
 #include "shared/json/text.h"
+#include "shared/map/edges_reader.h"
 #include "shared/map/terrain_reader.h"
 
 namespace woodlouse::map {
@@ -65,7 +66,8 @@ physics::Parameters read_physics(const json::Value& value, Problems& problems) {
   result.friction = fields.number_or("friction", kFriction, result.friction);
   result.thrust_max = fields.number_or("thrust_max", kThrustMax, result.thrust_max);
   result.edge_restitution = fields.number_or("edge_restitution", kEdgeRestitution, result.edge_restitution);
-  result.central_gravity = fields.number_or("central_gravity", kCentralGravity, result.central_gravity);
+  // "+ 0.0" turns -0.0 into 0.0: the canonical text leaves both out, and must read back the same.
+  result.central_gravity = fields.number_or("central_gravity", kCentralGravity, result.central_gravity) + 0.0;
   read_choice(fields, "contact", result.contact, physics::contact_from_text, "bilateral or unilateral", problems);
   read_choice(fields, "method", result.method, physics::method_from_text, "standard, cheap or precise", problems);
   return result;
@@ -113,7 +115,7 @@ std::vector<SpawnPoint> read_spawns(const json::Value& value, const terrain::Rec
       }
     }
     if (const auto heading = fields.find("heading")) spawn.heading = read_heading(*heading, problems);
-    spawn.speed = fields.number_or("speed", kSpawnSpeed, spawn.speed);
+    spawn.speed = fields.number_or("speed", kSpawnSpeed, spawn.speed) + 0.0;  // as central_gravity
     result.push_back(spawn);
     if (problems.is_full()) break;
   }
@@ -123,6 +125,7 @@ std::vector<SpawnPoint> read_spawns(const json::Value& value, const terrain::Rec
 /// The domain the surface will have; a spline's last knot may lie an ulp off the function's square.
 terrain::Rectangle domain_of(const MapDefinition& definition) {
   if (const auto* grid = std::get_if<terrain::HeightGrid>(&definition.terrain)) return grid->domain();
+  if (const auto* tiled = std::get_if<TiledTerrain>(&definition.terrain)) return tiled->heights->frame().domain();
   const auto& function = std::get<FunctionTerrain>(definition.terrain);
   if (definition.surface == SurfaceKind::kFunction) {
     return terrain::FunctionSurface(function.function, function.scale).domain();
@@ -164,9 +167,8 @@ std::vector<SpawnPoint> default_spawns(const terrain::Rectangle& domain) {
   return result;
 }
 
-std::optional<MapDefinition> read_definition(const json::Value& root, const std::filesystem::path& folder,
-                                             Problems& problems) {
-  const Fields fields(root, {"name", "terrain", "surface", "physics", "spawns"}, problems);
+std::optional<MapDefinition> read_definition(const json::Value& root, const GridPlace& place, Problems& problems) {
+  const Fields fields(root, {"name", "terrain", "surface", "edges", "physics", "spawns"}, problems);
   MapDefinition result;
   if (const auto name = fields.demand("name")) {
     result.name = text_in(*name, 1, kMaxNameBytes, problems).value_or("");
@@ -174,7 +176,7 @@ std::optional<MapDefinition> read_definition(const json::Value& root, const std:
   const auto terrain_value =
       fields.demand("terrain", "{\"function\": ...}, {\"file\": ...} or {\"heights\": ...}");
   std::optional<TerrainDefinition> terrain;
-  if (terrain_value) terrain = read_terrain(*terrain_value, folder, problems);
+  if (terrain_value) terrain = read_terrain(*terrain_value, place, problems);
   if (terrain) result.terrain = std::move(*terrain);
   if (const auto surface = fields.find("surface")) {
     result.surface = read_surface(*surface, problems);
@@ -183,13 +185,20 @@ std::optional<MapDefinition> read_definition(const json::Value& root, const std:
       problems.add(*surface, "\"function\" needs a terrain that names a function", "take spline");
       result.surface = SurfaceKind::kSpline;
     }
+    if (terrain && result.surface == SurfaceKind::kNaturalSpline && std::holds_alternative<TiledTerrain>(result.terrain)) {
+      problems.add(*surface, "natural ends need all heights at once, and this terrain is read tile by tile", "take spline");
+    }
   }
   if (const auto physics = fields.find("physics")) result.physics = read_physics(*physics, problems);
+  if (const auto edges = fields.find("edges"); edges && terrain) {
+    result.physics.edges = read_edges(*edges, result, problems);
+  }
 
-  // Without a terrain the spawn points are still checked for all but their place.
+  // Without a terrain, or with an overview, which may end an ulp off, spawn points are checked for all but their place.
   const double anywhere = kCoordinate.max;
-  const terrain::Rectangle domain =
-      terrain ? domain_of(result) : terrain::Rectangle{-anywhere, -anywhere, anywhere, anywhere};
+  const terrain::Rectangle domain = terrain && !std::holds_alternative<terrain::HeightGrid>(place)
+                                        ? domain_of(result)
+                                        : terrain::Rectangle{-anywhere, -anywhere, anywhere, anywhere};
   if (const auto spawns = fields.find("spawns")) {
     result.spawns = read_spawns(*spawns, domain, problems);
   } else {

@@ -1,19 +1,17 @@
 // From the JSON of a map file to its definition: every key, type and range, all problems told.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 
 #include "shared/json/document.h"
 #include "shared/map/checked_fields.h"
 #include "shared/map/map_definition.h"
+#include "shared/map/terrain_reader.h"
 
 namespace woodlouse::map {
 
-/// Nothing, and at least one problem, when something is wrong. Grid files are looked up in `folder`; an empty
-/// folder allows none.
-std::optional<MapDefinition> read_definition(const json::Value& root, const std::filesystem::path& folder,
-                                             Problems& problems);
+/// Nothing, and at least one problem, when something is wrong.
+std::optional<MapDefinition> read_definition(const json::Value& root, const GridPlace& place, Problems& problems);
 
 /// Where lice start on a map that does not say: eight points on a ring around the middle, looking inwards.
 std::vector<SpawnPoint> default_spawns(const terrain::Rectangle& domain);

@@ -6,7 +6,9 @@
 
 #include "shared/core/joined.h"
 #include "shared/map/esri_ascii_grid.h"
+#include "shared/map/float_grid_reader.h"
 #include "shared/map/map_loader.h"
+#include "shared/map/terrain_ranges.h"
 #include "shared/map/whole_file.h"
 
 namespace woodlouse::map {
@@ -15,29 +17,23 @@ namespace {
 using terrain::HeightGrid;
 
 constexpr Range kFunctionScale{0.1, 1e5, "m"};
-constexpr Range kGridScale{1e-6, 1e6, ""};
-constexpr Range kSpacing{1e-3, 1e6, "m"};
-constexpr Range kOrigin{-1e7, 1e7, "m"};
-constexpr Range kHeight{-1e6, 1e6, "m"};
 constexpr std::uint64_t kMinFunctionGrid = 2;
 constexpr std::uint64_t kMaxFunctionGrid = 999;
 constexpr std::size_t kMinKnotsEachWay = 4;
 /// 89.4 degrees between neighbouring knots. Steeper is a wall, and walls are the map's edge's business.
 constexpr double kMaxSlope = 100.0;
 
-bool within(double value, const Range& range) { return value >= range.min && value <= range.max; }
-
 FunctionTerrain read_function(const json::Value& value, const json::Value& name, Problems& problems) {
   const Fields fields(value, {"function", "grid", "scale"}, problems);
   FunctionTerrain result;
   if (!name.is(json::Kind::kString)) {
-    problems.add(name, "the name of a function is wanted", "parabolic_pot, wavy_pot, volcano or hills");
+    problems.add(name, "the name of a function is wanted", "parabolic_pot, wavy_pot, volcano, hills or waves");
   } else if (const auto function = terrain::function_from_text(name.text())) {
     result.function = *function;
   } else {
-    const std::string hint = did_you_mean(name.text(), {"parabolic_pot", "wavy_pot", "volcano", "hills"});
+    const std::string hint = did_you_mean(name.text(), {"parabolic_pot", "wavy_pot", "volcano", "hills", "waves"});
     problems.add(name, "is no function we have",
-                 hint.empty() ? "parabolic_pot, wavy_pot, volcano or hills" : hint);
+                 hint.empty() ? "parabolic_pot, wavy_pot, volcano, hills or waves" : hint);
   }
   if (const auto grid = fields.find("grid")) {
     result.grid = integer_in(*grid, kMinFunctionGrid, kMaxFunctionGrid, problems).value_or(result.grid);
@@ -73,19 +69,17 @@ std::optional<std::filesystem::path> grid_path(const json::Value& name, const st
   return folder / relative;
 }
 
-/// A grid file, its middle laid at the origin: real-world coordinates would cost digits and help nobody.
-std::optional<HeightGrid> read_grid_file(const json::Value& value, const json::Value& name,
-                                         const std::filesystem::path& folder, Problems& problems) {
+/// An ESRI ASCII grid, its middle laid at the origin: real-world coordinates would cost digits and help nobody.
+std::optional<HeightGrid> read_ascii_grid(const json::Value& value, const json::Value& name,
+                                          const std::filesystem::path& path, Problems& problems) {
   const Fields fields(value, {"file", "scale"}, problems);
   const double scale = fields.number_or("scale", kGridScale, 1.0);
-  const auto path = grid_path(name, folder, problems);
-  if (!path) return std::nullopt;
-  const core::Expected<std::string> text = read_whole_file(*path, kMaxMapBytes);
+  const core::Expected<std::string> text = read_whole_file(path, kMaxMapBytes);
   if (!text) {
     problems.add(name, text.error().text());
     return std::nullopt;
   }
-  Problems grid_problems(path->string());
+  Problems grid_problems(path.string());
   std::optional<HeightGrid> grid = parse_esri_ascii_grid(*text, grid_problems);
   for (core::Error& error : grid_problems.errors()) problems.add(std::move(error));
   if (!grid) return std::nullopt;
@@ -97,6 +91,29 @@ std::optional<HeightGrid> read_grid_file(const json::Value& value, const json::V
   return grid;
 }
 
+/// In place of a big map's heights those of its overview. How steep it is is nobody's business: nothing runs on it.
+std::optional<TerrainDefinition> read_overview(const json::Value& value, const HeightGrid& overview, Problems& problems) {
+  const bool is_whole = overview.columns >= kMinKnotsEachWay && overview.rows >= kMinKnotsEachWay &&
+                        overview.heights.size() == overview.columns * overview.rows;
+  const bool is_placed = within(overview.dx, kSpacing) && within(overview.dy, kSpacing) &&
+                         within(overview.x_origin, kOrigin) && within(overview.y_origin, kOrigin);
+  const bool is_flat_enough = std::all_of(overview.heights.begin(), overview.heights.end(),
+                                          [](double height) { return within(height, kHeight); });
+  if (is_whole && is_placed && is_flat_enough) return overview;
+  problems.add(value, "the overview that came with it has a number out of range", "use a client of the server's version");
+  return std::nullopt;
+}
+
+std::optional<TerrainDefinition> read_grid_file(const json::Value& value, const json::Value& name,
+                                                const GridPlace& place, Problems& problems) {
+  if (const auto* overview = std::get_if<HeightGrid>(&place)) return read_overview(value, *overview, problems);
+  const auto path = grid_path(name, std::get<std::filesystem::path>(place), problems);
+  if (!path) return std::nullopt;
+  if (is_float_grid(*path)) return read_float_grid(value, *path, problems);
+  if (auto grid = read_ascii_grid(value, name, *path, problems)) return std::move(*grid);
+  return std::nullopt;
+}
+
 void read_rows(const json::Value& value, double scale, HeightGrid& grid, Problems& problems) {
   const std::vector<json::Value> rows = value.children();
   if (!value.is(json::Kind::kArray) || rows.size() < kMinKnotsEachWay) {
@@ -105,15 +122,17 @@ void read_rows(const json::Value& value, double scale, HeightGrid& grid, Problem
     return;
   }
   grid.rows = rows.size();
-  grid.columns = rows.front().children().size();
-  if (grid.columns < kMinKnotsEachWay) {
+  grid.columns = rows.front().size();
+  if (!rows.front().is(json::Kind::kArray) || grid.columns < kMinKnotsEachWay) {
     problems.add(rows.front(), "a row of at least 4 heights is wanted");
     return;
   }
   grid.heights.reserve(grid.rows * grid.columns);
   for (const json::Value& row : rows) {
     const std::vector<json::Value> heights = row.children();
-    if (heights.size() != grid.columns) {
+    if (!row.is(json::Kind::kArray)) {
+      problems.add(row, "a row of heights is wanted");
+    } else if (heights.size() != grid.columns) {
       problems.add(row, core::joined({std::to_string(heights.size()), " heights, the first row has ",
                                       std::to_string(grid.columns)}));
     }
@@ -179,15 +198,16 @@ void check_grid(const json::Value& value, const HeightGrid& grid, Problems& prob
 
 }  // namespace
 
-std::optional<TerrainDefinition> read_terrain(const json::Value& value, const std::filesystem::path& folder,
-                                              Problems& problems) {
+std::optional<TerrainDefinition> read_terrain(const json::Value& value, const GridPlace& place, Problems& problems) {
   const std::size_t problems_before = problems.count();
   const auto function = value.find("function");
   const auto file = value.find("file");
   const auto heights = value.find("heights");
   const int ways = (function ? 1 : 0) + (file ? 1 : 0) + (heights ? 1 : 0);
   if (ways != 1) {
-    const Fields fields(value, {"function", "grid", "scale", "file", "origin", "spacing", "heights"},
+    const Fields fields(value,
+                        {"function", "grid", "scale", "file", "fill_level", "storage", "fingerprint", "origin", "spacing",
+                         "heights"},
                         problems);
     if (value.is(json::Kind::kObject)) {
       problems.add(value, core::joined({"exactly one of function, file and heights is wanted, not ",
@@ -199,15 +219,17 @@ std::optional<TerrainDefinition> read_terrain(const json::Value& value, const st
   if (function) {
     result = read_function(value, *function, problems);
   } else {
-    std::optional<HeightGrid> grid =
-        file ? read_grid_file(value, *file, folder, problems) : read_inline(value, *heights, problems);
-    if (!grid || problems.count() != problems_before || problems.is_full()) return std::nullopt;
-    if (grid->columns * grid->rows > kMaxKnots) {
-      problems.add(value, core::joined({"more than ", std::to_string(kMaxKnots), " knots"}));
-    } else {
-      check_grid(value, *grid, problems);
+    result = file ? read_grid_file(value, *file, place, problems) : read_inline(value, *heights, problems);
+    if (!result || problems.count() != problems_before || problems.is_full()) return std::nullopt;
+    const auto* grid = std::get_if<HeightGrid>(&*result);
+    if (grid != nullptr && !std::holds_alternative<HeightGrid>(place)) {
+      if (grid->columns * grid->rows > kMaxKnots) {
+        problems.add(value, core::joined({"more than ", std::to_string(kMaxKnots), " knots"}),
+                     "a float grid (.flt) of that size is stepped on from its file");
+      } else {
+        check_grid(value, *grid, problems);
+      }
     }
-    result = std::move(*grid);
   }
   if (problems.count() != problems_before || problems.is_full()) return std::nullopt;
   return result;

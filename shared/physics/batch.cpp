@@ -1,7 +1,10 @@
 #include "shared/physics/batch.h"
 
+#include <cassert>
+
 namespace woodlouse::physics {
 
+BatchStep find_scalar_step(bool drag, bool friction, bool thrust);
 #ifdef WOODLOUSE_X86_LANES
 BatchStep find_avx2_step(bool drag, bool friction, bool thrust);
 BatchStep find_avx512_step(bool drag, bool friction, bool thrust);
@@ -34,13 +37,12 @@ InstructionSet best_instruction_set() {
 }
 
 BatchStep find_batch_step(InstructionSet set, bool drag, bool friction, bool thrust) {
-  if (set == InstructionSet::kScalar || !is_available(set)) return {};
+  assert(is_available(set));
 #ifdef WOODLOUSE_X86_LANES
-  return set == InstructionSet::kAvx2 ? find_avx2_step(drag, friction, thrust)
-                                      : find_avx512_step(drag, friction, thrust);
-#else
-  return {};
+  if (set == InstructionSet::kAvx2) return find_avx2_step(drag, friction, thrust);
+  if (set == InstructionSet::kAvx512) return find_avx512_step(drag, friction, thrust);
 #endif
+  return find_scalar_step(drag, friction, thrust);
 }
 
 }  // namespace woodlouse::physics

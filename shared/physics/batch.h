@@ -1,13 +1,19 @@
-// Several lice at once: the step's common case in AVX2 (4 lanes) or AVX-512 (8), chosen at run time.
+// Many lice at once: the step's common case in AVX-512 (8 lanes), AVX2 (4) or plain doubles (1), chosen at run time.
 //
-// The common case is a louse that moves, away from the walls, whose tick needs no sub-steps and ends inside: one
-// Nystrom-4 step. A lane that is anything else is left untouched, for the scalar step. The lanes run the very
-// templates of the scalar step (surface_motion.h, nystrom.h, sub_step_rules.h, terrain's evaluate_cell), so that
-// the bits are the same whichever way a louse was stepped.
+// The common case is a louse that moves, away from walls and seams, whose sub-steps stay above the cap and that does
+// not halt: Nystrom-4 steps. Whoever meets anything else is left where it was then, for the scalar step (stepper.h). The
+// lanes run the very templates of the scalar step (surface_motion.h, sub_step_rules.h, terrain's evaluate_cell) in its
+// order, so that the bits are the same whichever way a louse was stepped.
 #pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "shared/physics/louse.h"
 #include "shared/physics/parameters.h"
+#include "shared/physics/step_counters.h"
 #include "shared/physics/sub_step_rules.h"
 #include "shared/terrain/bicubic_spline.h"
 
@@ -22,22 +28,36 @@ bool is_available(InstructionSet set);
 /// The widest that is available.
 InstructionSet best_instruction_set();
 
+/// A louse on its way through a tick.
+struct LouseTick {
+  std::uint32_t index = 0;
+  std::uint32_t pieces = 0;  ///< sub-steps and impacts so far
+  double remaining = 0.0;    ///< of the tick [s]
+};
+
+/// Room for the lists of a batched step, kept from step to step.
+struct BatchLists {
+  std::vector<LouseTick> left;  ///< the result: whom the lanes can't step, or no further
+  std::vector<LouseTick> now, again;
+};
+
 /// What a batch reads besides its lice.
 struct BatchContext {
   terrain::BicubicSpline::View spline;
   Parameters parameters;
-  terrain::Rectangle walls;
-  double tick = 0.0;
+  terrain::Rectangle interior;  ///< who leaves it meets a wall or a seam
+  double tick = 0.0;            ///< [s]
   SubStepRules rules;
 };
 
-/// Steps `width` lice, none of them resting; bit l of the result: lice[l] was stepped.
+/// Steps lice[i] for each i of `moving`, none of them resting, through a tick, where the common case holds; the
+/// others are left where they were then, in lists.left.
 struct BatchStep {
-  int width = 0;
-  unsigned (*advance)(const BatchContext&, Louse* const* lice) = nullptr;
+  int width = 0;  ///< lanes; 0: no batched step
+  void (*advance)(const BatchContext&, Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists, StepCounters& counters) = nullptr;
 };
 
-/// The batched step of an instruction set for a map's forces; width 0 for kScalar and what is not available.
+/// The batched step of an instruction set for a map's forces; REQUIRES is_available(set).
 BatchStep find_batch_step(InstructionSet set, bool drag, bool friction, bool thrust);
 
 }  // namespace woodlouse::physics

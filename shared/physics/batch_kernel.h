@@ -1,115 +1,339 @@
 // The batched step over a lane type L (core/lanes_*.h); see batch.h. Included only by the files that are
 // compiled for one instruction set. Everything here is inlined or depends on L, so that no code that another
 // file may share is compiled for it.
+//
+// A step is one long chain of operations that wait for each other: four accelerations and three samples. So a block
+// of lice goes through it stage by stage, the state between two stages in a few arrays that stay in the nearest
+// cache: within a stage the lice do not wait for each other, and the processor works on several at a time.
+//     load      fields of the lice, their drives; finds their cells and asks the memory for them
+//     sample, a1; the sub-step h; x2 and its cell
+//     sample, a2, a3; x4 and its cell
+//     sample, a4; the end; where energy is kept, its sample and projection
+//     write back what is done
+// Who has not used up the tick goes through again, with others of that kind.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "shared/physics/batch.h"
+#include "shared/physics/energy_projection.h"
 #include "shared/physics/nystrom.h"
 #include "shared/physics/surface_motion.h"
 
 namespace woodlouse::physics {
 
-/// Samples the spline for all lanes; keeps the cells' coefficients while every lane stays in its cell.
+/// The lanes' cells and where in them the lanes are.
 template <typename L>
-class LaneSampler {
- public:
-  explicit LaneSampler(const terrain::BicubicSpline::View& spline) : spline_(spline) {}
+struct LanePlace {
+  const double* cell[L::kCount];
+  L u, v;
+};
 
-  [[gnu::always_inline]] inline BasicSurfaceSample<L> operator()(Pair<L> x) {
-    const L rx = x.x - L(spline_.x_origin);
-    const L ry = x.y - L(spline_.y_origin);
-    const L i = (rx * L(spline_.inverse_dx)).cell_index(spline_.last_column);
-    const L j = (ry * L(spline_.inverse_dy)).cell_index(spline_.last_row);
-    const L cell = j * L(spline_.last_column + 1.0) + i;  // exact: far below 2^53
-    if (any(cell != cell_)) load(cell);
-    return terrain::evaluate_cell(coefficients_, rx - i * L(spline_.dx), ry - j * L(spline_.dy));
+template <typename L>
+[[gnu::always_inline]] inline void locate(const terrain::BicubicSpline::View& spline, Pair<L> x, LanePlace<L>& place) {
+  const L rx = x.x - L(spline.x_origin);
+  const L ry = x.y - L(spline.y_origin);
+  const L i = (rx * L(spline.inverse_dx)).cell_index(spline.last_column);
+  const L j = (ry * L(spline.inverse_dy)).cell_index(spline.last_row);
+  (j * L(spline.last_column + 1.0) + i).store_pointers(spline.cells, place.cell);
+  place.u = rx - i * L(spline.dx);
+  place.v = ry - j * L(spline.dy);
+}
+
+/// z, gradient and Hessian.
+template <typename L>
+[[gnu::always_inline]] inline BasicSurfaceSample<L> evaluate(const LanePlace<L>& place) {
+  L coefficients[16];
+  const double* from[L::kCount];
+  for (int part = 0; part < 16; part += L::kRow) {
+    for (int l = 0; l < L::kCount; ++l) from[l] = place.cell[l] + part;
+    L::load_transposed(from, coefficients + part);
+  }
+  return terrain::evaluate_cell(coefficients, place.u, place.v);
+}
+
+/// The fields of physics::Louse from position to thrust, one register a field.
+template <typename L>
+struct LaneFields {
+  static constexpr int kFields = 8;
+  L field[kFields];  ///< x y vx vy heading_x heading_y tx ty
+
+  [[gnu::always_inline]] inline void load(Louse* const* lice) {
+    const double* from[L::kCount];
+    for (int part = 0; part < kFields; part += L::kRow) {
+      for (int l = 0; l < L::kCount; ++l) from[l] = row(*lice[l]) + part;
+      L::load_transposed(from, field + part);
+    }
+  }
+  /// Writes `count` fields of the lanes of `done`.
+  [[gnu::always_inline]] inline void store(Louse* const* lice, unsigned done) const {
+    double discarded[L::kRow];
+    double* to[L::kCount];
+    for (int part = 0; part < kFields; part += L::kRow) {
+      for (int l = 0; l < L::kCount; ++l) to[l] = (done >> l & 1u) != 0 ? row(*lice[l]) + part : discarded;
+      L::store_transposed(field + part, to);
+    }
   }
 
  private:
-  [[gnu::always_inline]] inline void load(L cell) {
-    cell_ = cell;
-    double index[L::kCount];
-    cell.store(index);
-    const double* from[L::kCount];
-    for (int part = 0; part < 16; part += L::kCount) {
-      for (int l = 0; l < L::kCount; ++l) from[l] = spline_.cells + 16 * static_cast<long long>(index[l]) + part;
-      L::load_transposed(from, coefficients_ + part);
-    }
+  static_assert(offsetof(Louse, thrust) - offsetof(Louse, position) == 6 * sizeof(double));
+  static double* row(Louse& louse) {
+    return reinterpret_cast<double*>(reinterpret_cast<char*>(&louse) + offsetof(Louse, position));
   }
-
-  const terrain::BicubicSpline::View& spline_;
-  L cell_{-1.0};
-  L coefficients_[16];
 };
 
 template <typename L, typename F>
-unsigned advance_lanes(const BatchContext& context, Louse* const* lice) {
-  constexpr int kCount = L::kCount;
-  const Parameters& p = context.parameters;
-  alignas(64) double in[8][kCount];
-  for (int l = 0; l < kCount; ++l) {
-    const Louse& louse = *lice[l];
-    in[0][l] = louse.position.x;
-    in[1][l] = louse.position.y;
-    in[2][l] = louse.velocity.x;
-    in[3][l] = louse.velocity.y;
-    in[7][l] = louse.distance;
-    if constexpr (F::thrust) {
-      const bool along = louse.thrust_kind == ThrustKind::kAlongHeading;
-      in[4][l] = along ? 0.0 : louse.thrust.x;
-      in[5][l] = along ? 0.0 : louse.thrust.y;
-      in[6][l] = along ? louse.thrust.x : 0.0;
+class LaneStepper {
+ public:
+  explicit LaneStepper(const BatchContext& context) : context_(context), shortest_(context.tick / SubStepRules::kMaxSubSteps) {}
+
+  /// See BatchStep.
+  void advance(Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists, StepCounters& counters) {
+    lists.left.clear();
+    lists.again.clear();
+    run(lice, moving.size(), [&](std::size_t i) { return LouseTick{moving[i], 0, context_.tick}; }, lists, counters);
+    while (!lists.again.empty()) {
+      lists.now.swap(lists.again);
+      lists.again.clear();
+      run(lice, lists.now.size(), [&](std::size_t i) { return lists.now[i]; }, lists, counters);
     }
   }
-  const BasicMotion<L> start{{L::load(in[0]), L::load(in[1])}, {L::load(in[2]), L::load(in[3])}};
-  BasicDrive<L> drive;
-  if constexpr (F::thrust) {
-    drive = drive_of_map_vector(Pair<L>{L::load(in[4]), L::load(in[5])}, p.thrust_max);
-    drive.along = L::load(in[6]) * L(p.thrust_max);
+
+ private:
+  static constexpr std::size_t kCount = L::kCount;
+  static constexpr std::size_t kBlock = 32;
+  static constexpr std::size_t kBatches = kBlock / kCount;
+
+  /// What a batch hands from stage to stage.
+  struct Batch {
+    Pair<L> x, v;
+    BasicDrive<L> drive;
+    LanePlace<L> place;
+    BasicSurfaceSample<L> s;
+    Pair<L> w;                      ///< velocity of the stage
+    Pair<L> a1, a2, a3, a4, heading, thrust;
+    L h, way, remaining;
+    L energy;                       ///< at the start; only where it is kept
+    BasicMotion<L> end;
+    unsigned active;    ///< lanes that hold a louse
+    unsigned special;
+    unsigned finished;
+    Louse* lice[kCount];
+    alignas(64) double after[kCount];
+  };
+
+  /// One sub-step for each of `count` lice; tick_of(i): who and how far.
+  template <typename TickOf>
+  void run(Louse* lice, std::size_t count, const TickOf& tick_of, BatchLists& lists, StepCounters& counters) {
+    for (std::size_t from = 0; from < count; from += kBlock) {
+      const std::size_t size = count - from < kBlock ? count - from : kBlock;
+      const std::size_t batches = (size + kCount - 1) / kCount;
+      for (std::size_t b = 0; b < batches; ++b) {
+        Batch& batch = batches_[b];
+        const std::size_t lanes = size - b * kCount;
+        for (std::size_t l = 0; l < kCount; ++l) {
+          const LouseTick tick = tick_of(from + b * kCount + (l < lanes ? l : 0));
+          batch.after[l] = tick.remaining;
+          batch.lice[l] = lice + tick.index;
+        }
+        batch.active = lanes < kCount ? (1u << lanes) - 1u : (1u << (kCount - 1)) * 2u - 1u;
+        batch.remaining = L::load(batch.after);
+      }
+      step_block(batches);
+      counters.sub_steps += size;
+      for (std::size_t b = 0; b < batches; ++b) {
+        const Batch& batch = batches_[b];
+        for (unsigned open = batch.active & (batch.special | ~batch.finished); open != 0; open &= open - 1) {
+          const auto l = static_cast<std::size_t>(__builtin_ctz(open));
+          LouseTick tick = tick_of(from + b * kCount + l);
+          if ((batch.special >> l & 1u) != 0) {
+            lists.left.push_back(tick);
+            --counters.sub_steps;
+          } else {
+            lists.again.push_back({tick.index, tick.pieces + 1, batch.after[l]});
+          }
+        }
+      }
+    }
   }
 
-  LaneSampler<L> sample(context.spline);
-  const L h(context.tick);
-  const BasicSurfaceSample<L> s = sample(start.position);
-  const Pair<L> a1 = acceleration<F>(s, start.velocity, drive, p);
-  const L speed2 = squared_length_in_space(s, start.velocity);
-  auto special = ~(speed2 > L(0.0)) | context.rules.too_long(s, speed2, h);
-  if constexpr (F::singular) {
-    auto turns = SubStepRules::turns_too_far(squared_length_in_space(s, a1), speed2, h);
-    if constexpr (!F::friction) turns = turns & (drive.along != L(0.0));
-    special = special | turns;
+  void step_block(std::size_t batches) {
+    const auto all = [&](auto stage) __attribute__((always_inline)) {
+      for (std::size_t b = 0; b < batches; ++b) stage(batches_[b]);
+    };
+    const auto sample = [](Batch& batch) __attribute__((always_inline)) { batch.s = evaluate(batch.place); };
+    const auto accelerate = [this](Batch& batch, Pair<L>& a) __attribute__((always_inline)) {
+      a = acceleration<F>(batch.s, batch.w, batch.drive, context_.parameters);
+    };
+    all([this](Batch& batch) __attribute__((always_inline)) { load(batch); });
+    all(sample);
+    all([&](Batch& batch) __attribute__((always_inline)) { accelerate(batch, batch.a1); });
+    all([this](Batch& batch) __attribute__((always_inline)) { depart(batch); });
+    all(sample);
+    all([&](Batch& batch) __attribute__((always_inline)) {
+      accelerate(batch, batch.a2);
+      batch.w = batch.v + (L(0.5) * batch.h) * batch.a2;
+    });
+    all([&](Batch& batch) __attribute__((always_inline)) {
+      accelerate(batch, batch.a3);
+      const L h = batch.h;
+      batch.w = batch.v + h * batch.a3;
+      place(batch, batch.x + h * batch.v + (h * (L(0.5) * h)) * batch.a3);
+    });
+    all(sample);
+    all([&](Batch& batch) __attribute__((always_inline)) {
+      accelerate(batch, batch.a4);
+      arrive(batch);
+    });
+    if constexpr (kConservative<F>) {
+      all(sample);
+      all([this](Batch& batch) __attribute__((always_inline)) { keep_energy(batch); });
+    }
+    all([this](Batch& batch) __attribute__((always_inline)) { write_back(batch); });
   }
-  const terrain::Rectangle& walls = context.walls;
-  const Pair<L> x = start.position;
-  special = special | ~((x.x > L(walls.x_min)) & (x.x < L(walls.x_max)) & (x.y > L(walls.y_min)) & (x.y < L(walls.y_max)));
 
-  const BasicMotion<L> end = nystrom4(
-      start, a1, h, [&](Pair<L> at) __attribute__((always_inline)) { return sample(at); },
-      [&](const BasicSurfaceSample<L>& at, Pair<L> v) __attribute__((always_inline)) { return acceleration<F>(at, v, drive, p); });
-  const Pair<L> y = end.position;
-  const L way2 = dot(end.velocity, end.velocity);
-  const auto inside = (y.x >= L(walls.x_min)) & (y.x <= L(walls.x_max)) & (y.y >= L(walls.y_min)) & (y.y <= L(walls.y_max));
-  const unsigned done = (~special & inside & (way2 > L(0.0))).lanes();
-
-  const Pair<L> heading = (L(1.0) / square_root(way2)) * end.velocity;
-  const L distance = L::load(in[7]) + h * square_root(speed2);
-  alignas(64) double out[7][kCount];
-  y.x.store(out[0]);
-  y.y.store(out[1]);
-  end.velocity.x.store(out[2]);
-  end.velocity.y.store(out[3]);
-  heading.x.store(out[4]);
-  heading.y.store(out[5]);
-  distance.store(out[6]);
-  for (int l = 0; l < kCount; ++l) {
-    if ((done >> l & 1u) == 0) continue;
-    Louse& louse = *lice[l];
-    louse.position = {out[0][l], out[1][l]};
-    louse.velocity = {out[2][l], out[3][l]};
-    louse.heading = {out[4][l], out[5][l]};
-    louse.distance = out[6][l];
+  [[gnu::always_inline]] inline void load(Batch& batch) {
+    LaneFields<L> fields;
+    fields.load(batch.lice);
+    batch.x = {fields.field[0], fields.field[1]};
+    batch.v = {fields.field[2], fields.field[3]};
+    batch.heading = {fields.field[4], fields.field[5]};
+    batch.thrust = {fields.field[6], fields.field[7]};
+    batch.w = batch.v;
+    if constexpr (F::thrust) drive(batch);
+    place(batch, batch.x);
   }
-  return done;
+
+  [[gnu::always_inline]] inline void drive(Batch& batch) {
+    using core::select;
+    unsigned kinds = 0;
+    for (std::size_t l = 0; l < kCount; ++l) kinds |= static_cast<unsigned>(batch.lice[l]->thrust_kind);
+    if ((kinds & static_cast<unsigned>(ThrustKind::kAlongHeading)) == 0) {
+      batch.drive = drive_of_map_vector(batch.thrust, context_.parameters.thrust_max);
+      return;
+    }
+    unsigned along = 0;
+    for (std::size_t l = 0; l < kCount; ++l) along |= (batch.lice[l]->thrust_kind == ThrustKind::kAlongHeading ? 1u : 0u) << l;
+    const auto is_along = L::Mask::of(along);
+    const Pair<L> thrust = batch.thrust;
+    batch.drive = drive_of_map_vector(Pair<L>{select(is_along, L(0.0), thrust.x), select(is_along, L(0.0), thrust.y)}, context_.parameters.thrust_max);
+    batch.drive.along = select(is_along, thrust.x, L(0.0)) * L(context_.parameters.thrust_max);
+  }
+
+  [[gnu::always_inline]] inline void place(Batch& batch, Pair<L> x) {
+    locate(context_.spline, x, batch.place);
+    for (std::size_t l = 0; l < kCount; ++l) {
+      __builtin_prefetch(batch.place.cell[l]);
+      __builtin_prefetch(batch.place.cell[l] + 8);
+    }
+  }
+
+  [[gnu::always_inline]] inline void depart(Batch& batch) {
+    using core::any, core::select, core::square_root;
+    const BasicSurfaceSample<L> s = batch.s;
+    const Pair<L> x = batch.x;
+    const Pair<L> v = batch.v;
+    const Pair<L> a1 = batch.a1;
+    const L speed2 = squared_length_in_space(s, v);
+    const L speed = square_root(speed2);
+    const terrain::Rectangle& interior = context_.interior;
+    auto special = ~(speed2 > L(kStandstill2)) |
+        ~((x.x > L(interior.x_min)) & (x.x < L(interior.x_max)) & (x.y > L(interior.y_min)) & (x.y < L(interior.y_max)));
+    L h = batch.remaining;
+    auto too_long = context_.rules.too_long(s, speed2, h);
+    for (auto cut = too_long & (h > L(shortest_)); any(cut); cut = too_long & (h > L(shortest_))) {
+      h = select(cut, L(0.5) * h, h);
+      too_long = context_.rules.too_long(s, speed2, h);
+    }
+    special = special | too_long;  // at the cap
+    if constexpr (F::singular) {
+      L a2 = squared_length_in_space(s, a1);
+      auto turns = SubStepRules::turns_too_far(a2, speed2, h);
+      if constexpr (!F::friction) turns = turns & (batch.drive.along != L(0.0));
+      turns = turns & ~special;
+      if (any(turns)) {
+        const L vz = s.zx * v.x + s.zy * v.y;
+        const L rate = (dot(v, a1) + vz * (s.zx * a1.x + s.zy * a1.y + curvature_along(s, v))) / speed;
+        a2 = select(rate > L(0.0), a2 - rate * rate, a2);
+        const auto turning = turns;
+        turns = turns & SubStepRules::turns_too_far(a2, speed2, h) & (h > L(shortest_));
+        while (any(turns)) {
+          h = select(turns, L(0.5) * h, h);
+          turns = turns & SubStepRules::turns_too_far(a2, speed2, h) & (h > L(shortest_));
+        }
+        special = special | (turning & ~(speed + h * rate > L(0.0)));
+      }
+    }
+    batch.special = special.lanes();
+    if constexpr (kConservative<F>) batch.energy = energy(s, v, context_.parameters.gravity);
+    batch.h = h;
+    batch.way = h * speed;
+    const L half = L(0.5) * h;
+    batch.w = v + half * a1;
+    place(batch, x + half * v + (L(0.5) * half * half) * a1);
+  }
+
+  [[gnu::always_inline]] inline typename L::Mask inside(Pair<L> x) const {
+    const terrain::Rectangle& interior = context_.interior;
+    return (x.x >= L(interior.x_min)) & (x.x <= L(interior.x_max)) & (x.y >= L(interior.y_min)) & (x.y <= L(interior.y_max));
+  }
+
+  [[gnu::always_inline]] inline void arrive(Batch& batch) {
+    const L h = batch.h;
+    const L sixth = h * L(1.0 / 6.0);
+    batch.end.position = batch.x + h * batch.v + (h * sixth) * (batch.a1 + batch.a2 + batch.a3);
+    batch.end.velocity = batch.v + sixth * (batch.a1 + L(2.0) * (batch.a2 + batch.a3) + batch.a4);
+    if constexpr (kConservative<F>) {
+      batch.special |= (~inside(batch.end.position)).lanes();
+      place(batch, batch.end.position);
+    }
+  }
+
+  [[gnu::always_inline]] inline void keep_energy(Batch& batch) {
+    const auto kept = with_energy(batch.energy, batch.s, batch.end, batch.h, context_.parameters.gravity);
+    batch.end = kept.end;
+    batch.special |= (~kept.near).lanes();
+  }
+
+  [[gnu::always_inline]] inline void write_back(Batch& batch) {
+    using core::select, core::square_root;
+    const L h = batch.h;
+    const Pair<L> y = batch.end.position;
+    const Pair<L> w = batch.end.velocity;
+    const L way2 = dot(w, w);
+    const auto finished = ~(h != batch.remaining);
+    batch.special |= (~(inside(y) & (way2 > L(0.0)))).lanes();
+    batch.finished = finished.lanes();
+    const unsigned done = batch.active & ~batch.special;
+
+    const L inverse = L(1.0) / square_root(way2);
+    LaneFields<L> fields;
+    fields.field[0] = y.x;
+    fields.field[1] = y.y;
+    fields.field[2] = w.x;
+    fields.field[3] = w.y;
+    fields.field[4] = select(finished, inverse * w.x, batch.heading.x);
+    fields.field[5] = select(finished, inverse * w.y, batch.heading.y);
+    fields.field[6] = batch.thrust.x;
+    fields.field[7] = batch.thrust.y;
+    fields.store(batch.lice, done);
+    alignas(64) double way[kCount];
+    batch.way.store(way);
+    (batch.remaining - h).store(batch.after);
+    for (std::size_t l = 0; l < kCount; ++l) {
+      if ((done >> l & 1u) != 0) batch.lice[l]->distance += way[l];
+    }
+  }
+
+  const BatchContext& context_;
+  double shortest_;
+  Batch batches_[kBatches];
+};
+
+template <typename L, typename F>
+void advance_lanes(const BatchContext& context, Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists, StepCounters& counters) {
+  LaneStepper<L, F>(context).advance(lice, moving, lists, counters);
 }
 
 /// The kernel for a map's forces.

@@ -16,8 +16,8 @@
 
 #include "shared/physics/nystrom.h"
 #include "shared/physics/parameters.h"
+#include "shared/physics/rim.h"
 #include "shared/physics/surface_motion.h"
-#include "shared/physics/walls.h"
 #include "shared/terrain/surface.h"
 
 namespace woodlouse::physics {
@@ -50,8 +50,8 @@ inline core::Vec2 landed_velocity(const terrain::SurfaceSample& s, const Flight&
 template <terrain::Surface S>
 class Flyer {
  public:
-  Flyer(const S& surface, const Parameters& parameters, const terrain::Rectangle& walls, double tick)
-      : surface_(surface), parameters_(parameters), walls_(walls), longest_(tick / 32.0) {}
+  Flyer(const S& surface, const Parameters& parameters, const Rim& rim, double tick)
+      : surface_(surface), parameters_(parameters), rim_(rim), longest_(tick / 32.0) {}
 
   struct Piece {
     double time = 0.0;    ///< [s], > 0
@@ -65,12 +65,11 @@ class Flyer {
     double time = remaining < longest_ ? remaining : longest_;
     const double speed = std::sqrt(dot(v, v));
     if (const double quarter = 0.25 * surface_.cell(); speed * time > quarter) time = quarter / speed;
-    const double to_x = to_wall(flight.over.position.x, v.x, walls_.x_min, walls_.x_max);
-    const double to_y = to_wall(flight.over.position.y, v.y, walls_.y_min, walls_.y_max);
-    const bool meets_x = to_x <= time;
-    if (meets_x) time = to_x;
-    const bool meets_y = to_y <= time;
-    if (meets_y) time = to_y;
+    const core::Vec2 to_wall = rim_.flight_times(flight.over.position, v);
+    const bool meets_x = to_wall.x <= time;
+    if (meets_x) time = to_wall.x;
+    const bool meets_y = to_wall.y <= time;
+    if (meets_y) time = to_wall.y;
 
     Flight end = after(flight, time);
     Piece piece{time, false, false};
@@ -89,10 +88,10 @@ class Flyer {
     flight = end;
     const double e = parameters_.edge_restitution;
     if (meets_y) {
-      flight.over.position.y = v.y > 0.0 ? walls_.y_max : walls_.y_min;
+      flight.over.position.y = rim_.ahead(v).y;
       v.y = -e * v.y;
     } else if (meets_x) {
-      flight.over.position.x = v.x > 0.0 ? walls_.x_max : walls_.x_min;
+      flight.over.position.x = rim_.ahead(v).x;
       v.x = -e * v.x;
     }
     piece.bounced = meets_x || meets_y;
@@ -100,12 +99,6 @@ class Flyer {
   }
 
  private:
-  [[nodiscard]] static double to_wall(double at, double speed, double low, double high) {
-    if (speed > 0.0) return (high - at) / speed;
-    if (speed < 0.0) return (low - at) / speed;
-    return 1e300;
-  }
-
   [[nodiscard]] Flight after(const Flight& f, double t) const {
     const double g = parameters_.gravity;
     return {{f.over.position + t * f.over.velocity, f.over.velocity}, f.height + t * f.climb - 0.5 * g * t * t, f.climb - g * t};
@@ -117,7 +110,7 @@ class Flyer {
 
   const S& surface_;
   const Parameters& parameters_;
-  terrain::Rectangle walls_;
+  const Rim& rim_;
   double longest_;
 };
 

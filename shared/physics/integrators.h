@@ -6,7 +6,8 @@
 // A step says how much of h it used: all, or up to where it chose to stop.
 //
 // kSubSteps: whether the sub-step rules and the friction stop apply (stepper.h); the document's Euler methods run
-// bare, as printed. Orders are for smooth surfaces; a C2 spline caps them at about 2 where a step crosses a knot
+// bare, as printed. kKeepsEnergy: whether the ends of its steps are projected where nothing but gravity acts
+// (energy_projection.h); the others show what they do by themselves. Orders are for smooth surfaces; a C2 spline caps them at about 2 where a step crosses a knot
 // line, which `Precise` cures.
 #pragma once
 
@@ -22,6 +23,7 @@ struct StepResult {
 /// x += h v, v += h a. Order 1.
 struct ExplicitEuler {
   static constexpr bool kSubSteps = false;
+  static constexpr bool kKeepsEnergy = false;
   template <typename Start, typename Field>
   StepResult step(const Start& start, const Field&, double h) const {
     return {{start.at.position + h * start.at.velocity, start.at.velocity + h * start.acceleration}, h};
@@ -32,6 +34,7 @@ struct ExplicitEuler {
 /// depends on v.
 struct FalseEuler {
   static constexpr bool kSubSteps = false;
+  static constexpr bool kKeepsEnergy = false;
   template <typename Start, typename Field>
   StepResult step(const Start& start, const Field&, double h) const {
     const core::Vec2 v = start.at.velocity + h * start.acceleration;
@@ -43,6 +46,7 @@ struct FalseEuler {
 /// dissipation, so that the energy error stays bounded.
 struct VerletQ {
   static constexpr bool kSubSteps = true;
+  static constexpr bool kKeepsEnergy = false;
   template <typename Start, typename Field>
   StepResult step(const Start& start, const Field& field, double h) const {
     const double k = 0.5 * h;
@@ -56,6 +60,7 @@ struct VerletQ {
 /// p = 1 / (4 - 4^(1/3)).
 struct VerletQ4 {
   static constexpr bool kSubSteps = true;
+  static constexpr bool kKeepsEnergy = false;
   template <typename Start, typename Field>
   StepResult step(const Start& start, const Field& field, double h) const {
     constexpr double kOuter = 0.41449077179437573714;
@@ -77,6 +82,7 @@ struct VerletQ4 {
 /// The classical Runge-Kutta method (W. Kutta, 1901) on (x, v). Order 4, four surface calls a step with a1's.
 struct RungeKutta4 {
   static constexpr bool kSubSteps = true;
+  static constexpr bool kKeepsEnergy = false;
   template <typename Start, typename Field>
   StepResult step(const Start& start, const Field& field, double h) const {
     const core::Vec2 x = start.at.position;
@@ -97,6 +103,7 @@ struct RungeKutta4 {
 /// The default; see nystrom.h. Order 4, three surface calls a step with a1's.
 struct Nystrom4 {
   static constexpr bool kSubSteps = true;
+  static constexpr bool kKeepsEnergy = true;
   template <typename Start, typename Field>
   [[gnu::always_inline]] inline StepResult step(const Start& start, const Field& field, double h) const {
     return {nystrom4(
@@ -109,6 +116,7 @@ struct Nystrom4 {
 /// Dormand and Prince's fifth-order formula at a fixed step (J. Comput. Appl. Math. 6, 1980), six surface calls.
 struct DormandPrince5 {
   static constexpr bool kSubSteps = true;
+  static constexpr bool kKeepsEnergy = false;
   template <typename Start, typename Field>
   StepResult step(const Start& start, const Field& field, double h) const {
     const core::Vec2 x = start.at.position;

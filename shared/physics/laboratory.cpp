@@ -63,6 +63,11 @@ std::unique_ptr<LaboratoryStepper> with_forces(S surface, const Choice& c) {
   if (c.parameters.central_gravity > 0.0) {
     return std::make_unique<Compiled<S, Forces<true, true, true, true>, E, I>>(surface, c.parameters, c.walls, c.tick);
   }
+  if constexpr (E::kExact) {
+    if (conserves_energy(c.parameters)) {
+      return std::make_unique<Compiled<S, Forces<false, false, false>, E, I>>(surface, c.parameters, c.walls, c.tick);
+    }
+  }
   // Friction asks for more than arithmetic (stops, sub-steps): it is compiled out where there is none.
   if (c.parameters.friction > 0.0) {
     return std::make_unique<Compiled<S, Forces<true, true, true>, E, I>>(surface, c.parameters, c.walls, c.tick);

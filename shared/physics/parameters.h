@@ -12,6 +12,12 @@ enum class SurfaceContact {
   kUnilateral,  ///< where N would be negative it flies, and lands (flight.h)
 };
 
+/// What a louse meets at the map's rim (rim.h).
+enum class Edges {
+  kWalls,  ///< four walls: it bounces
+  kWrap,   ///< the opposite rim: the map goes on without end; the terrain must be periodic
+};
+
 /// How a tick is integrated (integrators.h, precise.h); the error and cost of each are in docs/physics.md.
 enum class Method {
   kStandard,  ///< Nystrom-4: the best accuracy for its time
@@ -24,6 +30,13 @@ constexpr std::string_view to_text(SurfaceContact contact) {
 }
 constexpr std::string_view to_text(Method method) {
   return method == Method::kCheap ? "cheap" : method == Method::kPrecise ? "precise" : "standard";
+}
+constexpr std::string_view to_text(Edges edges) { return edges == Edges::kWrap ? "wrap" : "walls"; }
+constexpr std::optional<Edges> edges_from_text(std::string_view text) {
+  for (const Edges edges : {Edges::kWalls, Edges::kWrap}) {
+    if (to_text(edges) == text) return edges;
+  }
+  return std::nullopt;
 }
 constexpr std::optional<SurfaceContact> contact_from_text(std::string_view text) {
   for (const SurfaceContact contact : {SurfaceContact::kBilateral, SurfaceContact::kUnilateral}) {
@@ -46,6 +59,7 @@ struct Parameters {
   double edge_restitution = 0.5;   ///< walls at the domain's edge: 0 no bounce .. 1 elastic
 
   double central_gravity = 0.0;    ///< pull towards the map's origin, k / r^2 [m^3/s^2], >= 0 (chapter 2.3); 0 costs nothing
+  Edges edges = Edges::kWalls;
   SurfaceContact contact = SurfaceContact::kBilateral;
   Method method = Method::kStandard;
 

@@ -7,9 +7,9 @@
 #pragma once
 
 #include <algorithm>
-#include <type_traits>
 
 #include "shared/physics/integrators.h"
+#include "shared/physics/rim.h"
 #include "shared/terrain/bicubic_spline.h"
 
 namespace woodlouse::physics {
@@ -18,11 +18,12 @@ namespace woodlouse::physics {
 class Precise {
  public:
   static constexpr bool kSubSteps = true;
+  static constexpr bool kKeepsEnergy = true;
 
   template <typename Start, typename Field>
   StepResult step(const Start& start, const Field& field, double h) {
     const auto& spline = field.surface();
-    if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(spline)>, terrain::BicubicSpline>) {
+    if constexpr (!requires { spline.cell_at(0.0, 0.0); }) {
       return Nystrom4{}.step(start, field, h);  // no cells: nothing to split
     } else {
       if (!known_) cell_ = spline.cell_at(start.at.position.x, start.at.position.y);
@@ -32,7 +33,7 @@ class Precise {
       Motion end = run(h);
       const Exit exit = first_exit(spline.bounds(cell_), start.at, end, h);
       next_ = cell_;
-      if (exit.time >= h) return {end, h};
+      if (exit.columns == 0 && exit.rows == 0) return {end, h};
       next_ = {cell_.column + exit.columns, cell_.row + exit.rows};
       // Never a step of nothing: the line it starts on is behind it.
       const double t = std::max(exit.time, 1e-9 * h);
@@ -46,6 +47,15 @@ class Precise {
     cell_ = next_;
   }
 
+  /// The louse was carried over a seam by whole periods: the cell that it is in goes along.
+  template <terrain::Surface S>
+  void carried(const S& surface, Turns turns)
+    requires requires { surface.cells(); }
+  {
+    cell_.column -= turns.x * surface.cells().column;
+    cell_.row -= turns.y * surface.cells().row;
+  }
+
  private:
   struct Exit {
     double time;
@@ -53,30 +63,56 @@ class Precise {
     int rows = 0;
   };
 
-  /// When p(t), the cubic with these ends, first reaches zero from below; h when it does not.
-  static double first_root(double p0, double v0, double p1, double v1, double h) {
-    if (!(p1 > 0.0)) return h;
+  /// A step's way along an axis: position and velocity at its ends.
+  struct Way {
+    double from, from_velocity, to, to_velocity;
+  };
+
+  /// When the cubic through these ends reaches `line`, which its end lies beyond: Newton's method from that end,
+  /// inside a bracket. It doubles its digits with each turn, so one that moved by kNear is as exact as doubles are.
+  static double crossing(const Way& way, double line, double h) {
+    constexpr double kNear = 1e-8;
+    const double sign = way.to > line ? 1.0 : -1.0;  // p < 0 before the line
+    const double p0 = sign * (way.from - line);
+    const double v0 = sign * way.from_velocity * h;
+    const double p1 = sign * (way.to - line);
+    const double v1 = sign * way.to_velocity * h;
+    // p(s) = p0 + v0 s + c s^2 + d s^3, s = t / h
+    const double c = 3.0 * (p1 - p0) - 2.0 * v0 - v1;
+    const double d = 2.0 * (p0 - p1) + v0 + v1;
     double low = 0.0;
-    double high = h;
-    for (int i = 0; i < 60 && high - low > 1e-14 * h; ++i) {
-      const double t = 0.5 * (low + high);
-      const double s = t / h;
-      const double p = p0 * (1 + 2 * s) * (1 - s) * (1 - s) + v0 * t * (1 - s) * (1 - s) + p1 * s * s * (3 - 2 * s) +
-                       v1 * h * s * s * (s - 1);
-      (p > 0.0 ? high : low) = t;
+    double high = 1.0;
+    double s = 1.0;
+    for (int i = 0; i < 60; ++i) {
+      const double p = ((d * s + c) * s + v0) * s + p0;
+      const double slope = (3.0 * d * s + 2.0 * c) * s + v0;
+      (p > 0.0 ? high : low) = s;
+      const double newton = s - p / slope;  // infinite or NaN where the slope is 0
+      const bool trusted = newton >= low && newton <= high;
+      const double next = trusted ? newton : 0.5 * (low + high);
+      const double moved = next > s ? next - s : s - next;
+      s = next;
+      if (moved <= (trusted ? kNear : 1e-14)) break;
     }
-    return high;
+    return s * h;
   }
 
+  /// The first line of the cell's box that a step over h from a to b crosses. One whose end lies within is
+  /// taken to stay there.
   static Exit first_exit(const terrain::Rectangle& box, const Motion& a, const Motion& b, double h) {
     Exit exit{h};
-    const auto consider = [&](double time, int columns, int rows) {
-      if (time < exit.time) exit = {time, columns, rows};
-    };
-    consider(first_root(a.position.x - box.x_max, a.velocity.x, b.position.x - box.x_max, b.velocity.x, h), 1, 0);
-    consider(first_root(box.x_min - a.position.x, -a.velocity.x, box.x_min - b.position.x, -b.velocity.x, h), -1, 0);
-    consider(first_root(a.position.y - box.y_max, a.velocity.y, b.position.y - box.y_max, b.velocity.y, h), 0, 1);
-    consider(first_root(box.y_min - a.position.y, -a.velocity.y, box.y_min - b.position.y, -b.velocity.y, h), 0, -1);
+    if (box.contains(b.position.x, b.position.y)) return exit;
+    const int columns = b.position.x > box.x_max ? 1 : (b.position.x < box.x_min ? -1 : 0);
+    const int rows = b.position.y > box.y_max ? 1 : (b.position.y < box.y_min ? -1 : 0);
+    if (columns != 0) {
+      const Way way{a.position.x, a.velocity.x, b.position.x, b.velocity.x};
+      exit = {crossing(way, columns > 0 ? box.x_max : box.x_min, h), columns, 0};
+    }
+    if (rows != 0) {
+      const Way way{a.position.y, a.velocity.y, b.position.y, b.velocity.y};
+      const double time = crossing(way, rows > 0 ? box.y_max : box.y_min, h);
+      if (columns == 0 || time < exit.time) exit = {time, 0, rows};
+    }
     return exit;
   }
 

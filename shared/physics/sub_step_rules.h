@@ -12,6 +12,8 @@ namespace woodlouse::physics {
 
 class SubStepRules {
  public:
+  static constexpr double kMaxSubSteps = 256.0;  ///< of a tick
+
   /// cell: side of the surface's smallest cell [m]; drag: whether the map has it.
   SubStepRules(const Parameters& p, double cell, double tick)
       : longest_(p.drag > 0.0 && kDecay / p.drag < tick ? kDecay / p.drag : tick),

@@ -53,24 +53,24 @@ inline double central_pull(core::Vec2 x, double k) {
 /// A louse's thrust made ready for the equations, once per tick.
 template <typename T>
 struct BasicDrive {
-  Pair<T> direction{1.0, 0.0};  ///< h of a map vector, unit
+  Pair<T> direction{};          ///< h of a map vector, of any length
+  T size2 = 1.0;                ///< h.h; 1 where there is none
   T push = 0.0;                 ///< along h [m/s^2], >= 0
   T along = 0.0;                ///< along v [m/s^2]; negative brakes
   Pair<T> pull{};               ///< central gravity where the louse is [m/s^2]; only with Forces::central
 };
 using Drive = BasicDrive<double>;
 
+template <typename T>
+[[gnu::always_inline]] inline T squared(T a) {
+  return a * a;
+}
+
 /// Of a map vector `thrust`; 1 is thrust_max.
 template <typename T>
 [[gnu::always_inline]] inline BasicDrive<T> drive_of_map_vector(Pair<T> thrust, double thrust_max) {
-  using core::select, core::square_root;
-  const T length = square_root(dot(thrust, thrust));
-  const auto pushes = length > T(0.0);
-  const T inverse = T(1.0) / length;
-  return {{select(pushes, inverse * thrust.x, T(1.0)), select(pushes, inverse * thrust.y, T(0.0))},
-          length * T(thrust_max),
-          T(0.0),
-          {}};
+  const T size2 = dot(thrust, thrust);
+  return {thrust, core::select(size2 > T(0.0), size2, T(1.0)), core::square_root(size2) * T(thrust_max), T(0.0), {}};
 }
 
 inline Drive drive_of(const Louse& louse, double thrust_max) {
@@ -105,41 +105,52 @@ template <typename T>
   return {force.x - share * s.zx, force.y - share * s.zy};
 }
 
-/// a at velocity v; at v = 0 without friction and drive along the heading (see resting_balance).
+/// Below this |v|3^2 [m^2/s^2] a louse stands still: keeps the quotients below in range.
+inline constexpr double kStandstill2 = 1e-200;
+
+/// a at velocity v; at a standstill without friction and drive along the heading (see resting_balance).
+///
+/// w^2, |v|3^2 and |h|3^2 divide; their quotients come from one division by the product, that waits for no root:
+/// divisions and roots are most of what a step waits for.
 template <typename F, typename T>
 [[gnu::always_inline]] inline Pair<T> acceleration(const BasicSurfaceSample<T>& s, Pair<T> v, const BasicDrive<T>& drive,
                                                    const Parameters& p) {
   using core::any, core::magnitude, core::select, core::square_root;
   const T w2 = T(1.0) + s.zx * s.zx + s.zy * s.zy;
   const T lift = T(p.gravity) + curvature_along(s, v);
-  const T s_factor = lift / w2;
-  Pair<T> a{-s_factor * s.zx, -s_factor * s.zy};
   T load = lift;  // N w
-  if constexpr (F::central) {
-    a += along_surface(s, drive.pull, w2);
-    load = load + s.zx * drive.pull.x + s.zy * drive.pull.y;
+  if constexpr (F::central) load = load + s.zx * drive.pull.x + s.zy * drive.pull.y;
+
+  [[maybe_unused]] const T true_speed2 = squared_length_in_space(s, v);
+  [[maybe_unused]] const auto moves = true_speed2 > T(kStandstill2);
+  [[maybe_unused]] const T speed2 = select(moves, true_speed2, T(1.0));
+  [[maybe_unused]] const T length2 = drive.size2 + squared(s.zx * drive.direction.x + s.zy * drive.direction.y);  // |h|3^2
+  T w2_speed2 = w2;  // for mu |N| / |v|3 with N = load / w: one root serves both lengths
+  if constexpr (F::friction) w2_speed2 = w2 * speed2;
+  T inverse, inverse_w2_speed2;
+  if constexpr (F::thrust) {
+    inverse = T(1.0) / (w2_speed2 * length2);
+    inverse_w2_speed2 = inverse * length2;
+  } else {
+    inverse_w2_speed2 = T(1.0) / w2_speed2;
   }
+  T inverse_w2 = inverse_w2_speed2;
+  if constexpr (F::friction) inverse_w2 = inverse_w2_speed2 * speed2;
+
+  const T s_factor = load * inverse_w2;
+  Pair<T> a{-s_factor * s.zx, -s_factor * s.zy};
+  if constexpr (F::central) a += drive.pull;
   if constexpr (F::drag) a = a - T(p.drag) * v;
   if constexpr (F::singular) {
-    const T speed2 = squared_length_in_space(s, v);
     T resistance = 0.0;
-    // mu |N| / |v|3 with N = load / w: one root serves both lengths.
-    if constexpr (F::friction) resistance = T(p.friction) * magnitude(load) / square_root(w2 * speed2);
+    if constexpr (F::friction) resistance = T(p.friction) * magnitude(load) * square_root(w2_speed2) * inverse_w2_speed2;
     if constexpr (F::thrust) {
       if (any(drive.along != T(0.0))) resistance = resistance - drive.along / square_root(speed2);
     }
-    const auto moves = speed2 > T(0.0);
     a.x = select(moves, a.x - resistance * v.x, a.x);
     a.y = select(moves, a.y - resistance * v.y, a.y);
   }
-  if constexpr (F::thrust) {
-    const auto pushed = drive.push > T(0.0);
-    if (any(pushed)) {
-      const Pair<T> with_push = a + push_over_tangent(s, drive.direction, drive.push);
-      a.x = select(pushed, with_push.x, a.x);
-      a.y = select(pushed, with_push.y, a.y);
-    }
-  }
+  if constexpr (F::thrust) a += (drive.push * square_root(length2) * (inverse * w2_speed2)) * drive.direction;
   return a;
 }
 

@@ -19,19 +19,12 @@
 #include "shared/physics/batch.h"
 #include "shared/physics/louse.h"
 #include "shared/physics/parameters.h"
+#include "shared/physics/step_counters.h"
 #include "shared/terrain/terrain.h"
 
 namespace woodlouse::physics {
 
-/// What the steps so far have done; for logs and metrics, no part of the state.
-struct StepCounters {
-  std::uint64_t louse_steps = 0;      ///< lice stepped, summed over ticks
-  std::uint64_t sub_steps = 0;        ///< Nystrom steps taken for them
-  std::uint64_t capped = 0;           ///< sub-steps that wanted to be shorter than the cap allows
-  std::uint64_t bounces = 0;          ///< impacts on a wall
-  std::uint64_t flights = 0;          ///< take-offs
-  std::uint64_t stops = 0;            ///< lice brought to rest by friction
-};
+class GroundSteps;
 
 class World {
  public:
@@ -45,9 +38,15 @@ class World {
   /// The best one is chosen from the start.
   void use(InstructionSet set);
 
-  /// Adds a louse; its position is moved into the domain where it lies outside. REQUIRES a fresh id and
+  /// Adds a louse; its position is moved into the domain where it lies outside (by whole periods where the edges wrap). REQUIRES a fresh id and
   /// finite fields. A louse at rest that the terrain or its thrust would move is woken.
   void insert(const Louse& louse);
+  /// Replaces all lice by these, bit for bit: none is moved, woken or put to rest. REQUIRES ascending ids and
+  /// a state that a step of such a world left.
+  void restore(std::span<const Louse> lice) {
+    lice_.assign(lice.begin(), lice.end());
+    lists_are_stale_ = true;
+  }
   /// Removes it; false when there is none of that id.
   bool erase(LouseId id);
   /// Replaces its thrust for `ticks` ticks (kHeld: until the next); wakes it where that moves it.
@@ -67,22 +66,20 @@ class World {
 
  private:
   [[nodiscard]] std::size_t index_of(LouseId id) const;
-  void settle(Louse& louse);
-  template <typename Use>
-  void with_stepper(const Use& use) const;
-  void collect_awake();
-  [[nodiscard]] BatchContext batch_context() const;
-  template <typename Stepper>
-  void advance_all(const Stepper& stepper);
+  void settle(Louse& louse) const;
+  void collect();
 
   std::shared_ptr<const terrain::Terrain> terrain_;
   Parameters parameters_;
   double step_;
   terrain::Rectangle walls_;
+  std::shared_ptr<const GroundSteps> ground_steps_;  ///< compiled for the terrain, the method and the forces
   std::vector<Louse> lice_;               ///< ascending id
-  std::vector<std::uint32_t> awake_;      ///< indices into lice_ of whom a step must visit, ascending
-  bool awake_is_stale_ = false;           ///< lice_ or who must be visited changed since awake_ was made
-  BatchStep batch_;                       ///< width 0: none
+  std::vector<std::uint32_t> moving_;     ///< indices into lice_ of whom a step moves, ascending
+  std::vector<std::uint32_t> waiting_;    ///< of those at rest whose thrust is to be counted down
+  bool lists_are_stale_ = false;          ///< lice_ or who is in which list changed since they were made
+  BatchStep batch_;
+  BatchLists batch_lists_;
   StepCounters counters_;
 };
 

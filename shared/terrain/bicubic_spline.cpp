@@ -39,6 +39,8 @@ std::array<double, 4> hermite(double f0, double f1, double d0, double d1, double
           (d0 + d1 - 2.0 * secant) * inverse_h * inverse_h};
 }
 
+std::size_t beyond(SplineEnds ends) { return ends == SplineEnds::kPeriodic ? BicubicSpline::kBeyondSeam : 0; }
+
 double range_of(const Field& heights) {
   const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
   return *high - *low;
@@ -75,14 +77,15 @@ BicubicSpline::BicubicSpline(const HeightGrid& grid, SplineEnds ends) : BicubicS
 
 BicubicSpline::BicubicSpline(const HeightGrid& grid, SplineEnds x_ends, SplineEnds y_ends)
     : domain_(grid.domain()),
-      x_origin_(grid.x_origin),
-      y_origin_(grid.y_origin),
+      cells_each_way_{static_cast<long long>(grid.columns) - 1, static_cast<long long>(grid.rows) - 1},
+      x_origin_(grid.x_origin - static_cast<double>(beyond(x_ends)) * grid.dx),
+      y_origin_(grid.y_origin - static_cast<double>(beyond(y_ends)) * grid.dy),
       dx_(grid.dx),
       dy_(grid.dy),
       inverse_dx_(1.0 / grid.dx),
       inverse_dy_(1.0 / grid.dy),
-      last_column_(static_cast<long long>(grid.columns) - 2),
-      last_row_(static_cast<long long>(grid.rows) - 2) {
+      last_column_(static_cast<long long>(grid.columns + 2 * beyond(x_ends)) - 2),
+      last_row_(static_cast<long long>(grid.rows + 2 * beyond(y_ends)) - 2) {
   assert(grid.heights.size() == grid.columns * grid.rows);
   const std::size_t columns = grid.columns;
   const std::size_t rows = grid.rows;
@@ -93,7 +96,10 @@ BicubicSpline::BicubicSpline(const HeightGrid& grid, SplineEnds x_ends, SplineEn
   const Field zy = slopes_along_columns(z, columns, rows, dy_, y_ends);
   const Field zxy = slopes_along_columns(zx, columns, rows, dy_, y_ends);
 
-  cells_.resize((columns - 1) * (rows - 1));
+  const std::size_t first_column = beyond(x_ends);
+  const std::size_t first_row = beyond(y_ends);
+  const std::size_t stored_columns = columns - 1 + 2 * first_column;
+  cells_.resize(stored_columns * (rows - 1 + 2 * first_row));
   for (std::size_t j = 0; j + 1 < rows; ++j) {
     for (std::size_t i = 0; i + 1 < columns; ++i) {
       const std::size_t k00 = j * columns + i;
@@ -105,11 +111,25 @@ BicubicSpline::BicubicSpline(const HeightGrid& grid, SplineEnds x_ends, SplineEn
       const auto north = hermite(z[k01], z[k11], zx[k01], zx[k11], inverse_dx_);
       const auto south_y = hermite(zy[k00], zy[k10], zxy[k00], zxy[k10], inverse_dx_);
       const auto north_y = hermite(zy[k01], zy[k11], zxy[k01], zxy[k11], inverse_dx_);
-      Cell& cell = cells_[j * (columns - 1) + i];
+      Cell& cell = cells_[(first_row + j) * stored_columns + first_column + i];
       for (std::size_t a = 0; a < 4; ++a) {
         const auto column = hermite(south[a], north[a], south_y[a], north_y[a], inverse_dy_);
         for (std::size_t b = 0; b < 4; ++b) cell.c[4 * b + a] = column[b];
       }
+    }
+  }
+  if (wraps) repeat_beyond_seams(first_column, first_row);
+}
+
+void BicubicSpline::repeat_beyond_seams(std::size_t first_column, std::size_t first_row) {
+  const auto columns = static_cast<std::size_t>(cells_each_way_.column);
+  const auto rows = static_cast<std::size_t>(cells_each_way_.row);
+  const std::size_t stored_columns = columns + 2 * first_column;
+  for (std::size_t j = 0; j < rows + 2 * first_row; ++j) {
+    const std::size_t own_row = first_row + (j + rows * kBeyondSeam - first_row) % rows;
+    for (std::size_t i = 0; i < stored_columns; ++i) {
+      const std::size_t own_column = first_column + (i + columns * kBeyondSeam - first_column) % columns;
+      cells_[j * stored_columns + i] = cells_[own_row * stored_columns + own_column];
     }
   }
 }

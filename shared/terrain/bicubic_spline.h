@@ -11,7 +11,8 @@
 //   which costs two orders near the rim), or periodic (C2 over the seam too), each axis its own. Periodic:
 //   the grid holds the seam twice, its last column (row) is the first again, so that its domain is one
 //   period; wrapped_surface.h takes points of any turn.
-// Outside the domain: the edge cell's polynomial goes on (see surface.h).
+// Outside the domain: the edge cell's polynomial goes on (see surface.h); over a seam the surface itself goes on
+//   for kBeyondSeam cells, whose polynomials are kept twice, and the last of them from there.
 // Memory: 128 bytes a cell. Cost: about 15 ns for z, gradient and Hessian while the cells fit the cache.
 #pragma once
 
@@ -81,6 +82,11 @@ class BicubicSpline {
     long long column = 0;
     long long row = 0;
   };
+  /// How many cells are kept beyond each seam of a periodic axis: a sub-step looks one cell's way past it, and as
+  /// far as the acceleration takes it.
+  static constexpr std::size_t kBeyondSeam = 4;
+  /// How many there are in the domain, each way. cell_at() gives the same polynomial a period on as that many cells on.
+  [[nodiscard]] CellIndex cells() const { return cells_each_way_; }
   [[nodiscard, gnu::always_inline]] inline CellIndex cell_at(double x, double y) const {
     return nearest_cell(static_cast<long long>((x - x_origin_) * inverse_dx_), static_cast<long long>((y - y_origin_) * inverse_dy_));
   }
@@ -102,6 +108,9 @@ class BicubicSpline {
   }
 
  private:
+  /// Copies the domain's cells to those stored beyond its seams; it begins at that column and row.
+  void repeat_beyond_seams(std::size_t first_column, std::size_t first_row);
+
   [[nodiscard, gnu::always_inline]] inline CellIndex nearest_cell(long long i, long long j) const {
     return {i < 0 ? 0 : (i > last_column_ ? last_column_ : i), j < 0 ? 0 : (j > last_row_ ? last_row_ : j)};
   }
@@ -112,13 +121,14 @@ class BicubicSpline {
   };
 
   Rectangle domain_;
-  double x_origin_;
+  CellIndex cells_each_way_;
+  double x_origin_;  ///< the first stored cell's corner: beyond the seam along a periodic axis
   double y_origin_;
   double dx_;
   double dy_;
   double inverse_dx_;
   double inverse_dy_;
-  long long last_column_;  ///< index of the last cell in x
+  long long last_column_;  ///< index of the last stored cell in x
   long long last_row_;
   std::vector<Cell> cells_;
 };

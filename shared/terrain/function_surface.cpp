@@ -51,12 +51,29 @@ SurfaceSample hills(double x, double y) {
           -kAmplitude * kB * kB * sa * cb};
 }
 
+SurfaceSample waves(double x, double y) {
+  constexpr double kHeight = 0.12;
+  constexpr double kRipple = 0.03;
+  constexpr double kPi = 0.5 * kTwoPi;
+  const auto [sx, cx] = core::portable_sincos(kPi * x);
+  const auto [sy, cy] = core::portable_sincos(kPi * y);
+  const auto [s2x, c2x] = core::portable_sincos(kTwoPi * x);
+  const auto [s3y, c3y] = core::portable_sincos(3.0 * kPi * y);
+  return {kHeight * cx * cy + kRipple * s2x * s3y,
+          kPi * (2.0 * kRipple * c2x * s3y - kHeight * sx * cy),
+          kPi * (3.0 * kRipple * s2x * c3y - kHeight * cx * sy),
+          -kPi * kPi * (kHeight * cx * cy + 4.0 * kRipple * s2x * s3y),
+          kPi * kPi * (kHeight * sx * sy + 6.0 * kRipple * c2x * c3y),
+          -kPi * kPi * (kHeight * cx * cy + 9.0 * kRipple * s2x * s3y)};
+}
+
 SurfaceSample unit_sample(FunctionName name, double x, double y) {
   switch (name) {
     case FunctionName::kParabolicPot: return {0.5 * (x * x + y * y), x, y, 1.0, 0.0, 1.0};
     case FunctionName::kWavyPot: return wavy_pot(x, y);
     case FunctionName::kVolcano: return volcano(x, y);
     case FunctionName::kHills: return hills(x, y);
+    case FunctionName::kWaves: return waves(x, y);
   }
   assert(false);
   return {};
@@ -70,6 +87,7 @@ std::string_view to_text(FunctionName name) {
     case FunctionName::kWavyPot: return "wavy_pot";
     case FunctionName::kVolcano: return "volcano";
     case FunctionName::kHills: return "hills";
+    case FunctionName::kWaves: return "waves";
   }
   assert(false);
   return {};

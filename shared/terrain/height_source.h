@@ -6,6 +6,7 @@
 
 #include <cassert>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -42,6 +43,8 @@ class HeightSource {
   /// there are no data.
   /// REQUIRES column + out.size() <= columns, row < rows.
   virtual void read(std::size_t column, std::size_t row, std::span<double> out) const = 0;
+  /// Reads that failed so far; what they were to give counts as without data.
+  [[nodiscard]] virtual std::uint64_t read_failures() const { return 0; }
 };
 
 /// A grid in memory. Knots that are not finite count as without data.

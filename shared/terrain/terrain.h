@@ -8,13 +8,15 @@
 #include "shared/terrain/function_surface.h"
 #include "shared/terrain/height_grid.h"
 #include "shared/terrain/surface.h"
+#include "shared/terrain/tiled_bspline.h"
 
 namespace woodlouse::terrain {
 
-/// Immutable after construction; any thread may sample it.
+/// Immutable after construction; any thread may sample it. (What a big map keeps in memory changes, behind a lock of
+/// its own, and never shows in a sample: tile_store.h.)
 class Terrain {
  public:
-  using Alternatives = std::variant<BicubicSpline, FunctionSurface>;
+  using Alternatives = std::variant<BicubicSpline, FunctionSurface, TiledGround>;
 
   explicit Terrain(Alternatives surface);
 

@@ -28,6 +28,7 @@ OUTSIDE = {
     "nlohmann/": {"shared/json/parser.cpp", "server/config_file.cpp", "client/config.cpp"},
     "Eigen/": {"bench"},
     "xxhash.h": {"core"},
+    "zstd.h": {"replay"},
     "spdlog/": {"server"},
     "CLI/": {"server", "client", "bots", "bench"},
     "benchmark/": {"bench"},

@@ -1,9 +1,11 @@
 #include "shared/terrain/tiled_bspline.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <thread>
 #include <vector>
 
 #include "shared/terrain/bicubic_spline.h"
@@ -135,7 +137,7 @@ TEST_CASE("over a tile line nothing jumps by more than rounding") {
 }
 
 TEST_CASE(
-    "the order of visits changes no bit, nor does what was evicted in between, nor building all tiles at "
+    "the order of visits changes no bit, nor does what was thrown out in between, nor building all tiles at "
     "once") {
   const HeightGrid grid = tests::random_grid(300, 270, 21);
   const auto source = std::make_shared<GridHeights>(grid);
@@ -149,17 +151,63 @@ TEST_CASE(
   REQUIRE(whole.build_all());
   TiledBSplineOptions narrow;
   narrow.max_tiles = 2;
-  const TiledBSpline forgetful(source, narrow);
-  const TiledBSpline backwards(forwards);
-  CHECK(backwards.tiles() == 0);
+  const TiledGround forgetful(source, narrow);
+  const TiledBSpline backwards(source);
   for (std::size_t k = points.size(); k-- > 0;) {
     const auto [x, y] = points[k];
     REQUIRE(same_bits(backwards.sample(x, y), expected[k]));
     REQUIRE(same_bits(forgetful.sample(x, y), expected[k]));
     REQUIRE(same_bits(whole.sample(x, y), expected[k]));
   }
-  CHECK(forgetful.tiles() == 2);
-  CHECK(forgetful.tiles_built() > 100);
+  const TileStore::Counters counters = forgetful.tiles().counters();
+  CHECK(counters.live == 2);
+  CHECK(counters.built > 100);
+  CHECK(counters.thrown_out == counters.built - 2);
+}
+
+TEST_CASE("a ground that several threads sample and prepare at once gives the bits it gives one alone") {
+  const HeightGrid grid = tests::random_grid(300, 270, 21);
+  const auto source = std::make_shared<GridHeights>(grid);
+  const TiledBSpline alone(source);
+  TiledBSplineOptions narrow;
+  narrow.max_tiles = 5;
+  const TiledGround shared(source, narrow);
+  std::atomic<int> wrong{0};
+  std::vector<std::vector<SurfaceSample>> expected(3);
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    for (const auto& [x, y] : points_of(grid.domain(), 600, seed)) expected[seed].push_back(alone.sample(x, y));
+  }
+  std::vector<std::thread> threads;
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    threads.emplace_back([&, seed] {
+      const TiledBSpline own(shared);
+      const auto points = points_of(grid.domain(), 600, seed);
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        const auto [x, y] = points[k];
+        if (!same_bits(shared.sample(x, y), expected[seed][k]) || !same_bits(own.sample(x, y), expected[seed][k])) ++wrong;
+      }
+    });
+  }
+  threads.emplace_back([&] {
+    for (std::size_t tile = 0; tile < 200; ++tile) shared.tiles().prepare(tile * 7 % shared.tiles().all_tiles());
+  });
+  for (std::thread& thread : threads) thread.join();
+  CHECK(wrong == 0);
+  CHECK(shared.tiles().counters().live == 5);
+}
+
+TEST_CASE("a tile that is asked for again and again stays where others come and go") {
+  const auto source = std::make_shared<GridHeights>(tests::random_grid(300, 270, 21));
+  TileStore store(source, 0.0, 3);
+  const TilePointer kept = store.get(0);
+  for (std::size_t tile = 1; tile < 25; ++tile) {
+    static_cast<void>(store.get(tile));
+    REQUIRE(store.get(0) == kept);
+  }
+  CHECK(store.counters().built == 25);
+  store.prepare(0);
+  store.prepare(1);
+  CHECK(store.counters().prepared == 1);
 }
 
 TEST_CASE(

@@ -1,0 +1,17 @@
+// What a terrain's numbers may be, whichever way they come.
+#pragma once
+
+#include "shared/map/checked_fields.h"
+
+namespace woodlouse::map {
+
+inline constexpr Range kGridScale{1e-6, 1e6, ""};
+inline constexpr Range kSpacing{1e-3, 1e6, "m"};
+inline constexpr Range kOrigin{-1e7, 1e7, "m"};
+inline constexpr Range kHeight{-1e6, 1e6, "m"};
+/// 89.4 degrees between neighbouring knots. Steeper is a wall, and walls are the map's edge's business.
+inline constexpr double kMaxSlope = 100.0;
+
+inline bool within(double value, const Range& range) { return value >= range.min && value <= range.max; }
+
+}  // namespace woodlouse::map

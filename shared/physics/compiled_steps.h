@@ -1,0 +1,108 @@
+// GroundSteps of a surface, compiled for its method and forces. Included only by the steps_on_*.cpp.
+#pragma once
+
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+#include "shared/physics/ground_steps.h"
+#include "shared/physics/precise.h"
+#include "shared/physics/rim.h"
+#include "shared/physics/stepper.h"
+
+namespace woodlouse::physics {
+
+/// What is sampled in a call: the ground itself, but for big maps, where it remembers the tiles the call was in.
+template <typename S>
+const S& surface_of(const S& ground) {
+  return ground;
+}
+inline terrain::TiledBSpline surface_of(const terrain::TiledGround& ground) { return terrain::TiledBSpline(ground); }
+
+template <terrain::Surface S, typename F, typename I>
+class CompiledSteps final : public GroundSteps {
+ public:
+  CompiledSteps(const S& ground, const StepRules& rules) : ground_(ground), rules_(rules) {}
+
+  void advance(std::span<Louse> lice, std::span<const std::uint32_t> moving, const BatchStep& batch,
+               BatchLists& lists, StepCounters& counters) const override {
+    const auto& surface = surface_of(ground_);
+    const OneStepper stepper(surface, rules_.parameters, rules_.walls, rules_.tick);
+    if constexpr (std::is_same_v<S, terrain::BicubicSpline>) {
+      if (batch.width > 0) return advance_batched(stepper, lice, moving, batch, lists, counters);
+    }
+    for (const std::uint32_t index : moving) stepper.advance(lice[index], counters);
+  }
+
+  [[nodiscard]] bool holds(const Louse& louse) const override {
+    const auto& surface = surface_of(ground_);
+    return OneStepper(surface, rules_.parameters, rules_.walls, rules_.tick).holds(louse);
+  }
+
+ private:
+  using Surface = std::remove_cvref_t<decltype(surface_of(std::declval<const S&>()))>;
+  using OneStepper = Stepper<Surface, F, SurfaceEquations, I>;
+
+  void advance_batched(const OneStepper& stepper, std::span<Louse> lice, std::span<const std::uint32_t> moving,
+                       const BatchStep& batch, BatchLists& lists, StepCounters& counters) const {
+    // Whoever leaves the interior takes the scalar step, which knows of walls and seams.
+    const terrain::Rectangle interior = Rim(rules_.walls, rules_.parameters.edges).interior();
+    const BatchContext context{ground_.view(), rules_.parameters, interior, rules_.tick,
+                               SubStepRules(rules_.parameters, ground_.cell(), rules_.tick)};
+    counters.louse_steps += moving.size();
+    batch.advance(context, lice.data(), moving, lists, counters);
+    for (const LouseTick& tick : lists.left) {
+      stepper.finish(lice[tick.index], tick.remaining, static_cast<int>(tick.pieces), counters);
+    }
+  }
+
+  const S& ground_;
+  StepRules rules_;
+};
+
+/// Compiles every combination of the forces that a map may leave out.
+template <typename I, typename S>
+std::unique_ptr<const GroundSteps> with_forces(const S& ground, const StepRules& rules) {
+  const Parameters& p = rules.parameters;
+  const auto make = [&]<typename F>(F) -> std::unique_ptr<const GroundSteps> {
+    return std::make_unique<const CompiledSteps<S, F, I>>(ground, rules);
+  };
+  if (p.central_gravity > 0.0) return make(Forces<true, true, true, true>{});  // what is 0 of the others does nothing
+  const auto choose_thrust = [&]<bool kDrag, bool kFriction>() {
+    return p.thrust_max > 0.0 ? make(Forces<kDrag, kFriction, true>{}) : make(Forces<kDrag, kFriction, false>{});
+  };
+  const auto choose_friction = [&]<bool kDrag>() {
+    return p.friction > 0.0 ? choose_thrust.template operator()<kDrag, true>()
+                            : choose_thrust.template operator()<kDrag, false>();
+  };
+  return p.drag > 0.0 ? choose_friction.template operator()<true>() : choose_friction.template operator()<false>();
+}
+
+/// The same with fewer choices, for what is rarely run: friction, which has rules of its own, is compiled out, and
+/// all of them where energy is kept.
+template <typename I, typename S>
+std::unique_ptr<const GroundSteps> with_main_forces(const S& ground, const StepRules& rules) {
+  if (rules.parameters.central_gravity > 0.0) {
+    return std::make_unique<const CompiledSteps<S, Forces<true, true, true, true>, I>>(ground, rules);
+  }
+  if (conserves_energy(rules.parameters)) {
+    return std::make_unique<const CompiledSteps<S, Forces<false, false, false>, I>>(ground, rules);
+  }
+  if (rules.parameters.friction > 0.0) {
+    return std::make_unique<const CompiledSteps<S, Forces<true, true, true>, I>>(ground, rules);
+  }
+  return std::make_unique<const CompiledSteps<S, Forces<true, false, true>, I>>(ground, rules);
+}
+
+/// For the grounds of most maps: the default method in every combination of forces, the others in the main ones.
+template <typename S>
+std::unique_ptr<const GroundSteps> steps_with_every_force(const S& ground, const StepRules& rules) {
+  switch (rules.parameters.method) {
+    case Method::kCheap: return with_main_forces<VerletQ>(ground, rules);
+    case Method::kPrecise: return with_main_forces<Precise>(ground, rules);
+    case Method::kStandard: break;
+  }
+  return with_forces<Nystrom4>(ground, rules);
+}
+
+}  // namespace woodlouse::physics

@@ -1,0 +1,73 @@
+// Energy kept by projection, where nothing but gravity acts: the end of a step is moved, by the little that the
+// integrator erred, to the energy that it started with.
+//
+//     E(x, v) = |v|3^2 / 2 + g z,   A = dE/dv = v + vz G,   B = dE/dx = g G + vz H v,   both per unit mass
+//     along G:   v -= lambda (A.G) G,   x -= lambda h^2 (B.G) G,   lambda = (E - E0) / ((A.G)^2 + h^2 (B.G)^2)
+//     nearest:   v -= lambda A,         x -= lambda h^2 B,         lambda = (E - E0) / (A.A + h^2 B.B)
+// One step of Newton's method; h weighs a metre against a metre per second. The force acts along G, and so does the
+// correction: what a symmetric terrain conserves besides (the velocity along a gutter, the angular momentum in a bowl)
+// is left alone. Where that way is long (v is level, or the gradient vanishes), the nearest state is taken. The order of
+// the integrator stays; its energy error does not add up.
+// Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, IV.4.
+//
+// + - * / only, in the order written. T: double, or several at once (core/lanes.h).
+#pragma once
+
+#include "shared/core/lanes.h"
+#include "shared/physics/nystrom.h"
+#include "shared/physics/surface_motion.h"
+
+namespace woodlouse::physics {
+
+/// Whether a map with forces F has an energy to keep.
+template <typename F>
+inline constexpr bool kConservative = !F::drag && !F::friction && !F::thrust && !F::central;
+
+/// Whether such a map is stepped with none of these forces compiled in.
+inline bool conserves_energy(const Parameters& p) {
+  return !(p.drag > 0.0) && !(p.friction > 0.0) && !(p.thrust_max > 0.0) && !(p.central_gravity > 0.0);
+}
+
+/// |v|3^2 / 2 + g z [m^2/s^2].
+template <typename T>
+[[gnu::always_inline]] inline T energy(const BasicSurfaceSample<T>& s, Pair<T> v, double gravity) {
+  return T(0.5) * squared_length_in_space(s, v) + T(gravity) * s.z;
+}
+
+template <typename T>
+struct EnergyKept {
+  BasicMotion<T> end;
+  decltype(T{} < T{}) near;  ///< whether such a state was near; where not, `end` is as it was
+};
+
+/// `end`, moved to the energy `energy0`; s: the surface at end; h: the step's length.
+template <typename T>
+[[gnu::always_inline]] inline EnergyKept<T> with_energy(T energy0, const BasicSurfaceSample<T>& s, const BasicMotion<T>& end, T h,
+                                                        double gravity) {
+  using core::select;
+  const Pair<T> v = end.velocity;
+  const Pair<T> gradient{s.zx, s.zy};
+  const T gradient2 = dot(gradient, gradient);
+  const T vz = dot(gradient, v);
+  const Pair<T> by_velocity{v.x + vz * s.zx, v.y + vz * s.zy};                     // A
+  const Pair<T> by_place{h * (T(gravity) * s.zx + vz * (s.zxx * v.x + s.zxy * v.y)),  // h B
+                         h * (T(gravity) * s.zy + vz * (s.zxy * v.x + s.zyy * v.y))};
+  const T excess = energy(s, v, gravity) - energy0;
+  const T excess2 = excess * excess;
+  const T scale2 = dot(v, v) + h * h * (T(gravity * gravity) * gradient2);  // what v is, and what gravity makes of it in h
+  constexpr double kSmall = 1e-5;
+  constexpr double kFar = 1e-3;
+
+  const T v_share = dot(by_velocity, gradient);
+  const T x_share = dot(by_place, gradient);
+  const T slope_along = v_share * v_share + x_share * x_share;
+  const auto along = excess2 * gradient2 < T(kSmall * kSmall) * slope_along * scale2;
+  const T slope = select(along, slope_along, dot(by_velocity, by_velocity) + dot(by_place, by_place));
+  const auto near = static_cast<decltype(T{} < T{})>(along | (excess2 < T(kFar * kFar) * slope * scale2));
+  const T lambda = select(near, excess / select(near, slope, T(1.0)), T(0.0));
+  const Pair<T> dv{select(along, v_share * gradient.x, by_velocity.x), select(along, v_share * gradient.y, by_velocity.y)};
+  const Pair<T> dx{select(along, x_share * gradient.x, by_place.x), select(along, x_share * gradient.y, by_place.y)};
+  return {{end.position - (lambda * h) * dx, v - lambda * dv}, near};
+}
+
+}  // namespace woodlouse::physics

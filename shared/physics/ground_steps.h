@@ -1,0 +1,44 @@
+// The steps on one kind of ground behind one indirect call per tick: each kind is compiled in a file of its own
+// (steps_on_*.cpp, from compiled_steps.h), so that they build side by side and the world knows none of them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "shared/physics/batch.h"
+#include "shared/physics/louse.h"
+#include "shared/physics/parameters.h"
+#include "shared/physics/step_counters.h"
+#include "shared/terrain/terrain.h"
+
+namespace woodlouse::physics {
+
+/// Immutable: any thread may call. Refers to the surface it was made for.
+class GroundSteps {
+ public:
+  GroundSteps() = default;
+  GroundSteps(const GroundSteps&) = delete;
+  GroundSteps& operator=(const GroundSteps&) = delete;
+  virtual ~GroundSteps() = default;
+
+  /// Moves lice[moving[0]], lice[moving[1]], ..., none of them resting, through one tick. batch: for as many at
+  /// once as it can; width 0: none, and so REQUIRED of every ground but the bicubic spline. lists: room for it.
+  virtual void advance(std::span<Louse> lice, std::span<const std::uint32_t> moving, const BatchStep& batch,
+                       BatchLists& lists, StepCounters& counters) const = 0;
+  /// Whether friction, brake and walls hold this louse where it is.
+  [[nodiscard]] virtual bool holds(const Louse& louse) const = 0;
+};
+
+/// What the steps need besides the ground.
+struct StepRules {
+  Parameters parameters;
+  terrain::Rectangle walls;
+  double tick = 0.0;  ///< [s]
+};
+
+std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::BicubicSpline& ground, const StepRules& rules);
+std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::FunctionSurface& ground, const StepRules& rules);
+std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::TiledGround& ground, const StepRules& rules);
+
+}  // namespace woodlouse::physics

@@ -1,0 +1,162 @@
+// The rim of the map, where lice are kept: four walls, or seams where the edges wrap and the map goes on at the
+// opposite rim. Here is where it stands, when a louse meets it, and the state at that moment; what walls do to a louse:
+// walls.h.
+//
+// Positions on a map that wraps lie in [min, max): a louse that has run over a seam is moved by whole periods.
+#pragma once
+
+#include <bit>
+#include <cassert>
+#include <cstdint>
+#include <limits>
+
+#include "shared/core/vec2.h"
+#include "shared/physics/nystrom.h"
+#include "shared/physics/parameters.h"
+#include "shared/physics/walls.h"
+#include "shared/terrain/surface.h"
+
+namespace woodlouse::physics {
+
+/// How many periods a louse was carried back by, per axis.
+struct Turns {
+  long long x = 0;
+  long long y = 0;
+};
+
+class Rim {
+ public:
+  /// Walls: infinite sides keep nobody. Wrapping: the domain is one period; REQUIRES it finite.
+  Rim(const terrain::Rectangle& domain, Edges edges)
+      : domain_(domain),
+        interior_(domain),
+        walls_(domain),
+        tolerance_(1e-13 * (domain.x_max - domain.x_min + domain.y_max - domain.y_min)),
+        edges_(edges) {
+    if (edges == Edges::kWalls) return;
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    assert(domain.x_max - domain.x_min < kNever && domain.y_max - domain.y_min < kNever);
+    interior_.x_max = before(domain.x_max);
+    interior_.y_max = before(domain.y_max);
+    walls_ = {-kNever, -kNever, kNever, kNever};
+  }
+
+  [[nodiscard]] bool wraps() const { return edges_ == Edges::kWrap; }
+  /// The positions a louse may have.
+  [[nodiscard]] const terrain::Rectangle& interior() const { return interior_; }
+  /// Whether no wall is met on the way to p.
+  [[nodiscard]] bool lets_pass(core::Vec2 p) const { return walls_.contains(p.x, p.y); }
+  [[nodiscard]] Contact touching(core::Vec2 p) const { return physics::touching(walls_, p); }
+  /// Whether p can be made a position again: within the walls, or not absurdly many periods away. False for NaN.
+  [[nodiscard]] bool admits(core::Vec2 p) const {
+    return wraps() ? turns_are_few(p.x, domain_.x_min, domain_.x_max) && turns_are_few(p.y, domain_.y_min, domain_.y_max)
+                   : walls_.contains(p.x, p.y);
+  }
+
+  /// Moves p into the interior by whole periods. REQUIRES wraps(). What admits() refuses stays as it is.
+  Turns carry_home(core::Vec2& p) const {
+    if (interior_.contains(p.x, p.y) || !admits(p)) return {};
+    return {carry(p.x, domain_.x_min, domain_.x_max), carry(p.y, domain_.y_min, domain_.y_max)};
+  }
+
+  /// p as a position: carried home, or the wall's nearest point where p lies beyond it.
+  [[nodiscard]] core::Vec2 inside(core::Vec2 p) const {
+    if (interior_.contains(p.x, p.y)) return p;
+    if (!wraps()) return onto(p);
+    carry_home(p);
+    return p;
+  }
+
+  /// The time after which a motion that is at `end` after h, beyond a wall, meets it; `end` becomes the state
+  /// there. again(t) is the motion after t instead: Newton's method inside a bracket repeats the sub-step, so
+  /// that the state is the integrator's own.
+  template <typename Again>
+  double reach(double h, Motion& end, const Again& again) const {
+    double low = 0.0;
+    double high = h;
+    double t = h;
+    for (int i = 0; i < 60; ++i) {
+      double leaving = 0.0;
+      const double distance = beyond(end, leaving);
+      if (distance >= -tolerance_ && distance <= tolerance_) break;
+      (distance > 0.0 ? high : low) = t;
+      const double guess = leaving > 0.0 ? t - distance / leaving : low;
+      t = guess > low && guess < high ? guess : 0.5 * (low + high);
+      end = again(t);
+    }
+    end.position = onto(end.position);
+    return t;
+  }
+
+  /// After what time a straight flight from p at v meets a wall, per axis; 1e300 or more: never.
+  [[nodiscard]] core::Vec2 flight_times(core::Vec2 p, core::Vec2 v) const {
+    return {flight_time(p.x, v.x, walls_.x_min, walls_.x_max), flight_time(p.y, v.y, walls_.y_min, walls_.y_max)};
+  }
+  /// The coordinates of the walls that a motion with velocity v runs towards.
+  [[nodiscard]] core::Vec2 ahead(core::Vec2 v) const {
+    return {v.x > 0.0 ? walls_.x_max : walls_.x_min, v.y > 0.0 ? walls_.y_max : walls_.y_min};
+  }
+
+ private:
+  /// The next smaller number.
+  static double before(double x) {
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    if (x == 0.0) return -std::numeric_limits<double>::denorm_min();
+    return std::bit_cast<double>(x > 0.0 ? bits - 1 : bits + 1);
+  }
+
+  static bool turns_are_few(double p, double low, double high) {
+    constexpr double kMost = 1e9;
+    const double turns = (p - low) / (high - low);
+    return turns > -kMost && turns < kMost;
+  }
+
+  static long long carry(double& p, double low, double high) {
+    const double turns = (p - low) / (high - low);
+    auto whole = static_cast<long long>(turns);
+    if (static_cast<double>(whole) > turns) --whole;
+    p -= static_cast<double>(whole) * (high - low);
+    // Rounding can put what lies a hair beside a seam on its other side.
+    if (p >= high) {
+      ++whole;
+      p = low;
+    } else if (p < low) {
+      p = low;
+    }
+    return whole;
+  }
+
+  /// How far a state lies outside the walls [m] (negative: inside), and how fast it goes on outwards.
+  [[nodiscard]] double beyond(const Motion& s, double& leaving) const {
+    double distance = walls_.x_min - s.position.x;
+    leaving = -s.velocity.x;
+    if (const double d = s.position.x - walls_.x_max; d > distance) distance = d, leaving = s.velocity.x;
+    if (const double d = walls_.y_min - s.position.y; d > distance) distance = d, leaving = -s.velocity.y;
+    if (const double d = s.position.y - walls_.y_max; d > distance) distance = d, leaving = s.velocity.y;
+    return distance;
+  }
+
+  /// p, put onto the wall that it lies at but for rounding, or beyond.
+  [[nodiscard]] core::Vec2 onto(core::Vec2 p) const {
+    const double margin = 2.0 * tolerance_;
+    if (p.x < walls_.x_min + margin) p.x = walls_.x_min;
+    if (p.x > walls_.x_max - margin) p.x = walls_.x_max;
+    if (p.y < walls_.y_min + margin) p.y = walls_.y_min;
+    if (p.y > walls_.y_max - margin) p.y = walls_.y_max;
+    return p;
+  }
+
+  [[nodiscard]] static double flight_time(double at, double speed, double low, double high) {
+    if (speed > 0.0) return (high - at) / speed;
+    if (speed < 0.0) return (low - at) / speed;
+    return 1e300;
+  }
+
+  terrain::Rectangle domain_;
+  terrain::Rectangle interior_;  ///< what positions lie in
+  terrain::Rectangle walls_;     ///< infinite where the edges wrap
+  double tolerance_;
+  Edges edges_;
+};
+
+}  // namespace woodlouse::physics

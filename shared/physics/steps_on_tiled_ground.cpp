@@ -1,0 +1,14 @@
+#include "shared/physics/compiled_steps.h"
+
+namespace woodlouse::physics {
+
+std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::TiledGround& ground, const StepRules& rules) {
+  switch (rules.parameters.method) {
+    case Method::kCheap: return with_main_forces<VerletQ>(ground, rules);
+    case Method::kPrecise: return with_main_forces<Precise>(ground, rules);
+    case Method::kStandard: break;
+  }
+  return with_main_forces<Nystrom4>(ground, rules);
+}
+
+}  // namespace woodlouse::physics
