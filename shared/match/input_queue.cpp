@@ -26,6 +26,16 @@ Filed InputQueue::file(const Input& input, std::uint64_t next_tick) {
   return {Filed::Outcome::kFiled, tick, late};
 }
 
+bool InputQueue::file_applied(const AppliedInput& input) {
+  const auto found = players_.find(input.player);
+  if (found == players_.end()) return false;
+  Player& player = found->second;
+  player.last_seq = player.any ? std::max(player.last_seq, input.seq) : input.seq;
+  player.any = true;
+  if (waiting_.emplace(Key{input.tick, input.player, input.seq}, input).second) ++player.pending;
+  return true;
+}
+
 void InputQueue::take(std::uint64_t tick, std::vector<AppliedInput>& out) {
   out.clear();
   auto at = waiting_.begin();
@@ -34,6 +44,34 @@ void InputQueue::take(std::uint64_t tick, std::vector<AppliedInput>& out) {
     --players_.at(at->first.player).pending;
   }
   waiting_.erase(waiting_.begin(), at);
+}
+
+std::vector<PlayerSeq> InputQueue::players() const {
+  std::vector<PlayerSeq> result;
+  result.reserve(players_.size());
+  for (const auto& [id, player] : players_) {
+    result.push_back({id, player.any ? std::optional(player.last_seq) : std::nullopt});
+  }
+  return result;
+}
+
+std::vector<AppliedInput> InputQueue::waiting() const {
+  std::vector<AppliedInput> result;
+  result.reserve(waiting_.size());
+  for (const auto& entry : waiting_) result.push_back(entry.second);
+  return result;
+}
+
+void InputQueue::restore(std::span<const PlayerSeq> players, std::span<const AppliedInput> waiting) {
+  players_.clear();
+  waiting_.clear();
+  for (const PlayerSeq& entry : players) {
+    players_[entry.player] = Player{entry.last_seq.value_or(0), entry.last_seq.has_value(), 0};
+  }
+  for (const AppliedInput& input : waiting) {
+    waiting_.emplace(Key{input.tick, input.player, input.seq}, input);
+    ++players_.at(input.player).pending;
+  }
 }
 
 }  // namespace woodlouse::match

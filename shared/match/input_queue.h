@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "shared/physics/louse.h"
@@ -45,6 +47,13 @@ struct Filed {
   bool late = false;  ///< the wanted tick was past; the next step takes it
 };
 
+/// Who may file inputs, and the highest seq of his that was filed; nothing: none yet.
+struct PlayerSeq {
+  physics::LouseId player = 0;
+  std::optional<std::uint32_t> last_seq;
+  friend bool operator==(const PlayerSeq&, const PlayerSeq&) = default;
+};
+
 class InputQueue {
  public:
   static constexpr std::size_t kMaxPending = 256;  ///< per player
@@ -56,8 +65,17 @@ class InputQueue {
   void remove_player(physics::LouseId player);
   /// next_tick: the step that will run next.
   Filed file(const Input& input, std::uint64_t next_tick);
+  /// Files an input that a step of the past is known to have applied, under its own tick; who waits there
+  /// already stays. False: the player has no louse.
+  bool file_applied(const AppliedInput& input);
   /// Moves the inputs of `tick` to `out` (cleared first), by (player, seq).
   void take(std::uint64_t tick, std::vector<AppliedInput>& out);
+
+  /// By ascending id; by (tick, player, seq).
+  [[nodiscard]] std::vector<PlayerSeq> players() const;
+  [[nodiscard]] std::vector<AppliedInput> waiting() const;
+  /// Replaces everything by what those two gave. REQUIRES that `waiting` is of `players` alone.
+  void restore(std::span<const PlayerSeq> players, std::span<const AppliedInput> waiting);
 
  private:
   struct Player {

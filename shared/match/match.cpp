@@ -16,6 +16,33 @@ Match::Match(std::shared_ptr<const map::Map> map, const MatchSettings& settings)
   assert(!map_->definition.spawns.empty());
 }
 
+std::unique_ptr<Match> Match::restore(std::shared_ptr<const map::Map> map, const MatchSettings& settings,
+                                      const MatchState& state) {
+  assert(why_not(*map, settings, state).empty());
+  auto match = std::make_unique<Match>(std::move(map), settings);
+  match->world_.restore(state.lice);
+  match->random_ = core::Random(state.generator);
+  match->inputs_.restore(state.players, state.waiting);
+  match->pending_roster_ = state.roster;
+  match->next_player_ = state.next_player;
+  match->tick_ = state.tick;
+  match->hash_ = state.hash;
+  if (state.tick != 0) match->link_ = {state.previous, state.inputs, state.tick, state.generator};
+  return match;
+}
+
+MatchState Match::state() const {
+  const auto lice = world_.lice();
+  return {tick_,           hash_,           link_.previous,      link_.inputs,
+          random_.state(), next_player_,    inputs_.players(),   inputs_.waiting(),
+          pending_roster_, {lice.begin(), lice.end()}};
+}
+
+bool Match::file_applied(const AppliedInput& input) {
+  assert(input.tick == tick_);
+  return inputs_.file_applied(input);
+}
+
 PlayerId Match::join() {
   const PlayerId player = next_player_;
   join_as(player);

@@ -19,27 +19,19 @@
 #include "shared/core/stable_hash.h"
 #include "shared/map/map_definition.h"
 #include "shared/match/input_queue.h"
+#include "shared/match/match_state.h"
 #include "shared/physics/state_hash.h"
 #include "shared/physics/world.h"
 
 namespace woodlouse::match {
 
 /// Changes only when the same inputs would give another result; tied to the golden hashes in tests/.
-inline constexpr int kBehavior = 1;
+inline constexpr int kBehavior = 2;
 
 /// How far ahead an input may ask for its tick.
 inline constexpr std::uint64_t kHorizonSeconds = 2;
 
 using PlayerId = physics::LouseId;
-
-enum class RosterAction : std::uint32_t { kJoin = 0, kLeave = 1, kRespawn = 2 };
-
-/// A change of who plays, as applied in a step.
-struct RosterChange {
-  RosterAction action = RosterAction::kJoin;
-  PlayerId player = 0;
-  friend bool operator==(const RosterChange&, const RosterChange&) = default;
-};
 
 /// Everything one step did; with the header, all that a replay needs.
 struct StepRecord {
@@ -57,6 +49,16 @@ struct MatchSettings {
 class Match {
  public:
   Match(std::shared_ptr<const map::Map> map, const MatchSettings& settings);
+  /// The match that was in that state: every further call gives what it gave there, bit for bit. settings.seed
+  /// is kept for who asks; the generator goes on from the state. REQUIRES why_not(*map, settings, state) to be
+  /// empty (match_state.h).
+  static std::unique_ptr<Match> restore(std::shared_ptr<const map::Map> map, const MatchSettings& settings,
+                                        const MatchState& state);
+  /// All of it, between two steps.
+  [[nodiscard]] MatchState state() const;
+
+  /// Chooses how many lice are stepped at once; every choice gives the same bits (physics/world.h).
+  void use(physics::InstructionSet set) { world_.use(set); }
 
   /// Queues a new louse for the next step; its id is fresh and known at once.
   PlayerId join();
@@ -68,6 +70,10 @@ class Match {
   void respawn(PlayerId player);
   /// Files an input for a tick; says which tick will take it.
   Filed file(const Input& input);
+
+  /// Files an input that the next step is known to have applied, for replays: no rule of filing stands in its
+  /// way. False: the player has no louse. REQUIRES input.tick == tick().
+  bool file_applied(const AppliedInput& input);
 
   /// Performs the next step. The record is valid until the next call.
   const StepRecord& advance();

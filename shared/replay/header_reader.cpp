@@ -10,6 +10,8 @@ using core::joined;
 using map::Fields;
 using map::Problems;
 
+constexpr std::size_t kMaxPathBytes = 4096;
+
 void read_map(const json::Value& value, Header& header, Problems& problems) {
   const Fields fields(value, {"name", "hash", "definition", "file"}, problems);
   header.map_name = demand_text(fields, "name", problems);
@@ -23,8 +25,14 @@ void read_map(const json::Value& value, Header& header, Problems& problems) {
   } else if (definition) {
     header.map_definition = definition->raw();
   } else {
-    header.map_file = text_of(*file, problems);
+    header.map_file = map::text_in(*file, 1, kMaxPathBytes, problems).value_or("");
   }
+}
+
+Parent read_parent(const json::Value& value, Problems& problems) {
+  const Fields fields(value, {"file", "tick", "hash"}, problems);
+  return {demand_text(fields, "file", problems), demand_integer(fields, "tick", 0, kMaxTick, problems),
+          demand_hash(fields, "hash", problems)};
 }
 
 /// Format, version and behavior first: what another version's other fields mean, this build can't know.
@@ -55,7 +63,7 @@ Header read_header(const json::Value& root, Problems& problems) {
   Header header;
   check_kind(root, problems);
   if (problems.count() != 0) return header;
-  const Fields fields(root, {"format", "version", "behavior", "build", "seed", "tick_hz", "map"}, problems);
+  const Fields fields(root, {"format", "version", "behavior", "build", "seed", "tick_hz", "parent", "map"}, problems);
   header.build = demand_text(fields, "build", problems);
   if (const auto seed = fields.demand("seed")) {
     const auto number = seed->is(json::Kind::kString) ? unsigned_text(seed->text(), 10) : std::nullopt;
@@ -63,6 +71,7 @@ Header read_header(const json::Value& root, Problems& problems) {
     header.seed = number.value_or(0);
   }
   header.tick_hz = static_cast<std::uint32_t>(demand_integer(fields, "tick_hz", 1, 1000, problems));
+  if (const auto value = fields.find("parent")) header.parent = read_parent(*value, problems);
   if (const auto value = fields.demand("map")) read_map(*value, header, problems);
   return header;
 }

@@ -30,6 +30,16 @@ std::string demand_text(const map::Fields& fields, std::string_view key, map::Pr
   return value ? text_of(*value, problems) : std::string();
 }
 
+protocol::Role role_of(const json::Value& value, map::Problems& problems) {
+  const std::string text = text_of(value, problems);
+  for (const protocol::Role known :
+       {protocol::Role::kPlayer, protocol::Role::kBot, protocol::Role::kSpectator}) {
+    if (protocol::to_text(known) == text) return known;
+  }
+  problems.add(value, "is no role", "player, bot or spectator");
+  return protocol::Role::kPlayer;
+}
+
 std::optional<std::uint64_t> unsigned_text(std::string_view text, int base) {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);

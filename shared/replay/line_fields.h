@@ -9,11 +9,14 @@
 
 #include "shared/json/document.h"
 #include "shared/map/checked_fields.h"
+#include "shared/protocol/messages.h"
 
 namespace woodlouse::replay {
 
 inline constexpr std::uint64_t kMaxTick = std::uint64_t{1}
                                           << 53;  ///< exact as a double; 4.7 million years at 60 Hz
+
+inline constexpr std::uint64_t kMaxOffset = std::uint64_t{1} << 53;  ///< [bytes]
 
 std::uint64_t demand_integer(const map::Fields& fields, std::string_view key, std::uint64_t min,
                              std::uint64_t max, map::Problems& problems);
@@ -21,6 +24,9 @@ std::uint64_t demand_integer(const map::Fields& fields, std::string_view key, st
 /// Text for people: bounded, otherwise as it was said.
 std::string text_of(const json::Value& value, map::Problems& problems);
 std::string demand_text(const map::Fields& fields, std::string_view key, map::Problems& problems);
+
+/// player, bot or spectator.
+protocol::Role role_of(const json::Value& value, map::Problems& problems);
 
 /// 16 lower-case hex digits.
 std::uint64_t demand_hash(const map::Fields& fields, std::string_view key, map::Problems& problems);

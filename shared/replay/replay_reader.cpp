@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <istream>
 #include <limits>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -11,6 +12,7 @@
 #include "shared/replay/line_fields.h"
 #include "shared/replay/louse_fields.h"
 #include "shared/replay/replay_file.h"
+#include "shared/replay/zstd_input.h"
 
 namespace woodlouse::replay {
 namespace {
@@ -37,15 +39,7 @@ std::optional<PlayerLabel> read_label(const Fields& fields, Problems& problems) 
   if (!name && !role) return std::nullopt;
   PlayerLabel label;
   label.name = demand_text(fields, "name", problems);
-  const std::string text = demand_text(fields, "role", problems);
-  for (const protocol::Role known :
-       {protocol::Role::kPlayer, protocol::Role::kBot, protocol::Role::kSpectator}) {
-    if (protocol::to_text(known) == text) {
-      label.role = known;
-      return label;
-    }
-  }
-  if (role) problems.add(*role, "is no role", "player, bot or spectator");
+  if (const auto given = fields.demand("role")) label.role = role_of(*given, problems);
   return label;
 }
 
@@ -67,37 +61,60 @@ void read_change(const json::Value& value, StepLine& line, Problems& problems) {
   problems.add(value, "{\"join\": id}, {\"leave\": id} or {\"respawn\": id} is wanted");
 }
 
-void read_thrust(const json::Value& value, match::AppliedInput& input, Problems& problems) {
+/// A whole number counts quanta; one with a point stands as itself.
+double read_component(const json::Value& value, Problems& problems) {
   constexpr Range kUnit{-1.0, 1.0, ""};
+  constexpr Range kQuanta{-128.0, 128.0, "/ 128"};
+  if (value.is(json::Kind::kInteger)) {
+    const double quanta = map::number_in(value, kQuanta, problems).value_or(0.0);
+    return (quanta == 0.0 ? 0.0 : quanta) * kThrustQuantum;
+  }
+  return map::number_in(value, kUnit, problems).value_or(0.0);
+}
+
+void read_thrust(const json::Value& value, match::AppliedInput& input, Problems& problems) {
   if (value.is(json::Kind::kNull)) return;
-  if (value.is(json::Kind::kArray)) {
-    input.kind = physics::ThrustKind::kMapVector;
-    input.thrust = map::pair_in(value, kUnit, problems).value_or(core::Vec2{});
-    if (core::dot(input.thrust, input.thrust) > 1.0) problems.add(value, "is longer than 1");
+  if (!value.is(json::Kind::kArray)) {
+    input.kind = physics::ThrustKind::kAlongHeading;
+    input.thrust.x = read_component(value, problems);
     return;
   }
-  input.kind = physics::ThrustKind::kAlongHeading;
-  input.thrust.x = map::number_in(value, kUnit, problems).value_or(0.0);
+  const std::vector<json::Value> pair = value.children();
+  if (pair.size() != 2) return problems.add(value, "a pair [x, y] is wanted");
+  input.kind = physics::ThrustKind::kMapVector;
+  input.thrust = {read_component(pair[0], problems), read_component(pair[1], problems)};
+  if (core::dot(input.thrust, input.thrust) > 1.0) problems.add(value, "is longer than 1");
+}
+
+/// `values` from its front: player, seq, thrust.
+match::AppliedInput read_push(std::span<const json::Value> values, Problems& problems) {
+  match::AppliedInput input;
+  input.player = as<match::PlayerId>(map::integer_in(values[0], 1, kMaxUint32 - 1, problems));
+  input.seq = as<std::uint32_t>(map::integer_in(values[1], 0, kMaxUint32, problems));
+  input.ticks = physics::kHeld;
+  read_thrust(values[2], input, problems);
+  return input;
+}
+
+std::uint32_t read_ticks(const json::Value& value, Problems& problems) {
+  return as<std::uint32_t>(map::integer_in(value, 0, physics::kHeld - 1, problems));
 }
 
 void read_input(const json::Value& value, StepLine& line, Problems& problems) {
-  const Fields fields(value, {"player", "seq", "thrust", "ticks", "margin_us"}, problems);
-  match::AppliedInput input;
+  const std::vector<json::Value> values = value.children();
+  if (!value.is(json::Kind::kArray) || values.size() < 3 || values.size() > 5) {
+    return problems.add(value, "[player, seq, thrust, margin in ms, ticks] is wanted");
+  }
+  match::AppliedInput input = read_push(values, problems);
   input.tick = line.step.tick;
-  input.player = static_cast<match::PlayerId>(demand_integer(fields, "player", 1, kMaxUint32 - 1, problems));
-  input.seq = static_cast<std::uint32_t>(demand_integer(fields, "seq", 0, kMaxUint32, problems));
-  input.ticks = physics::kHeld;
-  if (const auto ticks = fields.find("ticks")) {
-    input.ticks = as<std::uint32_t>(map::integer_in(*ticks, 0, physics::kHeld - 1, problems));
-  }
-  if (const auto thrust = fields.demand("thrust")) read_thrust(*thrust, input, problems);
   std::optional<std::int64_t> margin;
-  if (const auto found = fields.find("margin_us")) {
-    margin = found->integer();
-    if (!margin) problems.add(*found, "a whole number is wanted");
+  if (values.size() > 3 && !values[3].is(json::Kind::kNull)) {
+    margin = values[3].integer();
+    if (!margin) problems.add(values[3], "a whole number is wanted");
   }
+  if (values.size() > 4) input.ticks = read_ticks(values[4], problems);
   line.step.inputs.push_back(input);
-  line.margins_us.push_back(margin);
+  line.margins_ms.push_back(margin);
 }
 
 /// Calls read(element) for each element of a list; stops at the first problem, of which one is enough.
@@ -147,29 +164,64 @@ physics::Louse read_louse(const json::Value& row, Problems& problems) {
   return louse;
 }
 
-Keyframe read_keyframe(const json::Value& root, Problems& problems) {
-  const Fields fields(root, {"keyframe", "columns", "lice"}, problems);
-  Keyframe keyframe;
-  keyframe.tick = demand_integer(fields, "keyframe", 0, kMaxTick, problems);
-  if (const auto columns = fields.demand("columns")) {
-    const std::vector<json::Value> names = columns->children();
-    std::size_t index = 0;
-    bool same = names.size() == kLouseFields;
-    visit_fields(physics::Louse{}, [&](std::string_view name, const auto&) {
-      same = same && names[index].is(json::Kind::kString) && names[index].text() == name;
-      ++index;
-    });
-    if (!same) problems.add(*columns, "are not the columns of this version");
-  }
-  const auto lice = fields.demand("lice");
-  if (!lice) return keyframe;
-  read_list(*lice, problems, [&](const json::Value& row) {
-    keyframe.lice.push_back(read_louse(row, problems));
-    const std::size_t count = keyframe.lice.size();
-    if (count > 1 && keyframe.lice[count - 1].id <= keyframe.lice[count - 2].id) {
-      problems.add(row, "does not follow the id before it");
-    }
+void read_columns(const json::Value& columns, Problems& problems) {
+  const std::vector<json::Value> names = columns.children();
+  std::size_t index = 0;
+  bool same = names.size() == kLouseFields;
+  visit_fields(physics::Louse{}, [&](std::string_view name, const auto&) {
+    same = same && names[index].is(json::Kind::kString) && names[index].text() == name;
+    ++index;
   });
+  if (!same) problems.add(columns, "are not the columns of this version");
+}
+
+void read_player(const json::Value& value, Keyframe& keyframe, Problems& problems) {
+  const std::vector<json::Value> values = value.children();
+  if (!value.is(json::Kind::kArray) || (values.size() != 2 && values.size() != 4)) {
+    return problems.add(value, "[player, seq, name, role] is wanted");
+  }
+  match::PlayerSeq player;
+  player.player = as<match::PlayerId>(map::integer_in(values[0], 1, kMaxUint32 - 1, problems));
+  if (!values[1].is(json::Kind::kNull)) {
+    player.last_seq = as<std::uint32_t>(map::integer_in(values[1], 0, kMaxUint32, problems));
+  }
+  keyframe.state.players.push_back(player);
+  if (values.size() == 2) return;
+  keyframe.labels[player.player] = {text_of(values[2], problems), role_of(values[3], problems)};
+}
+
+void read_waiting(const json::Value& value, Keyframe& keyframe, Problems& problems) {
+  const std::vector<json::Value> values = value.children();
+  if (!value.is(json::Kind::kArray) || values.size() < 4 || values.size() > 5) {
+    return problems.add(value, "[tick, player, seq, thrust, ticks] is wanted");
+  }
+  match::AppliedInput input = read_push(std::span(values).subspan(1), problems);
+  input.tick = map::integer_in(values[0], 0, 2 * kMaxTick, problems).value_or(0);
+  if (values.size() > 4) input.ticks = read_ticks(values[4], problems);
+  keyframe.state.waiting.push_back(input);
+}
+
+Keyframe read_keyframe(const json::Value& root, Problems& problems) {
+  const Fields fields(root,
+                      {"keyframe", "hash", "previous", "inputs", "generator", "next_player", "players",
+                       "waiting", "columns", "lice"},
+                      problems);
+  Keyframe keyframe;
+  match::MatchState& state = keyframe.state;
+  state.tick = demand_integer(fields, "keyframe", 0, kMaxTick, problems);
+  state.hash = demand_hash(fields, "hash", problems);
+  state.previous = demand_hash(fields, "previous", problems);
+  state.inputs = demand_hash(fields, "inputs", problems);
+  state.generator = demand_hash(fields, "generator", problems);
+  state.next_player =
+      static_cast<match::PlayerId>(demand_integer(fields, "next_player", 1, kMaxUint32, problems));
+  const auto list = [&](std::string_view key, const auto& read) {
+    if (const auto value = fields.demand(key)) read_list(*value, problems, read);
+  };
+  list("players", [&](const json::Value& value) { read_player(value, keyframe, problems); });
+  list("waiting", [&](const json::Value& value) { read_waiting(value, keyframe, problems); });
+  if (const auto columns = fields.demand("columns")) read_columns(*columns, problems);
+  list("lice", [&](const json::Value& row) { state.lice.push_back(read_louse(row, problems)); });
   return keyframe;
 }
 
@@ -185,11 +237,18 @@ ChatLine read_chat(const json::Value& root, Problems& problems) {
   return line;
 }
 
+/// Its other fields are checked by who reads it (index_text.cpp).
+IndexLine read_index_line(const json::Value& root, Problems& problems) {
+  const Fields fields(root, {"index", "keyframes", "players", "marks", "inputs"}, problems);
+  return {demand_integer(fields, "index", 0, kMaxTick, problems)};
+}
+
 End read_end(const json::Value& root, Problems& problems) {
-  const Fields fields(root, {"end", "reason"}, problems);
+  const Fields fields(root, {"end", "reason", "index"}, problems);
   End end;
   end.tick = demand_integer(fields, "end", 0, kMaxTick, problems);
   end.reason = demand_text(fields, "reason", problems);
+  end.index_offset = demand_integer(fields, "index", 0, kMaxOffset, problems);
   return end;
 }
 
@@ -197,14 +256,18 @@ Line read_object(const json::Value& root, Problems& problems) {
   if (root.find("step")) return read_step(root, problems);
   if (root.find("keyframe")) return read_keyframe(root, problems);
   if (root.find("chat")) return read_chat(root, problems);
+  if (root.find("index") && !root.find("end")) return read_index_line(root, problems);
   if (root.find("end")) return read_end(root, problems);
-  problems.add(root, "is no step, keyframe, chat or end");
+  problems.add(root, "is no step, keyframe, chat, index or end");
   return End{};
 }
 
 }  // namespace
 
+std::string ReplayReader::place() const { return joined({source_, ":", std::to_string(line_number_)}); }
+
 core::Expected<bool> ReplayReader::read_line() {
+  line_offset_ += line_.empty() ? 0 : line_.size() + 1;
   line_.clear();
   std::streambuf& bytes = *in_.rdbuf();
   for (int c = bytes.sbumpc(); c != std::char_traits<char>::eof(); c = bytes.sbumpc()) {
@@ -218,7 +281,10 @@ core::Expected<bool> ReplayReader::read_line() {
     }
     line_ += static_cast<char>(c);
   }
-  cut_off_ = !line_.empty();
+  if (const auto* unpacked = dynamic_cast<const ZstdInput*>(&bytes); unpacked != nullptr && !unpacked->fault().empty()) {
+    return core::fail(joined({source_, ":", std::to_string(line_number_ + 1)}), unpacked->fault());
+  }
+  cut_off_ = cut_off_ || !line_.empty();
   return false;
 }
 

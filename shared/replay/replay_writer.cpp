@@ -1,115 +1,53 @@
-#include <bit>
-#include <cassert>
-#include <type_traits>
-#include <utility>
+#include "shared/replay/replay_writer.h"
 
-#include "shared/json/text.h"
-#include "shared/replay/louse_fields.h"
-#include "shared/replay/replay_file.h"
+#include <algorithm>
+#include <cassert>
 
 namespace woodlouse::replay {
 namespace {
 
-std::string_view to_text(match::RosterAction action) {
-  switch (action) {
-    case match::RosterAction::kJoin:
-      return "join";
-    case match::RosterAction::kLeave:
-      return "leave";
-    case match::RosterAction::kRespawn:
-      return "respawn";
-  }
-  assert(false);
-  return {};
-}
+/// Whole milliseconds, down: what came late stays negative.
+std::int64_t milliseconds(std::int64_t us) { return us >= 0 ? us / 1000 : -((999 - us) / 1000); }
 
-bool is_plus_zero(double value) { return std::bit_cast<std::uint64_t>(value) == 0; }
-
-/// null, a number along the heading, or a pair: as on the wire, so that the kind needs no field of its own.
-void append_thrust(std::string& out, physics::ThrustKind kind, core::Vec2 value) {
-  switch (kind) {
-    case physics::ThrustKind::kNone:
-      assert(is_plus_zero(value.x) && is_plus_zero(value.y));
-      out += "null";
-      return;
-    case physics::ThrustKind::kAlongHeading:
-      assert(is_plus_zero(value.y));
-      json::append_double(out, value.x);
-      return;
-    case physics::ThrustKind::kMapVector:
-      out += '[';
-      json::append_double(out, value.x);
-      out += ',';
-      json::append_double(out, value.y);
-      out += ']';
-      return;
-  }
-  assert(false);
-}
-
-void append_louse(std::string& out, const physics::Louse& louse) {
-  char before = '[';
-  visit_fields(louse, [&](std::string_view, const auto& field) {
-    out += before;
-    before = ',';
-    using Field = std::remove_cvref_t<decltype(field)>;
-    if constexpr (std::is_same_v<Field, double>) {
-      json::append_double(out, field);
-    } else {
-      out += std::to_string(static_cast<std::uint32_t>(field));
-    }
-  });
-  out += ']';
-}
-
-void append_keyframe(std::string& out, std::uint64_t tick, std::span<const physics::Louse> lice) {
-  out.append("{\"keyframe\":").append(std::to_string(tick)).append(",\"columns\":");
-  char before = '[';
-  visit_fields(physics::Louse{}, [&](std::string_view name, const auto&) {
-    out += before;
-    before = ',';
-    json::append_string(out, name);
-  });
-  out += "],\"lice\":[";
-  for (std::size_t k = 0; k < lice.size(); ++k) {
-    if (k != 0) out += ',';
-    append_louse(out, lice[k]);
-  }
-  out += "]}\n";
+bool is_player(const match::MatchState& state, match::PlayerId player) {
+  const auto at = std::lower_bound(state.players.begin(), state.players.end(), player,
+                                   [](const match::PlayerSeq& p, match::PlayerId id) { return p.player < id; });
+  return at != state.players.end() && at->player == player;
 }
 
 }  // namespace
 
-Header make_header(const match::Match& match, std::string_view build, std::string_view map_file) {
-  Header header;
-  header.build = build;
-  header.seed = match.settings().seed;
-  header.tick_hz = match.settings().tick_hz;
-  header.map_name = match.map().definition.name;
-  header.map_hash = match.map().hash;
-  if (match.map().canonical.size() <= kMaxInlineMapBytes) header.map_definition = match.map().canonical;
-  header.map_file = map_file;
-  return header;
+Encoding encoding_of(const std::filesystem::path& file) {
+  return file.extension() == ".zst" ? Encoding::kZstd : Encoding::kPlain;
 }
 
-void ReplayWriter::append_header(std::string& out, const Header& header) const {
-  out += "{\"format\":";
-  json::append_string(out, kFormat);
-  out.append(",\"version\":").append(std::to_string(kFormatVersion));
-  out.append(",\"behavior\":").append(std::to_string(header.behavior)).append(",\"build\":");
-  json::append_string(out, header.build);
-  // Text, because many readers hold numbers as doubles.
-  out.append(",\"seed\":\"").append(std::to_string(header.seed)).append("\",\"tick_hz\":");
-  out.append(std::to_string(header.tick_hz)).append(",\"map\":{\"name\":");
-  json::append_string(out, header.map_name);
-  out.append(",\"hash\":\"").append(core::to_hex(header.map_hash)).append("\"");
-  if (!header.map_definition.empty()) {
-    out.append(",\"definition\":").append(header.map_definition);
+ReplayWriter::ReplayWriter(Encoding encoding)
+    : packer_(encoding == Encoding::kZstd ? std::make_unique<FramePacker>() : nullptr) {}
+
+void ReplayWriter::put(std::string& out) {
+  offset_ += line_.size();
+  ++lines_;
+  if (packer_) {
+    packer_->append(out, line_);
   } else {
-    out += ",\"file\":";
-    json::append_string(out, header.map_file);
+    out += line_;
   }
-  out += "}}\n";
+  line_.clear();
+}
+
+void ReplayWriter::append_header(std::string& out, const Header& header) {
+  replay::append_header(line_, header);
+  put(out);
+}
+
+void ReplayWriter::append_keyframe(std::string& out, const match::MatchState& state) {
+  assert(state.roster.empty());
+  // Notes of inputs that their player's leaving dropped.
+  std::erase_if(margins_, [&](const auto& note) { return !is_player(state, note.first.first); });
+  if (packer_) packer_->end_frame(out);
+  index_.add(KeyframePlace{state.tick, offset_, lines_ + 1}, Keyframe{state, labels_});
+  replay::append_keyframe(line_, state, labels_);
+  put(out);
 }
 
 void ReplayWriter::note_player(match::PlayerId player, std::string_view name, protocol::Role role) {
@@ -117,77 +55,52 @@ void ReplayWriter::note_player(match::PlayerId player, std::string_view name, pr
 }
 
 void ReplayWriter::note_margin(match::PlayerId player, std::uint32_t seq, std::int64_t margin_us) {
-  margins_[{player, seq}] = margin_us;
+  margins_[{player, seq}] = milliseconds(margin_us);
 }
 
-void ReplayWriter::append_roster(std::string& out, std::span<const match::RosterChange> roster) {
-  if (roster.empty()) return;
-  char before = '[';
-  out += ",\"roster\":";
-  for (const match::RosterChange& change : roster) {
-    out += before;
-    before = ',';
-    out.append("{\"").append(to_text(change.action)).append("\":").append(std::to_string(change.player));
+void ReplayWriter::append_step(std::string& out, const match::StepRecord& step) {
+  replay::append_step(line_, step, labels_, margins_);
+  put(out);
+  StepLine line;
+  line.step = step;
+  for (const match::RosterChange& change : step.roster) {
     const auto label = labels_.find(change.player);
-    if (change.action == match::RosterAction::kJoin && label != labels_.end()) {
-      out += ",\"name\":";
-      json::append_string(out, label->second.name);
-      out += ",\"role\":";
-      json::append_string(out, protocol::to_text(label->second.role));
-    }
-    if (label != labels_.end()) labels_.erase(label);
-    out += '}';
-    if (change.action == match::RosterAction::kLeave) {  // what it had filed is dropped
-      margins_.erase(margins_.lower_bound({change.player, 0}),
-                     margins_.upper_bound({change.player, UINT32_MAX}));
-    }
+    line.labels.push_back(label != labels_.end() ? std::optional(label->second) : std::nullopt);
   }
-  out += ']';
+  index_.add(line);
+  forget_notes(step);
 }
 
-void ReplayWriter::append_inputs(std::string& out, std::span<const match::AppliedInput> inputs) {
-  if (inputs.empty()) return;
-  char before = '[';
-  out += ",\"inputs\":";
-  for (const match::AppliedInput& input : inputs) {
-    out += before;
-    before = ',';
-    out.append("{\"player\":").append(std::to_string(input.player));
-    out.append(",\"seq\":").append(std::to_string(input.seq)).append(",\"thrust\":");
-    append_thrust(out, input.kind, input.thrust);
-    if (input.ticks != physics::kHeld) out.append(",\"ticks\":").append(std::to_string(input.ticks));
-    if (const auto margin = margins_.find({input.player, input.seq}); margin != margins_.end()) {
-      out.append(",\"margin_us\":").append(std::to_string(margin->second));
-      margins_.erase(margin);
-    }
-    out += '}';
+void ReplayWriter::forget_notes(const match::StepRecord& step) {
+  for (const match::AppliedInput& input : step.inputs) margins_.erase({input.player, input.seq});
+  for (const match::RosterChange& change : step.roster) {
+    if (change.action != match::RosterAction::kLeave) continue;
+    labels_.erase(change.player);
+    // What it had filed is dropped.
+    margins_.erase(margins_.lower_bound({change.player, 0}), margins_.upper_bound({change.player, UINT32_MAX}));
   }
-  out += ']';
-}
-
-void ReplayWriter::append_step(std::string& out, const match::StepRecord& step,
-                               std::span<const physics::Louse> lice) {
-  out.append("{\"step\":").append(std::to_string(step.tick));
-  append_roster(out, step.roster);
-  append_inputs(out, step.inputs);
-  out.append(",\"hash\":\"").append(core::to_hex(step.hash)).append("\"}\n");
-  if ((step.tick + 1) % keyframe_ticks_ == 0) append_keyframe(out, step.tick + 1, lice);
 }
 
 void ReplayWriter::append_chat(std::string& out, std::uint64_t tick, match::PlayerId player,
-                               std::string_view name, std::string_view text) const {
-  out.append("{\"chat\":").append(std::to_string(tick)).append(",\"player\":").append(std::to_string(player));
-  out += ",\"name\":";
-  json::append_string(out, name);
-  out += ",\"text\":";
-  json::append_string(out, text);
-  out += "}\n";
+                               std::string_view name, std::string_view text) {
+  const ChatLine line{tick, player, std::string(name), std::string(text)};
+  replay::append_chat(line_, line);
+  put(out);
+  index_.add(line);
 }
 
-void ReplayWriter::append_end(std::string& out, std::uint64_t tick, std::string_view reason) const {
-  out.append("{\"end\":").append(std::to_string(tick)).append(",\"reason\":");
-  json::append_string(out, reason);
-  out += "}\n";
+void ReplayWriter::append_end(std::string& out, std::string_view reason) {
+  if (packer_) packer_->end_frame(out);
+  const End end{index_.last_tick, std::string(reason), offset_};
+  append_index(line_, index_);
+  put(out);
+  replay::append_end(line_, end);
+  put(out);
+  if (packer_) packer_->finish(out);
+}
+
+void ReplayWriter::flush(std::string& out) {
+  if (packer_) packer_->flush(out);
 }
 
 }  // namespace woodlouse::replay

@@ -1,85 +1,55 @@
 #include "shared/replay/replayer.h"
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <memory>
 #include <ostream>
 #include <utility>
 
 #include "shared/core/joined.h"
-#include "shared/map/map_loader.h"
+#include "shared/replay/parallel_verify.h"
+#include "shared/replay/recorded_map.h"
 #include "shared/replay/replay_file.h"
-#include "shared/replay/rerun.h"
+#include "shared/replay/stretch.h"
 
 namespace woodlouse::replay {
-namespace {
 
 using core::joined;
-using MapPointer = std::shared_ptr<const map::Map>;
-
-core::Expected<MapPointer> load_named_map(const Header& header, const std::filesystem::path& folder) {
-  const std::filesystem::path recorded(header.map_file);
-  std::error_code error;
-  const std::filesystem::path beside = folder / recorded.filename();
-  return map::load_map(std::filesystem::exists(beside, error) ? beside : recorded);
-}
-
-/// The recorded map, proven to be it by its hash.
-core::Expected<MapPointer> map_of(const Header& header, const std::string& source,
-                                  const std::filesystem::path& folder) {
-  core::Expected<MapPointer> map =
-      header.map_definition.empty()
-          ? load_named_map(header, folder)
-          : map::parse_map(header.map_definition, joined({source, ":1: map.definition"}), {});
-  if (map && (*map)->hash != header.map_hash) {
-    return core::fail(joined({source, ":1: map.hash"}),
-                      joined({"the map's hash is ", core::to_hex((*map)->hash), ", recorded is ",
-                              core::to_hex(header.map_hash)}),
-                      header.map_definition.empty() ? "put the map it was played on beside the recording"
-                                                    : "the map in the recording was altered");
-  }
-  return map;
-}
-
-/// Reads until the end, or until nothing more can be learned.
-core::Expected<Verification> run(ReplayReader& reader, Rerun& rerun) {
-  std::optional<End> end;
-  while (!rerun.is_settled()) {
-    core::Expected<std::optional<Line>> line = reader.next();
-    if (!line) return tl::unexpected(line.error());
-    if (!*line) break;
-    const std::string place = joined({reader.source(), ":", std::to_string(reader.line_number())});
-    if (end) return core::fail(place, "stands after the end");
-    core::Expected<void> added;
-    if (auto* step = std::get_if<StepLine>(&**line)) added = rerun.add(std::move(*step), place);
-    if (auto* keyframe = std::get_if<Keyframe>(&**line)) added = rerun.add(std::move(*keyframe), place);
-    if (!added) return tl::unexpected(added.error());
-    if (const auto* last = std::get_if<End>(&**line)) {
-      end = *last;
-      if (end->tick != rerun.steps_read()) {
-        return core::fail(joined({place, ": end"}),
-                          joined({"tick ", std::to_string(end->tick), " after step lines up to tick ",
-                                  std::to_string(rerun.steps_read())}),
-                          "lines are missing");
-      }
-    }
-  }
-  rerun.finish();
-  return Verification{rerun.steps_run(), !end && !rerun.difference(), rerun.difference()};
-}
-
-}  // namespace
 
 core::Expected<Verification> verify(std::istream& in, const std::string& source,
                                     const std::filesystem::path& folder) {
   ReplayReader reader(in, source);
   const core::Expected<Header> header = reader.read_header();
   if (!header) return tl::unexpected(header.error());
-  const core::Expected<MapPointer> map = map_of(*header, source, folder);
+  const auto map = load_recorded_map(*header, source, folder);
   if (!map) return tl::unexpected(map.error());
-  Rerun rerun(*map, match::MatchSettings{header->tick_hz, header->seed});
-  return run(reader, rerun);
+  core::Expected<std::optional<Line>> first = reader.next();
+  if (!first) return tl::unexpected(first.error());
+  if (!*first) return core::fail(source, "was cut off before its first keyframe");
+  if (!std::holds_alternative<Keyframe>(**first)) {
+    return core::fail(reader.place(), "is no keyframe", "one stands behind the header");
+  }
+  std::optional<Keyframe> start = std::get<Keyframe>(std::move(**first));
+  Verification verification;
+  bool has_end = false;
+  while (start && !verification.difference) {
+    core::Expected<Stretch> stretch =
+        run_stretch(reader, *map, {header->tick_hz, header->seed}, *std::exchange(start, std::nullopt));
+    if (!stretch) return tl::unexpected(stretch.error());
+    verification.ticks += stretch->steps;
+    verification.difference = std::move(stretch->difference);
+    start = std::move(stretch->next);
+    has_end = stretch->has_end;
+  }
+  verification.cut_off = !has_end && !verification.difference;
+  return verification;
+}
+
+core::Expected<Verification> verify(const ReplaySource& source, unsigned jobs) {
+  if (jobs > 1) {
+    if (auto verification = verify_in_parallel(source, jobs)) return std::move(*verification);
+  }
+  const auto stream = source.open();
+  if (!stream) return tl::unexpected(stream.error());
+  return verify(**stream, source.name, source.folder);
 }
 
 std::string to_text(const Verification& verification) {
@@ -93,25 +63,15 @@ std::string to_text(const Verification& verification) {
                  difference.detail, "\n"});
 }
 
-int verify_command(const std::filesystem::path& file, std::ostream& out) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error)) {
-    out << file.string() << ": is a folder, not a recording\n";
-    return 1;
+int verify_command(const std::vector<std::filesystem::path>& files, unsigned jobs, std::ostream& out) {
+  int exit_code = 0;
+  for (const std::filesystem::path& file : files) {
+    const core::Expected<Verification> verification = verify(ReplaySource::of_file(file), jobs);
+    if (verification && files.size() > 1) out << file.string() << ": ";
+    out << (verification ? to_text(*verification) : verification.error().text() + "\n") << std::flush;
+    if (!verification || !verification->ok()) exit_code = 1;
   }
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    out << file.string() << ": can't be opened: " << std::strerror(errno) << "\n";
-    return 1;
-  }
-  const core::Expected<Verification> verification = verify(in, file.string(), file.parent_path());
-  if (!verification) {
-    out << verification.error().text() << "\n";
-    return 1;
-  }
-  out << to_text(*verification);
-  return verification->ok() ? 0 : 1;
+  return exit_code;
 }
 
 }  // namespace woodlouse::replay

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <optional>
 #include <span>
+#include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "shared/core/joined.h"
 #include "shared/json/text.h"
@@ -29,24 +32,6 @@ std::string name_of(const match::RosterChange& change) {
   return joined({kNames[static_cast<std::size_t>(change.action)], "player ", std::to_string(change.player)});
 }
 
-std::string_view reason(match::Filed::Outcome outcome) {
-  using Outcome = match::Filed::Outcome;
-  switch (outcome) {
-    case Outcome::kFiled:
-      return "filed";
-    case Outcome::kStaleSeq:
-      return "its seq is not above the player's last one";
-    case Outcome::kQueueFull:
-      return "too many inputs of the player wait";
-    case Outcome::kTooFar:
-      return "it asks for a step too far ahead";
-    case Outcome::kNoLouse:
-      return "the player has no louse";
-  }
-  assert(false);
-  return {};
-}
-
 /// Names of the first entries that are not the same; what is missing on one side is "none".
 template <typename T>
 std::string first_unlike(const std::vector<T>& recorded, const std::vector<T>& rerun) {
@@ -58,6 +43,8 @@ std::string first_unlike(const std::vector<T>& recorded, const std::vector<T>& r
   }
   return {};
 }
+
+std::string too_many_lice() { return joined({"more than ", std::to_string(kMaxLice), " lice: no server plays so many"}); }
 
 struct FieldText {
   std::string_view name;
@@ -77,6 +64,43 @@ std::vector<FieldText> field_texts(const physics::Louse& louse) {
     }
   });
   return result;
+}
+
+bool is_before(const match::AppliedInput& a, const match::AppliedInput& b) {
+  return std::tuple(a.tick, a.player, a.seq) < std::tuple(b.tick, b.player, b.seq);
+}
+
+/// What waits in the re-run waits in the recording; more may wait there, that came since the last keyframe.
+std::string unlike_waiting(const std::vector<match::AppliedInput>& recorded,
+                           const std::vector<match::AppliedInput>& rerun) {
+  for (const match::AppliedInput& input : rerun) {
+    const auto found = std::lower_bound(recorded.begin(), recorded.end(), input, is_before);
+    if (found != recorded.end() && *found == input) continue;
+    return joined({"waiting: the input of ", name_of(input), " is missing or another"});
+  }
+  return {};
+}
+
+/// A player's last seq is the highest that was applied or waits.
+std::string unlike_players(const match::MatchState& recorded, std::vector<match::PlayerSeq> rerun) {
+  for (const match::AppliedInput& input : recorded.waiting) {
+    for (match::PlayerSeq& player : rerun) {
+      if (player.player == input.player) player.last_seq = std::max(player.last_seq, std::optional(input.seq));
+    }
+  }
+  if (recorded.players == rerun) return {};
+  const std::size_t count = std::min(recorded.players.size(), rerun.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    const match::PlayerSeq& a = recorded.players[k];
+    const match::PlayerSeq& b = rerun[k];
+    const auto seq = [](const match::PlayerSeq& p) { return p.last_seq ? std::to_string(*p.last_seq) : "none"; };
+    if (a == b) continue;
+    if (a.player == b.player) {
+      return joined({"player ", std::to_string(a.player), ", seq: ", both(seq(a), seq(b))});
+    }
+    return joined({"players: ", both(std::to_string(a.player), std::to_string(b.player))});
+  }
+  return joined({"players: ", both(std::to_string(recorded.players.size()), std::to_string(rerun.size()))});
 }
 
 }  // namespace
@@ -100,135 +124,89 @@ std::string first_difference(std::span<const physics::Louse> recorded,
       {"louse ", std::to_string(id), only_recorded ? " is only in the recording" : " is only in the re-run"});
 }
 
-Rerun::Rerun(std::shared_ptr<const map::Map> map, const match::MatchSettings& settings)
-    : match_(std::move(map), settings), horizon_(match::kHorizonSeconds * std::uint64_t{settings.tick_hz}) {}
+core::Expected<std::unique_ptr<Rerun>> Rerun::from(std::shared_ptr<const map::Map> map,
+                                                   const match::MatchSettings& settings, Keyframe keyframe,
+                                                   const std::string& place) {
+  const match::MatchState& state = keyframe.state;
+  if (state.lice.size() > kMaxLice) return core::fail(place, too_many_lice());
+  const std::string fault = match::why_not(*map, settings, state);
+  if (!fault.empty()) {
+    return core::fail(place, joined({"keyframe ", std::to_string(state.tick), ": ", fault}), "it was altered");
+  }
+  const match::PlayerId last_joined = state.next_player - 1;
+  return std::unique_ptr<Rerun>(new Rerun(match::Match::restore(std::move(map), settings, state), last_joined));
+}
 
-core::Expected<void> Rerun::add(StepLine line, const std::string& place) {
-  if (line.step.tick != steps_read_) {
+core::Expected<std::optional<Difference>> Rerun::step(const StepLine& line, const std::string& place) {
+  const match::StepRecord& recorded = line.step;
+  if (recorded.tick != match_->tick()) {
     return core::fail(place,
-                      joined({"step ", std::to_string(line.step.tick), " stands where step ",
-                              std::to_string(steps_read_), " is due"}),
+                      joined({"step ", std::to_string(recorded.tick), " stands where step ",
+                              std::to_string(match_->tick()), " is due"}),
                       "lines are missing or out of order");
   }
-  for (const match::RosterChange& change : line.step.roster) {
-    if (change.action != match::RosterAction::kJoin) continue;
-    if (change.player <= last_joined_) {
-      return core::fail(place,
-                        joined({"player ", std::to_string(change.player), " joins after player ",
-                                std::to_string(last_joined_)}),
-                        "ids ascend and are never used again");
-    }
-    last_joined_ = change.player;
-  }
-  ++steps_read_;
-  std::vector<match::AppliedInput> to_file;
-  for (const match::AppliedInput& input : line.step.inputs) {
-    const auto [last, is_first] = last_seq_.try_emplace(input.player, input.seq);
-    const bool is_overtaken = !is_first && input.seq < last->second;
-    last->second = std::max(last->second, input.seq);
-    if (!is_overtaken || !file_earlier(input)) to_file.push_back(input);
-  }
-  pending_.push_back({std::move(line.step), std::move(to_file), std::nullopt});
-  if (pending_.size() > horizon_ + 1) run_front();
-  return {};
-}
-
-core::Expected<void> Rerun::add(Keyframe keyframe, const std::string& place) {
-  if (pending_.empty() || keyframe.tick != steps_read_ || pending_.back().keyframe) {
-    return core::fail(place, joined({"a keyframe of tick ", std::to_string(keyframe.tick),
-                                     " stands where tick ", std::to_string(steps_read_), " is reached"}));
-  }
-  pending_.back().keyframe = std::move(keyframe);
-  return {};
-}
-
-void Rerun::finish() {
-  while (!pending_.empty()) run_front();
-  if (difference_ && difference_->detail.empty()) {
-    difference_->detail = "no keyframe follows that could say which louse";
-  }
-}
-
-/// Has the input filed with the first waiting step that has a higher seq of its player. Without one it is
-/// filed with its own step, and the match will refuse it.
-bool Rerun::file_earlier(const match::AppliedInput& input) {
-  const auto overtakes = [&](const match::AppliedInput& other) {
-    return other.player == input.player && other.seq > input.seq;
-  };
-  const auto first = std::find_if(pending_.begin(), pending_.end(), [&](const Pending& pending) {
-    return std::any_of(pending.step.inputs.begin(), pending.step.inputs.end(), overtakes);
-  });
-  if (first == pending_.end()) return false;
-  first->to_file.push_back(input);
-  return true;
-}
-
-void Rerun::run_front() {
-  Pending pending = std::move(pending_.front());
-  pending_.pop_front();
-  if (is_settled()) return;
-  apply_roster(pending.step);
-  file_inputs(std::move(pending.to_file));
-  compare(pending.step, match_.advance());
-  if (pending.keyframe) compare(*pending.keyframe);
-}
-
-void Rerun::apply_roster(const match::StepRecord& step) {
-  for (const match::RosterChange& change : step.roster) {
+  std::size_t lice = match_->world().lice().size();
+  for (const match::RosterChange& change : recorded.roster) {
     switch (change.action) {
       case match::RosterAction::kJoin:
-        match_.join_as(change.player);
+        if (++lice > kMaxLice) return core::fail(place, too_many_lice());
+        if (change.player <= last_joined_) {
+          return core::fail(place,
+                            joined({"player ", std::to_string(change.player), " joins after player ",
+                                    std::to_string(last_joined_)}),
+                            "ids ascend and are never used again");
+        }
+        last_joined_ = change.player;
+        match_->join_as(change.player);
         break;
       case match::RosterAction::kLeave:
-        match_.leave(change.player);
+        match_->leave(change.player);
         break;
       case match::RosterAction::kRespawn:
-        match_.respawn(change.player);
+        match_->respawn(change.player);
         break;
     }
   }
-}
-
-void Rerun::file_inputs(std::vector<match::AppliedInput> inputs) {
-  std::stable_sort(inputs.begin(), inputs.end(), [](const auto& a, const auto& b) {
-    return std::pair(a.player, a.seq) < std::pair(b.player, b.seq);
-  });
-  for (const match::AppliedInput& input : inputs) {
-    const match::Filed filed =
-        match_.file({input.player, input.seq, {input.kind, input.thrust}, input.ticks, input.tick});
-    if (filed.outcome == match::Filed::Outcome::kFiled) continue;
-    differ(input.tick,
-           joined({"the input of ", name_of(input), " can't be applied: ", reason(filed.outcome)}));
+  std::optional<Difference> difference;
+  const auto differ = [&](std::uint64_t tick, std::string what) {
+    if (!difference) difference = Difference{tick, std::move(what), {}};
+  };
+  for (const match::AppliedInput& input : recorded.inputs) {
+    if (match_->file_applied(input)) continue;
+    differ(recorded.tick, joined({"the input of ", name_of(input), " can't be applied: the player has no louse"}));
   }
-}
-
-void Rerun::compare(const match::StepRecord& recorded, const match::StepRecord& rerun) {
+  const match::StepRecord& rerun = match_->advance();
+  const std::string step = joined({" of step ", std::to_string(recorded.tick), ": "});
   if (recorded.roster != rerun.roster) {
-    differ(recorded.tick, joined({"roster of step ", std::to_string(recorded.tick), ": ",
-                                  first_unlike(recorded.roster, rerun.roster)}));
+    differ(recorded.tick, joined({"roster", step, first_unlike(recorded.roster, rerun.roster)}));
   }
   if (recorded.inputs != rerun.inputs) {
-    differ(recorded.tick, joined({"inputs of step ", std::to_string(recorded.tick), ": ",
-                                  first_unlike(recorded.inputs, rerun.inputs)}));
+    differ(recorded.tick, joined({"inputs", step, first_unlike(recorded.inputs, rerun.inputs)}));
   }
   if (recorded.hash != rerun.hash) {
     differ(recorded.tick + 1, joined({"hash ", both(core::to_hex(recorded.hash), core::to_hex(rerun.hash))}));
   }
+  return difference;
 }
 
-void Rerun::compare(const Keyframe& keyframe) {
-  const std::string found = first_difference(keyframe.lice, match_.world().lice());
-  if (!found.empty())
-    differ(keyframe.tick, "the keyframe is another, though every hash up to it is the same");
-  if (!difference_) return;
-  difference_->detail = joined(
-      {"keyframe ", std::to_string(keyframe.tick), ": ",
-       found.empty() ? "the same lice, so what was altered moved none: a hash, or an input without effect"
-                     : found});
-}
-
-void Rerun::differ(std::uint64_t tick, std::string what) {
-  if (!difference_) difference_ = Difference{tick, std::move(what), {}};
+std::string Rerun::difference_to(const Keyframe& keyframe) const {
+  const match::MatchState& recorded = keyframe.state;
+  const match::MatchState own = match_->state();
+  assert(recorded.tick == own.tick);
+  std::string found = first_difference(recorded.lice, own.lice);
+  const auto compare = [&](std::string_view name, std::uint64_t a, std::uint64_t b) {
+    if (found.empty() && a != b) found = joined({name, ": ", both(core::to_hex(a), core::to_hex(b))});
+  };
+  compare("generator", recorded.generator, own.generator);
+  compare("hash", recorded.hash, own.hash);
+  compare("previous", recorded.previous, own.previous);
+  compare("inputs", recorded.inputs, own.inputs);
+  if (found.empty() && recorded.next_player != own.next_player) {
+    found = joined({"next_player: ", both(std::to_string(recorded.next_player), std::to_string(own.next_player))});
+  }
+  if (found.empty()) found = unlike_waiting(recorded.waiting, own.waiting);
+  if (found.empty()) found = unlike_players(recorded, own.players);
+  return found;
 }
 
 }  // namespace woodlouse::replay

@@ -8,7 +8,7 @@
 #include "shared/core/joined.h"
 #include "shared/core/random.h"
 #include "shared/map/map_loader.h"
-#include "shared/replay/replay_file.h"
+#include "shared/replay/replay_writer.h"
 
 namespace woodlouse::replay {
 namespace {
@@ -18,17 +18,16 @@ constexpr double kQuantum = 1.0 / 128.0;
 /// Players that come, steer at random and go.
 class RandomGame {
  public:
-  RandomGame(const Scenario& scenario, Recording& recording)
+  RandomGame(const Scenario& scenario, Encoding encoding)
       : scenario_(scenario),
-        recording_(recording),
         random_(scenario.seed),
         match_(small_map(scenario.surface), {60, scenario.seed}),
-        writer_(scenario.keyframe_ticks) {}
+        writer_(encoding) {}
 
-  void play() {
-    std::string out;
+  Recording play() {
+    std::string& out = recording_.bytes;
     writer_.append_header(out, make_header(match_, "tests", "small.json"));
-    keep(out);
+    writer_.append_keyframe(out, match_.state());
     for (std::uint64_t step = 0; step < scenario_.steps; ++step) {
       come_and_go();
       for (const match::PlayerId player : players_) {
@@ -36,27 +35,19 @@ class RandomGame {
       }
       if (scenario_.notes == Notes::kNamesAndMargins && random_.next() % 50 == 0) {
         writer_.append_chat(out, match_.tick(), 1, "louse", "hello \"you\"\t\xf0\x9f\x90\x9e");
-        keep(out);
       }
       const match::StepRecord& record = match_.advance();
       count(record);
-      writer_.append_step(out, record, match_.world().lice());
-      keep(out);
+      writer_.append_step(out, record);
+      recording_.states.push_back(match_.state());
+      if (match_.tick() % scenario_.keyframe_ticks == 0) writer_.append_keyframe(out, match_.state());
+      if (step % 30 == 0) writer_.flush(out);
     }
-    writer_.append_end(out, match_.tick(), "steps done");
-    keep(out);
+    writer_.append_end(out, "steps done");
+    return std::move(recording_);
   }
 
  private:
-  void keep(std::string& out) {
-    std::size_t begin = 0;
-    for (std::size_t end = out.find('\n'); end != std::string::npos; end = out.find('\n', begin)) {
-      recording_.lines.push_back(out.substr(begin, end + 1 - begin));
-      begin = end + 1;
-    }
-    out.clear();
-  }
-
   void come_and_go() {
     const std::uint64_t choice = random_.next() % 40;
     if (choice < 2 || players_.size() < 3) {
@@ -112,7 +103,7 @@ class RandomGame {
   }
 
   const Scenario& scenario_;
-  Recording& recording_;
+  Recording recording_;
   core::Random random_;
   match::Match match_;
   ReplayWriter writer_;
@@ -133,10 +124,17 @@ std::shared_ptr<const map::Map> small_map(const std::string& surface) {
 }
 
 Recording record(const Scenario& scenario) {
-  Recording recording;
-  RandomGame(scenario, recording).play();
+  Recording recording = RandomGame(scenario, Encoding::kPlain).play();
+  std::size_t begin = 0;
+  for (std::size_t end = recording.bytes.find('\n'); end != std::string::npos;
+       end = recording.bytes.find('\n', begin)) {
+    recording.lines.push_back(recording.bytes.substr(begin, end + 1 - begin));
+    begin = end + 1;
+  }
   return recording;
 }
+
+Recording record_packed(const Scenario& scenario) { return RandomGame(scenario, Encoding::kZstd).play(); }
 
 std::string Recording::text() const { return std::accumulate(lines.begin(), lines.end(), std::string()); }
 
@@ -152,6 +150,18 @@ std::size_t Recording::line_of_step(std::uint64_t step) const {
 core::Expected<Verification> verify_text(const std::string& text, const std::filesystem::path& folder) {
   std::istringstream in(text);
   return verify(in, "r.jsonl", folder);
+}
+
+std::shared_ptr<const ReplayArchive> opened(const std::string& bytes) {
+  const auto archive = ReplayArchive::open(ReplaySource::of_bytes(bytes, "r.jsonl"));
+  if (!archive) FAIL(archive.error().text());
+  return *archive;
+}
+
+std::string state_text(const match::MatchState& state) {
+  std::string text;
+  append_keyframe(text, state, {});
+  return text;
 }
 
 Verification verdict(const std::string& text) {

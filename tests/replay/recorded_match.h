@@ -9,6 +9,8 @@
 
 #include "shared/core/error.h"
 #include "shared/map/map_definition.h"
+#include "shared/match/match.h"
+#include "shared/replay/replay_archive.h"
 #include "shared/replay/replayer.h"
 
 namespace woodlouse::replay {
@@ -24,12 +26,15 @@ struct Scenario {
 };
 
 struct Recording {
-  std::vector<std::string> lines;  ///< each with its newline
+  std::string bytes;                        ///< as written
+  std::vector<std::string> lines;           ///< each with its newline, to be altered; of a plain one
+  std::vector<match::MatchState> states;    ///< [k]: at tick k + 1
   std::size_t overtaken = 0;       ///< inputs applied after one of a higher seq
   std::size_t inputs = 0;
   std::size_t leaves = 0;
   std::size_t respawns = 0;
 
+  /// The lines as they are now.
   [[nodiscard]] std::string text() const;
   /// The index of the line of that step.
   [[nodiscard]] std::size_t line_of_step(std::uint64_t step) const;
@@ -39,8 +44,16 @@ std::shared_ptr<const map::Map> small_map(const std::string& surface);
 
 /// Players join, steer, ask for later ticks out of order, respawn and leave.
 Recording record(const Scenario& scenario);
+/// The same game, recorded as zstd frames.
+Recording record_packed(const Scenario& scenario);
 
 core::Expected<Verification> verify_text(const std::string& text, const std::filesystem::path& folder = {});
+
+/// A recording that must open; fails the test otherwise.
+std::shared_ptr<const ReplayArchive> opened(const std::string& bytes);
+
+/// All of a state, to be compared.
+std::string state_text(const match::MatchState& state);
 
 /// The verdict of a recording that must be readable; fails the test otherwise.
 Verification verdict(const std::string& text);

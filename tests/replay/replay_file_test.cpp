@@ -1,4 +1,4 @@
-#include "shared/replay/replay_file.h"
+#include "shared/replay/replay_writer.h"
 
 #include <bit>
 #include <catch2/catch.hpp>
@@ -51,9 +51,10 @@ const std::string kHash = ",\"hash\":\"0123456789abcdef\"}\n";
 TEST_CASE("a header reads back as it was written") {
   const auto map = small_map("spline");
   match::Match match(map, {30, std::numeric_limits<std::uint64_t>::max()});
-  const Header header = make_header(match, "woodlouse 0.1 \"test\"", "maps/small.json");
+  Header header = make_header(match, "woodlouse 0.1 \"test\"", "maps/small.json");
+  header.parent = Parent{"game \"1\".ndjson", 2502, 0x0123456789abcdef};
   std::string out;
-  ReplayWriter(150).append_header(out, header);
+  ReplayWriter().append_header(out, header);
   CHECK(out.find('\n') == out.size() - 1);
   std::istringstream in(out);
   const auto read = ReplayReader(in, "r").read_header();
@@ -65,6 +66,7 @@ TEST_CASE("a header reads back as it was written") {
   CHECK(read->map_name == "small");
   CHECK(read->map_hash == map->hash);
   CHECK(read->map_definition == map->canonical);
+  CHECK(read->parent == header.parent);
 }
 
 TEST_CASE("random steps read back as they were written, minus zero and 64-bit hashes included") {
@@ -73,7 +75,7 @@ TEST_CASE("random steps read back as they were written, minus zero and 64-bit ha
     match::StepRecord step;
     step.tick = random.next() >> (11 + random.next() % 50);
     step.hash = random.next();
-    ReplayWriter writer(std::numeric_limits<std::uint32_t>::max());
+    ReplayWriter writer;
     const auto player = [&] { return static_cast<match::PlayerId>(1 + random.next() % 0xfffffffe); };
     for (std::uint64_t n = random.next() % 4; n > 0; --n) {
       step.roster.push_back({static_cast<match::RosterAction>(random.next() % 3), player()});
@@ -85,7 +87,12 @@ TEST_CASE("random steps read back as they were written, minus zero and 64-bit ha
       input.player = player();
       input.seq = static_cast<std::uint32_t>(random.next());
       input.kind = static_cast<physics::ThrustKind>(random.next() % 3);
-      const auto value = [&] { return (random.next() % 4 == 0 ? -0.0 : random.uniform() * 1.4 - 0.7); };
+      const auto value = [&] {
+        const double any = random.uniform() * 1.4 - 0.7;
+        const double quanta = std::trunc(any * 128.0) / 128.0;
+        const double choices[] = {-0.0, any, quanta, std::bit_cast<double>(std::bit_cast<std::uint64_t>(quanta) ^ 1u)};
+        return choices[random.next() % 4];
+      };
       if (input.kind != physics::ThrustKind::kNone) input.thrust.x = value();
       if (input.kind == physics::ThrustKind::kMapVector) input.thrust.y = value();
       input.ticks =
@@ -94,7 +101,7 @@ TEST_CASE("random steps read back as they were written, minus zero and 64-bit ha
       if (random.next() % 2) writer.note_margin(input.player, input.seq, -5);
     }
     std::string out;
-    writer.append_step(out, step, {});
+    writer.append_step(out, step);
     INFO(out);
     const StepLine line = std::get<StepLine>(read_one(out));
     CHECK(line.step.tick == step.tick);
@@ -112,12 +119,19 @@ TEST_CASE("random steps read back as they were written, minus zero and 64-bit ha
   }
 }
 
-TEST_CASE("random keyframes read back bit for bit, at their ticks only") {
+TEST_CASE("random keyframes read back bit for bit") {
   core::Random random(6);
   for (int round = 0; round < 200; ++round) {
-    std::vector<physics::Louse> lice(random.next() % 6);
+    match::MatchState state;
+    state.tick = random.next() >> 12;
+    state.hash = random.next();
+    state.previous = random.next();
+    state.inputs = random.next();
+    state.generator = random.next();
+    state.lice.resize(random.next() % 6);
     physics::LouseId id = 0;
-    for (physics::Louse& louse : lice) {
+    ReplayWriter writer;
+    for (physics::Louse& louse : state.lice) {
       visit_fields(louse, [&](std::string_view, auto& field) {
         using Field = std::remove_cvref_t<decltype(field)>;
         if constexpr (std::is_same_v<Field, double>) {
@@ -128,30 +142,50 @@ TEST_CASE("random keyframes read back bit for bit, at their ticks only") {
       });
       louse.id = id += 1 + static_cast<physics::LouseId>(random.next() % 1000000);
       louse.thrust_ticks = static_cast<std::uint32_t>(random.next());
+      const bool has_seq = random.next() % 4 != 0;
+      state.players.push_back({id, has_seq ? std::optional(static_cast<std::uint32_t>(random.next())) : std::nullopt});
+      if (random.next() % 2 == 0) writer.note_player(id, "an\"na", protocol::Role::kBot);
+      if (random.next() % 2 == 0) {
+        const double push = static_cast<double>(random.next() % 129) / 256.0;
+        state.waiting.push_back({id, 7, {push, -0.0}, physics::ThrustKind::kMapVector,
+                                 random.next() % 2 == 0 ? physics::kHeld : 12, state.tick + 1});
+      }
     }
-    match::StepRecord step;
-    step.tick = 59 + random.next() % 2;
+    state.next_player = id + 1;
     std::string out;
-    ReplayWriter(60).append_step(out, step, lice);
-    std::istringstream in(out);
-    ReplayReader reader(in, "r");
-    REQUIRE(reader.next());
-    const auto line = reader.next();
-    REQUIRE(line);
-    REQUIRE(line->has_value() == (step.tick == 59));
-    if (!line->has_value()) continue;
-    const Keyframe keyframe = std::get<Keyframe>(**line);
-    CHECK(keyframe.tick == 60);
-    REQUIRE(keyframe.lice.size() == lice.size());
-    for (std::size_t k = 0; k < lice.size(); ++k) {
-      CHECK(std::memcmp(&keyframe.lice[k], &lice[k], sizeof lice[k]) == 0);
+    writer.append_keyframe(out, state);
+    const Keyframe keyframe = std::get<Keyframe>(read_one(out));
+    CHECK(state_text(keyframe.state) == state_text(state));
+    REQUIRE(keyframe.state.lice.size() == state.lice.size());
+    for (std::size_t k = 0; k < state.lice.size(); ++k) {
+      CHECK(std::memcmp(&keyframe.state.lice[k], &state.lice[k], sizeof state.lice[k]) == 0);
     }
+    CHECK(keyframe.state.players == state.players);
+    REQUIRE(keyframe.state.waiting.size() == state.waiting.size());
+    for (std::size_t k = 0; k < state.waiting.size(); ++k) {
+      CHECK(std::memcmp(&keyframe.state.waiting[k], &state.waiting[k], sizeof state.waiting[k]) == 0);
+    }
+    for (const auto& [player, label] : keyframe.labels) CHECK(label == PlayerLabel{"an\"na", protocol::Role::kBot});
+  }
+}
+
+TEST_CASE("a margin is kept in whole milliseconds, down, so that what came late stays late") {
+  const std::pair<std::int64_t, std::int64_t> margins[] = {{0, 0},   {999, 0},   {1000, 1},     {15999, 15},
+                                                           {-1, -1}, {-1000, -1}, {-1001, -2}, {-250000, -250}};
+  for (const auto& [us, ms] : margins) {
+    ReplayWriter writer;
+    match::StepRecord step;
+    step.inputs = {{3, 9, {}, physics::ThrustKind::kNone, physics::kHeld, 0}};
+    writer.note_margin(3, 9, us);
+    std::string out;
+    writer.append_step(out, step);
+    CHECK(std::get<StepLine>(read_one(out)).margins_ms.front() == ms);
   }
 }
 
 TEST_CASE("chat and end lines read back, whatever the text holds") {
   std::string out;
-  const ReplayWriter writer(60);
+  ReplayWriter writer;
   writer.append_chat(out, 77, 3, "a\"b", "line\nbreak \\ \xff end");
   CHECK(out.find('\n') == out.size() - 1);
   const ChatLine chat = std::get<ChatLine>(read_one(out));
@@ -159,10 +193,18 @@ TEST_CASE("chat and end lines read back, whatever the text holds") {
   CHECK(chat.player == 3);
   CHECK(chat.name == "a\"b");
   CHECK(chat.text == "line\nbreak \\ \xef\xbf\xbd end");
+  const std::size_t chat_bytes = out.size();
   out.clear();
-  writer.append_end(out, 78, "SIGTERM");
-  CHECK(std::get<End>(read_one(out)).tick == 78);
-  CHECK(std::get<End>(read_one(out)).reason == "SIGTERM");
+  writer.append_end(out, "SIGTERM");
+  std::istringstream in(out);
+  ReplayReader reader(in, "r");
+  const auto index = reader.next();
+  REQUIRE((index && index->has_value()));
+  CHECK(std::holds_alternative<IndexLine>(**index));
+  const auto end = reader.next();
+  REQUIRE((end && end->has_value()));
+  CHECK(std::get<End>(**end).reason == "SIGTERM");
+  CHECK(std::get<End>(**end).index_offset == chat_bytes);
 }
 
 TEST_CASE("a keyframe's columns are the wire's `all`") {
@@ -175,19 +217,19 @@ TEST_CASE("a keyframe's columns are the wire's `all`") {
 }
 
 TEST_CASE("notes of what is never applied are forgotten with their player") {
-  ReplayWriter writer(60);
+  ReplayWriter writer;
   writer.note_player(1, "one", protocol::Role::kPlayer);
   writer.note_margin(1, 9, 1234);
   match::StepRecord step;
   step.roster = {{match::RosterAction::kJoin, 1}, {match::RosterAction::kLeave, 1}};
   std::string out;
-  writer.append_step(out, step, {});
+  writer.append_step(out, step);
   step.tick = 1;
   step.roster.clear();
   step.inputs = {{1, 9, {}, physics::ThrustKind::kNone, physics::kHeld, 1}};
   out.clear();
-  writer.append_step(out, step, {});
-  CHECK(out.find("margin_us") == std::string::npos);
+  writer.append_step(out, step);
+  CHECK(out.find("\"inputs\":[[1,9,null]]") != std::string::npos);
 }
 
 TEST_CASE("every field of a step is checked, with line and field") {
@@ -213,21 +255,20 @@ TEST_CASE("every field of a step is checked, with line and field") {
   const auto input_error = [](const std::string& input) {
     return error_of("{\"step\":1,\"inputs\":[" + input + "]" + kHash);
   };
-  CHECK(input_error("{\"player\":1,\"seq\":1,\"thrust\":0.5}") == "no error");
-  CHECK(input_error("{\"seq\":1,\"thrust\":0.5}") == "r:1: inputs[0]: \"player\" is missing");
-  CHECK(input_error("{\"player\":1,\"thrust\":0.5}") == "r:1: inputs[0]: \"seq\" is missing");
-  CHECK(input_error("{\"player\":1,\"seq\":1}") == "r:1: inputs[0]: \"thrust\" is missing");
-  CHECK(input_error("{\"player\":1,\"seq\":1,\"thrust\":1.5}")
-            .find("r:1: inputs[0].thrust: 1.5 is out of range") == 0);
-  CHECK(input_error("{\"player\":1,\"seq\":1,\"thrust\":[0.9,0.9]}") ==
-        "r:1: inputs[0].thrust: is longer than 1");
-  CHECK(input_error("{\"player\":1,\"seq\":1,\"thrust\":[0.9]}").find("r:1: inputs[0].thrust: a pair") == 0);
-  CHECK(input_error("{\"player\":1,\"seq\":1,\"thrust\":true}")
-            .find("r:1: inputs[0].thrust: a number is wanted") == 0);
-  CHECK(input_error("{\"player\":1,\"seq\":1,\"thrust\":0,\"ticks\":4294967295}")
-            .find("r:1: inputs[0].ticks: 4294967295 is out of range") == 0);
-  CHECK(input_error("{\"player\":1,\"seq\":1,\"thrust\":0,\"margin_us\":0.5}")
-            .find("r:1: inputs[0].margin_us: ") == 0);
+  CHECK(input_error("[1,1,64]") == "no error");
+  CHECK(input_error("[1,1,null,null,9]") == "no error");
+  CHECK(input_error("[1,1]") == "r:1: inputs[0]: [player, seq, thrust, margin in ms, ticks] is wanted");
+  CHECK(input_error("[1,1,1,1,1,1]") == "r:1: inputs[0]: [player, seq, thrust, margin in ms, ticks] is wanted");
+  CHECK(input_error("{\"player\":1}") == "r:1: inputs[0]: [player, seq, thrust, margin in ms, ticks] is wanted");
+  CHECK(input_error("[0,1,64]").find("r:1: inputs[0][0]: 0 is out of range") == 0);
+  CHECK(input_error("[1,-1,64]").find("r:1: inputs[0][1]: a whole number") == 0);
+  CHECK(input_error("[1,1,129]").find("r:1: inputs[0][2]: 129 / 128 is out of range") == 0);
+  CHECK(input_error("[1,1,1.5]").find("r:1: inputs[0][2]: 1.5 is out of range") == 0);
+  CHECK(input_error("[1,1,[115,115]]") == "r:1: inputs[0][2]: is longer than 1");
+  CHECK(input_error("[1,1,[115]]").find("r:1: inputs[0][2]: a pair") == 0);
+  CHECK(input_error("[1,1,true]").find("r:1: inputs[0][2]: a number is wanted") == 0);
+  CHECK(input_error("[1,1,0,0.5]").find("r:1: inputs[0][3]: a whole number") == 0);
+  CHECK(input_error("[1,1,0,1,4294967295]").find("r:1: inputs[0][4]: 4294967295 is out of range") == 0);
 }
 
 TEST_CASE("every field of a keyframe, a chat and an end is checked") {
@@ -235,24 +276,26 @@ TEST_CASE("every field of a keyframe, a chat and an end is checked") {
       "\"columns\":[\"id\",\"phase\",\"x\",\"y\",\"vx\",\"vy\",\"heading_x\",\"heading_y\",\"tx\",\"ty\","
       "\"flight_z\",\"flight_vz\",\"distance\","
       "\"thrust_kind\",\"ticks_left\"],";
+  const std::string zeros = "\"0000000000000000\"";
+  const std::string state = "\"hash\":" + zeros + ",\"previous\":" + zeros + ",\"inputs\":" + zeros +
+                            ",\"generator\":" + zeros + ",\"next_player\":3,\"players\":[],\"waiting\":[],";
   const auto keyframe_error = [&](const std::string& lice) {
-    return error_of("{\"keyframe\":60," + columns + "\"lice\":[" + lice + "]}\n");
+    return error_of("{\"keyframe\":60," + state + columns + "\"lice\":[" + lice + "]}\n");
   };
   CHECK(keyframe_error("[1,0,0,0,0,0,1,0,0,0,0,0,0,0,0]") == "no error");
   CHECK(keyframe_error("[1,0,0,0,0,0,1,0,0,0,0,0,0,0]").find("r:1: lice[0]: a row of 15") == 0);
   CHECK(keyframe_error("[1,0,0,0,0,0,1,0,0,0,0,0,0,3,0]").find("r:1: lice[0][13]: 3 is out of range") == 0);
   CHECK(keyframe_error("[1,0,null,0,0,0,1,0,0,0,0,0,0,0,0]").find("r:1: lice[0][2]: a number is wanted") == 0);
-  CHECK(keyframe_error("[2,0,0,0,0,0,1,0,0,0,0,0,0,0,0],[2,0,0,0,0,0,1,0,0,0,0,0,0,0,0]")
-            .find("r:1: lice[1]: does not follow") == 0);
-  CHECK(error_of("{\"keyframe\":60,\"columns\":[\"id\"],\"lice\":[]}\n")
+  CHECK(error_of("{\"keyframe\":60," + state + "\"columns\":[\"id\"],\"lice\":[]}\n")
             .find("r:1: columns: are not the columns") == 0);
-  CHECK(error_of("{\"keyframe\":60,\"lice\":[]}\n") == "r:1: \"columns\" is missing");
+  CHECK(error_of("{\"keyframe\":60," + state + "\"lice\":[]}\n") == "r:1: \"columns\" is missing");
+  CHECK(error_of("{\"keyframe\":60," + columns + "\"lice\":[]}\n") == "r:1: \"hash\" is missing");
   CHECK(error_of("{\"chat\":1,\"player\":1,\"name\":\"a\"}\n") == "r:1: \"text\" is missing");
   CHECK(error_of("{\"chat\":1,\"player\":1,\"name\":\"a\",\"text\":\"" + std::string(5000, 'x') + "\"}\n")
             .find("r:1: text: text of at most") == 0);
   CHECK(error_of("{\"end\":\"1\",\"reason\":\"\"}\n").find("r:1: end: a whole number") == 0);
-  CHECK(error_of("{\"hello\":1}\n") == "r:1: is no step, keyframe, chat or end");
-  CHECK(error_of("[]\n") == "r:1: is no step, keyframe, chat or end");
+  CHECK(error_of("{\"hello\":1}\n") == "r:1: is no step, keyframe, chat, index or end");
+  CHECK(error_of("[]\n") == "r:1: is no step, keyframe, chat, index or end");
   CHECK(error_of("\n").find("r:1: not JSON") == 0);
 }
 
@@ -267,8 +310,8 @@ TEST_CASE("another format, version or behavior is refused and both are named") {
     return header_error(text.replace(at, from.size(), to));
   };
   CHECK(with("woodlouse-replay", "doom-demo").find("r:1: is no recording") == 0);
-  CHECK(with("\"version\":1", "\"version\":2") ==
-        "r:1: version: recorded with version 2, this program has version 1 (take a program of that one)");
+  CHECK(with("\"version\":2", "\"version\":1") ==
+        "r:1: version: recorded with version 1, this program has version 2 (take a program of that one)");
   const std::string behavior = "\"behavior\":" + std::to_string(match::kBehavior);
   CHECK(with(behavior, "\"behavior\":99") ==
         "r:1: behavior: recorded with behavior 99, this program has behavior " +

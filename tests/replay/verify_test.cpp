@@ -6,7 +6,7 @@
 #include <string>
 
 #include "shared/map/map_loader.h"
-#include "shared/replay/replay_file.h"
+#include "shared/replay/replay_writer.h"
 #include "shared/replay/replayer.h"
 #include "tests/replay/recorded_match.h"
 
@@ -51,7 +51,7 @@ TEST_CASE("a match of no steps verifies") {
 TEST_CASE("a recording that breaks off at any byte is good up to its last whole line") {
   const Recording recording = record({.steps = 61, .keyframe_ticks = 60});
   const std::string text = recording.text();
-  const std::size_t first = recording.lines.front().size();
+  const std::size_t first = recording.lines[0].size() + recording.lines[1].size();  // header and keyframe
   std::size_t tail = 0;  // the last two steps, the keyframe between them and the end
   for (std::size_t k = recording.line_of_step(58); k < recording.lines.size(); ++k)
     tail += recording.lines[k].size();
@@ -66,7 +66,7 @@ TEST_CASE("a recording that breaks off at any byte is good up to its last whole 
         "ok 61 ticks, then the recording is cut off: it has no end line\n");
   CHECK(to_text(verdict(text.substr(0, first))) ==
         "ok 0 ticks, then the recording is cut off: it has no end line\n");
-  CHECK_FALSE(verify_text(text.substr(0, first - 1)));
+  CHECK(verify_text(text.substr(0, first - 1)).error().text() == "r.jsonl: was cut off before its first keyframe");
   CHECK_FALSE(verify_text(""));
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("lines that are missing, doubled, out of order or behind the end are e
   lines.push_back(lines[at]);
   CHECK(error_of(lines) == "r.jsonl:" + std::to_string(lines.size()) + ": stands after the end");
   lines = recording.lines;
-  lines.back() = "{\"end\":129,\"reason\":\"\"}\n";
+  lines.back() = "{\"end\":129,\"reason\":\"\",\"index\":0}\n";
   CHECK(error_of(lines).find("r.jsonl:" + std::to_string(lines.size()) +
                              ": end: tick 129 after step lines up to tick 130") == 0);
   lines = recording.lines;
@@ -144,12 +144,13 @@ TEST_CASE("a large map is named by its hash and found beside the recording") {
   REQUIRE((*map)->canonical.size() > kMaxInlineMapBytes);
   match::Match match(*map, {60, 9});
   std::string text;
-  ReplayWriter writer(60);
+  ReplayWriter writer;
   writer.append_header(text, make_header(match, "tests", "somewhere/else/large.json"));
   CHECK(text.size() < 1000);
+  writer.append_keyframe(text, match.state());
   match.join();
-  for (int k = 0; k < 100; ++k) writer.append_step(text, match.advance(), match.world().lice());
-  writer.append_end(text, match.tick(), "");
+  for (int k = 0; k < 100; ++k) writer.append_step(text, match.advance());
+  writer.append_end(text, "");
 
   const auto missing = verify_text(text, folder);
   REQUIRE_FALSE(missing);
@@ -172,7 +173,7 @@ TEST_CASE("verify says its verdict and exits with it") {
   const auto run = [&](const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
     std::ostringstream out;
-    const int code = verify_command(file, out);
+    const int code = verify_command({file}, 1, out);
     return std::pair(code, out.str());
   };
   const Recording recording = record({.steps = 100});
@@ -187,8 +188,7 @@ TEST_CASE("verify says its verdict and exits with it") {
   CHECK(std::count(text.begin(), text.end(), '\n') == 2);
   CHECK(run("x\n").first == 1);
   std::ostringstream out;
-  CHECK(verify_command(folder / "none.jsonl", out) == 1);
-  CHECK(verify_command(folder, out) == 1);
+  CHECK(verify_command({folder / "none.jsonl", folder}, 1, out) == 1);
   CHECK(out.str() == (folder / "none.jsonl").string() + ": can't be opened: No such file or directory\n" +
                          folder.string() + ": is a folder, not a recording\n");
   std::filesystem::remove_all(folder);

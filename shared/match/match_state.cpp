@@ -1,0 +1,113 @@
+#include "shared/match/match_state.h"
+
+#include <algorithm>
+#include <string_view>
+#include <tuple>
+
+#include "shared/core/joined.h"
+#include "shared/match/match.h"
+#include "shared/physics/state_hash.h"
+
+namespace woodlouse::match {
+namespace {
+
+using core::joined;
+
+constexpr double kMaxSpeed = 1e6;     // [m/s]
+constexpr double kMaxHeight = 1e9;    // [m]
+constexpr double kMaxDistance = 1e15; // [m]
+
+bool is_within(double value, double limit) { return value >= -limit && value <= limit; }
+
+bool is_within(core::Vec2 value, double limit) { return is_within(value.x, limit) && is_within(value.y, limit); }
+
+/// Steps leave nobody outside, but for the last bit.
+bool is_on(const terrain::Rectangle& domain, core::Vec2 at) {
+  const double slack_x = 1e-6 * (domain.x_max - domain.x_min);
+  const double slack_y = 1e-6 * (domain.y_max - domain.y_min);
+  return at.x >= domain.x_min - slack_x && at.x <= domain.x_max + slack_x && at.y >= domain.y_min - slack_y &&
+         at.y <= domain.y_max + slack_y;
+}
+
+std::string_view fault_of(const map::Map& map, const physics::Louse& louse) {
+  if (!is_on(map.terrain->domain(), louse.position)) return "is not on the map";
+  if (!is_within(louse.velocity, kMaxSpeed) || !is_within(louse.flight_vz, kMaxSpeed)) return "is too fast";
+  if (!is_within(louse.flight_z, kMaxHeight)) return "flies too high";
+  if (!is_within(louse.heading, 1.5)) return "has no heading of length 1";
+  if (!is_within(louse.thrust, 1.0)) return "has a thrust above 1";
+  if (!is_within(louse.distance, kMaxDistance)) return "has gone too far";
+  if (louse.phase > physics::Phase::kFlying || louse.thrust_kind > physics::ThrustKind::kMapVector) {
+    return "has a phase or kind of thrust that is none";
+  }
+  const bool may_fly = map.definition.physics.contact == physics::SurfaceContact::kUnilateral;
+  if (louse.phase == physics::Phase::kFlying && !may_fly) return "flies where nobody can";
+  return {};
+}
+
+std::string fault_of_lice(const map::Map& map, const MatchState& state) {
+  physics::LouseId before = 0;
+  for (const physics::Louse& louse : state.lice) {
+    const std::string name = joined({"louse ", std::to_string(louse.id)});
+    if (louse.id <= before || louse.id >= state.next_player) return joined({name, " is out of order"});
+    before = louse.id;
+    const std::string_view fault = fault_of(map, louse);
+    if (!fault.empty()) return joined({name, " ", fault});
+  }
+  return {};
+}
+
+std::string fault_of_players(const MatchState& state) {
+  physics::LouseId before = 0;
+  for (const PlayerSeq& entry : state.players) {
+    if (entry.player <= before || entry.player >= state.next_player) {
+      return joined({"player ", std::to_string(entry.player), " is out of order"});
+    }
+    before = entry.player;
+  }
+  for (const RosterChange& change : state.roster) {
+    if (change.player == 0 || change.player >= state.next_player) {
+      return joined({"a change of player ", std::to_string(change.player), ", who never was"});
+    }
+  }
+  return {};
+}
+
+std::string fault_of_waiting(const MatchState& state, std::uint64_t horizon) {
+  const AppliedInput* before = nullptr;
+  for (const AppliedInput& input : state.waiting) {
+    const std::string name =
+        joined({"the waiting input of player ", std::to_string(input.player), " seq ", std::to_string(input.seq)});
+    const auto key = [](const AppliedInput& i) { return std::tuple(i.tick, i.player, i.seq); };
+    if (before != nullptr && key(*before) >= key(input)) return joined({name, " is out of order"});
+    before = &input;
+    if (input.tick < state.tick || input.tick - state.tick > horizon) {
+      return joined({name, " is for tick ", std::to_string(input.tick)});
+    }
+    const auto owner = std::lower_bound(state.players.begin(), state.players.end(), input.player,
+                                        [](const PlayerSeq& p, physics::LouseId id) { return p.player < id; });
+    if (owner == state.players.end() || owner->player != input.player) return joined({name, " has no player"});
+    if (owner->last_seq < input.seq) return joined({name, " has a seq above the player's last"});
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string why_not(const map::Map& map, const MatchSettings& settings, const MatchState& state) {
+  std::string fault = fault_of_players(state);
+  if (fault.empty()) fault = fault_of_lice(map, state);
+  if (fault.empty()) fault = fault_of_waiting(state, kHorizonSeconds * settings.tick_hz);
+  if (!fault.empty()) return fault;
+  if (state.tick == 0) {
+    const bool is_beginning = state.hash == 0 && state.previous == 0 && state.inputs == 0 && state.lice.empty() &&
+                              state.generator == settings.seed;
+    return is_beginning ? std::string() : "at tick 0 there are no lice and no hash, and the generator is the seed";
+  }
+  core::StableHasher hasher;
+  const std::uint64_t hash =
+      physics::state_hash(hasher, {state.previous, state.inputs, state.tick, state.generator}, state.lice);
+  if (hash == state.hash) return {};
+  return joined({"its hash is ", core::to_hex(hash), ", not ", core::to_hex(state.hash)});
+}
+
+}  // namespace woodlouse::match

@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <utility>
+
+#include "shared/core/joined.h"
+#include "shared/core/stable_hash.h"
+#include "shared/replay/inspect.h"
+
+namespace woodlouse::replay {
+namespace {
+
+constexpr std::int64_t kLongestMargin = 10'000;  // [ms]; more counts as this
+
+/// What a player's inputs were.
+struct Punctuality {
+  std::uint64_t inputs = 0;
+  std::uint64_t late = 0;
+  std::uint64_t known = 0;                          ///< with a margin
+  std::map<std::int64_t, std::uint64_t> margins;    ///< how many of each [ms]
+
+  void add(const std::optional<std::int64_t>& margin) {
+    ++inputs;
+    if (!margin) return;
+    ++known;
+    if (*margin < 0) ++late;
+    ++margins[std::clamp(*margin, -kLongestMargin, kLongestMargin)];
+  }
+  /// The margin that this share of the inputs did not reach.
+  [[nodiscard]] std::int64_t quantile(double share) const {
+    auto below = static_cast<std::uint64_t>(share * static_cast<double>(known));
+    for (const auto& [margin, count] : margins) {
+      if (below < count) return margin;
+      below -= count;
+    }
+    return margins.empty() ? 0 : margins.rbegin()->first;
+  }
+};
+
+using ByPlayer = std::map<match::PlayerId, Punctuality>;
+
+core::Expected<ByPlayer> read_margins(const ReplayArchive& archive) {
+  const auto stream = archive.source().open();
+  if (!stream) return tl::unexpected(stream.error());
+  ReplayReader reader(**stream, archive.source().name);
+  if (const auto header = reader.read_header(); !header) return tl::unexpected(header.error());
+  ByPlayer players;
+  for (;;) {
+    const core::Expected<std::optional<Line>> line = reader.next();
+    if (!line) return tl::unexpected(line.error());
+    if (!*line) return players;
+    const auto* step = std::get_if<StepLine>(&**line);
+    if (step == nullptr) continue;
+    for (std::size_t k = 0; k < step->step.inputs.size(); ++k) {
+      players[step->step.inputs[k].player].add(step->margins_ms[k]);
+    }
+  }
+}
+
+template <typename... Values>
+std::string formatted(const char* format, Values... values) {
+  char text[256];
+  const int size = std::snprintf(text, sizeof text, format, values...);
+  return std::string(text, std::clamp<std::size_t>(static_cast<std::size_t>(std::max(size, 0)), 0, sizeof text - 1));
+}
+
+std::string head(const ReplayArchive& archive) {
+  const Header& header = archive.header();
+  std::string out = core::joined({archive.source().name, "\nmap      ", header.map_name, " ", core::to_hex(header.map_hash),
+                                  "\nplayed   by ", header.build, ", behavior ", std::to_string(header.behavior), ", seed ",
+                                  std::to_string(header.seed), ", ", std::to_string(header.tick_hz), " ticks/s\n"});
+  if (header.parent) {
+    out += core::joined({"forked   from ", header.parent->file, " at tick ", std::to_string(header.parent->tick), "\n"});
+  }
+  const std::uint64_t ticks = archive.last_tick() - archive.first_tick();
+  out += core::joined({"ticks    ", std::to_string(archive.first_tick()), " to ", std::to_string(archive.last_tick()),
+                       formatted(", %.1f s; ", static_cast<double>(ticks) / header.tick_hz),
+                       archive.is_cut_off() ? std::string("cut off, without an end")
+                                            : core::joined({"ended: ", archive.end_reason()}),
+                       "\n"});
+  std::uint64_t counts[4] = {};
+  for (const Mark& mark : archive.marks()) ++counts[static_cast<std::size_t>(mark.kind)];
+  out += core::joined({"events   ", std::to_string(counts[0]), " joins, ", std::to_string(counts[1]), " leaves, ",
+                       std::to_string(counts[2]), " respawns, ", std::to_string(counts[3]), " chats\n"});
+  return out + core::joined({"inputs   ", std::to_string(archive.index().inputs), "\n\n"});
+}
+
+std::string row(const PlayerSpan& player, const Punctuality& inputs) {
+  const std::string left = player.left ? std::to_string(*player.left) : "-";
+  std::string out = formatted("%6lu %-6s %8lu %8s %9lu", static_cast<unsigned long>(player.player),
+                              std::string(protocol::to_text(player.label.role)).c_str(),
+                              static_cast<unsigned long>(player.joined), left.c_str(),
+                              static_cast<unsigned long>(inputs.inputs));
+  if (inputs.known == 0) {
+    out += "        -       -       -       -";
+  } else {
+    out += formatted(" %8lu %7ld %7ld %7ld", static_cast<unsigned long>(inputs.late), static_cast<long>(inputs.quantile(0.5)),
+                     static_cast<long>(inputs.quantile(0.01)), static_cast<long>(inputs.margins.begin()->first));
+  }
+  return core::joined({out, "  ", player.label.name, "\n"});
+}
+
+}  // namespace
+
+core::Expected<std::string> inspect_summary(const ReplayArchive& archive) {
+  const core::Expected<ByPlayer> inputs = read_margins(archive);
+  if (!inputs) return tl::unexpected(inputs.error());
+  std::string out = head(archive);
+  out += "margin: how long before its step an input came; 99 of 100 came at least `99%` ms before\n";
+  out += "player role     joined     left    inputs     late  median     99%   least  name\n";
+  for (const PlayerSpan& player : archive.players()) {
+    const auto found = inputs->find(player.player);
+    out += row(player, found != inputs->end() ? found->second : Punctuality{});
+  }
+  return out;
+}
+
+}  // namespace woodlouse::replay

@@ -1,0 +1,69 @@
+// Reads a recording of zstd frames as the text it was: a stream buffer that seeks by the unpacked byte.
+//
+// Frames are independent. A finished recording ends with a table of them, in zstd's own seekable format (a
+// skippable frame, which zstd passes over); where it is missing they are found by unpacking the file once.
+// A file that was cut off gives what its last frame holds. Bombs are refused: a window past kMaxWindow, a
+// frame that unpacks to more than kMaxFrameBytes.
+#pragma once
+
+#include <zstd.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <memory>
+#include <streambuf>
+#include <string>
+#include <vector>
+
+namespace woodlouse::replay {
+
+/// Where a frame begins, packed and unpacked.
+struct ZstdFrame {
+  std::uint64_t packed = 0;
+  std::uint64_t unpacked = 0;
+};
+
+class ZstdInput : public std::streambuf {
+ public:
+  static constexpr int kMaxWindowLog = 23;                               ///< 8 MiB
+  static constexpr std::uint64_t kMaxFrameBytes = std::uint64_t{64} << 20;  ///< unpacked
+
+  explicit ZstdInput(std::unique_ptr<std::istream> packed);
+
+  /// Why it ended before its end: damaged or a bomb; empty: it did not.
+  [[nodiscard]] const std::string& fault() const { return fault_; }
+
+ protected:
+  int_type underflow() override;
+  pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode which) override;
+  pos_type seekpos(pos_type position, std::ios_base::openmode which) override;
+
+ private:
+  struct Release {
+    void operator()(ZSTD_DCtx* context) const { ZSTD_freeDCtx(context); }
+  };
+
+  [[nodiscard]] std::uint64_t position() const;
+  bool refill_packed();
+  bool unpack_some();
+  void restart(const ZstdFrame& frame);
+  void find_frames();
+
+  std::unique_ptr<std::istream> packed_;
+  std::unique_ptr<ZSTD_DCtx, Release> context_;
+  std::vector<char> in_;
+  std::vector<char> out_;
+  ZSTD_inBuffer pending_{};          ///< of in_, not yet unpacked
+  std::uint64_t packed_read_ = 0;    ///< bytes of the file before pending_'s end
+  std::uint64_t unpacked_end_ = 0;   ///< bytes before egptr()
+  ZstdFrame frame_;                  ///< being read
+  bool is_frame_open_ = false;
+  bool is_drained_ = false;          ///< the file was cut off within a frame, all of which is unpacked
+  std::vector<ZstdFrame> frames_;    ///< by offset; once known
+  std::uint64_t total_ = 0;          ///< bytes unpacked; once known
+  bool has_frames_ = false;
+  std::string fault_;
+};
+
+}  // namespace woodlouse::replay

@@ -1,0 +1,46 @@
+// However many threads verify, and whatever was altered, they say the same.
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "shared/core/random.h"
+#include "tests/replay/recorded_match.h"
+
+namespace woodlouse::replay {
+namespace {
+
+std::string said(const std::string& text, unsigned jobs) {
+  const auto verification = verify(ReplaySource::of_bytes(text, "r.jsonl"), jobs);
+  return verification ? to_text(*verification) : verification.error().text();
+}
+
+}  // namespace
+
+TEST_CASE("a whole recording verifies with any number of jobs") {
+  const Recording recording = record({.steps = 400});
+  for (const unsigned jobs : {1u, 2u, 7u, 64u}) CHECK(said(recording.bytes, jobs) == "ok 400 ticks\n");
+}
+
+TEST_CASE("an altered byte anywhere gives the same words with one job and with several") {
+  const Recording recording = record({.seed = 3, .steps = 200, .keyframe_ticks = 20});
+  core::Random random(17);
+  for (int round = 0; round < 150; ++round) {
+    std::string altered = recording.bytes;
+    const std::size_t header = recording.lines.front().size();
+    const std::size_t at = header + random.next() % (altered.size() - header);
+    altered[at] = static_cast<char>(altered[at] ^ (1 << random.next() % 7));
+    INFO(at << " " << altered.substr(at < 40 ? 0 : at - 40, 80));
+    CHECK(said(altered, 3) == said(altered, 1));
+  }
+}
+
+TEST_CASE("lines between two keyframes of the same tick are not passed over") {
+  const Recording recording = record({.steps = 130});
+  Recording altered = recording;
+  const std::size_t keyframe = recording.line_of_step(59) + 1;
+  altered.lines.insert(altered.lines.begin() + static_cast<std::ptrdiff_t>(keyframe), recording.lines[keyframe]);
+  const std::string one = said(altered.text(), 1);
+  CHECK(one.find("a keyframe of tick 60 stands where tick 60 is reached") != std::string::npos);
+  CHECK(said(altered.text(), 4) == one);
+}
+
+}  // namespace woodlouse::replay
