@@ -146,10 +146,10 @@ void Composer::draw(const Scene& scene, CellBuffer& cells) {
   cells.clear();
   const Size size = cells.size();
   if (size.columns < kSmallestSize.columns || size.rows < kSmallestSize.rows) {
-    draw_too_small(cells);
+    draw_too_small(scene, cells);
     return;
   }
-  const Layout layout = layout_for(size, scene.look);
+  const Layout layout = layout_for(size, scene.look, scene.replay ? Foot::kScrubberAndKeys : Foot::kKeys);
   const Badges badges(scene);
   layers_->draw_map(scene, badges, layout.map, cells);
   draw_panel(scene, badges, layout.panel, cells);

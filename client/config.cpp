@@ -74,9 +74,10 @@ const Words<std::optional<View>>& view_words() {
 
 /// Everything as it is written, before it is understood.
 struct Raw {
-  std::string server, map, name, room, color, glyphs, view;
+  std::string server, map, name, room, recording, color, glyphs, view;
   int fps = 30;
   bool watch = false;
+  bool verify = false;
 };
 
 Raw raw_of(const Config& config) {
@@ -84,11 +85,13 @@ Raw raw_of(const Config& config) {
           .map = config.map,
           .name = config.name,
           .room = config.room,
+          .recording = config.recording,
           .color = color_words().word(config.color),
           .glyphs = glyph_words().word(config.glyphs),
           .view = view_words().word(config.view),
           .fps = config.fps,
-          .watch = config.part == Part::kWatch};
+          .watch = config.part == Part::kWatch,
+          .verify = config.hashes == Hashes::kVerified};
 }
 
 core::Expected<Config> understood(const Raw& raw) {
@@ -113,7 +116,9 @@ core::Expected<Config> understood(const Raw& raw) {
   config.map = raw.map;
   config.name = raw.name;
   config.room = raw.room;
-  config.part = raw.watch ? Part::kWatch : Part::kPlay;
+  config.part = !raw.recording.empty() ? Part::kReplay : raw.watch ? Part::kWatch : Part::kPlay;
+  config.recording = raw.recording;
+  config.hashes = raw.verify ? Hashes::kVerified : Hashes::kIgnored;
   config.color = *color;
   config.glyphs = *glyphs;
   config.view = *view;
@@ -169,6 +174,8 @@ void add_options(CLI::App& app, Raw& raw) {
   app.add_option("--room", raw.room, "room of the server; default: its first")->envname("WOODLOUSE_ROOM");
   app.add_flag("--watch,!--play", raw.watch, "watch, without a louse of your own")
       ->envname("WOODLOUSE_WATCH");
+  app.add_flag("--verify,!--no-verify", raw.verify, "recompute the state hash of every key; exit 1 when one differs")
+      ->envname("WOODLOUSE_VERIFY");
   app.add_option("--color", raw.color, color_words().list())
       ->envname("WOODLOUSE_COLOR")
       ->capture_default_str();
@@ -178,6 +185,15 @@ void add_options(CLI::App& app, Raw& raw) {
       ->capture_default_str();
   app.add_option("--view", raw.view, view_words().list())->envname("WOODLOUSE_VIEW")->capture_default_str();
   app.add_option("--fps", raw.fps, "frames a second, 5..60")->envname("WOODLOUSE_FPS")->capture_default_str();
+  CLI::App* const replay = app.add_subcommand("replay", "watch a recording: play, pause, jump, follow; ? shows the keys");
+  replay->add_option("FILE", raw.recording, "what woodlouse-server --record wrote; .zst too")->required();
+  replay->footer(
+      "For example:  woodlouse replay game.ndjson\n"
+      "Keys: Space play/pause, < > 5 s, comma and full stop one tick, [ ] speed, 0-9 jump, F Shift-F follow,\n"
+      "      N Shift-N events, V view, Tab scores, ? help, Q quit.\n"
+      "Options of woodlouse (--color, --glyphs, --view, --fps) may stand here, too.\n"
+      "Exit: 0 fine, 1 a tick's re-run differs, 2 usage, 74 no recording or terminal lost, 130 Ctrl-C.");
+  replay->fallthrough();
 }
 
 }  // namespace
@@ -202,11 +218,11 @@ core::Expected<Config> read_config_file(const std::string& text, const std::stri
     } else if (key == "fps") {
       if (!value.is_number_integer()) return core::fail(where, "it is not a whole number");
       raw.fps = static_cast<int>(std::clamp<std::int64_t>(value.get<std::int64_t>(), -1, 1000));
-    } else if (key == "watch") {
+    } else if (key == "watch" || key == "verify") {
       if (!value.is_boolean()) return core::fail(where, "it is not true or false");
-      raw.watch = value.get<bool>();
+      (key == "watch" ? raw.watch : raw.verify) = value.get<bool>();
     } else {
-      return core::fail(where, "no such setting", "known: server map name room color glyphs view fps watch");
+      return core::fail(where, "no such setting", "known: server map name room color glyphs view fps watch verify");
     }
   }
   auto result = understood(raw);
@@ -222,8 +238,9 @@ Parsed parse_arguments(int argc, const char* const* argv) {
   CLI::App app("Wood-lice on a spline hill: the terminal client.", "woodlouse");
   app.set_version_flag("--version", std::string(kVersion));
   app.footer(
+      "Watch a recording:  woodlouse replay game.ndjson\n"
       "Keys: W push, S brake, A D turn, Space cruise, T chat, Tab scores, V view, ? help, Q quit.\n"
-      "Exit: 0 fine, 2 usage, 69 server unreachable, 74 terminal lost, 130 Ctrl-C.");
+      "Exit: 0 fine, 1 a verified state differs, 2 usage, 69 server unreachable, 74 terminal lost, 130 Ctrl-C.");
   add_options(app, raw);
   Parsed parsed;
   try {

@@ -6,20 +6,27 @@
 #include <string>
 
 #include "client/address.h"
+#include "client/key_verifier.h"
 #include "client/look_choice.h"
 #include "client/scene.h"
 #include "shared/core/error.h"
 
 namespace woodlouse::client {
 
-enum class Part : std::uint8_t { kPlay, kWatch };
+enum class Part : std::uint8_t {
+  kPlay,
+  kWatch,
+  kReplay,  ///< a recording; no server
+};
 
 struct Config {
   std::optional<Address> server;  ///< none: start one here
   std::string map = "volcano";    ///< of the server started here: a file, or a name
   std::string name;               ///< at most 24 bytes
   std::string room;               ///< empty: the server's first
+  std::string recording;          ///< of Part::kReplay: its file
   Part part = Part::kPlay;
+  Hashes hashes = Hashes::kIgnored;
   ColorChoice color = ColorChoice::kAuto;
   GlyphChoice glyphs = GlyphChoice::kAuto;
   std::optional<View> view;  ///< none: what suits the terminal

@@ -13,7 +13,9 @@
 #include "client/frame_box.h"
 #include "client/labels.h"
 #include "client/palette.h"
+#include "client/replay_bar.h"
 #include "client/wrapping.h"
+#include "shared/core/stable_hash.h"
 
 namespace woodlouse::client {
 namespace {
@@ -78,6 +80,17 @@ void draw_room(const Scene& scene, const Styles& styles, PanelWriter& out) {
   out.line("you are watching", styles.dim);
 }
 
+/// Whose numbers a recording shows: "a ada".
+std::string followed_text(const Scene& scene, const Badges& badges) {
+  const auto louse = std::find_if(scene.lice.begin(), scene.lice.end(),
+                                  [&](const LouseMark& mark) { return mark.id == scene.follow_id; });
+  if (louse == scene.lice.end()) return "NOBODY IS THERE";
+  std::string text{badges.of(louse->id).letter, ' '};
+  for (const char32_t c : printable(louse->name, GlyphSet::kAscii)) text += static_cast<char>(c);
+  if (louse->kind == LouseKind::kBot) text += '*';
+  return text;
+}
+
 void draw_chat(const Scene& scene, const Styles& styles, PanelWriter& out, int rows) {
   struct Line {
     std::u32string text;
@@ -121,7 +134,15 @@ const char* keys_text(const Scene& scene, int columns) {
 
 }  // namespace
 
+std::string proof_text(const StateProof& proof) {
+  if (proof.differs) return "state DIFFERS at tick " + std::to_string(*proof.differs);
+  if (!proof.total) return "state ok " + std::to_string(proof.verified);
+  return "state ok " + core::to_hex(proof.hash).substr(12) + " " + std::to_string(proof.verified) + "/" +
+         std::to_string(*proof.total);
+}
+
 void draw_status_line(const Scene& scene, CellBuffer& cells) {
+  if (scene.replay) return draw_replay_status_line(scene, cells);
   const Styles styles = styles_for(scene.look);
   const int columns = cells.size().columns;
   const HudNumbers& hud = scene.hud;
@@ -135,6 +156,8 @@ void draw_status_line(const Scene& scene, CellBuffer& cells) {
                        : hud.rank > 0   ? formatted("#%d of %d", hud.rank, hud.players)
                                         : "";
   at = cells.text(at + 3, 0, middle, styles.bar);
+  if (scene.proof)
+    at = cells.text(at + 2, 0, proof_text(*scene.proof), scene.proof->differs ? styles.warning : styles.bar);
   std::string right = hud.rtt_ms ? formatted("rtt %.0f ms", *hud.rtt_ms) : "rtt --";
   right += formatted("  srv %.0f  fps %.0f", hud.tick_hz, hud.fps);
   cells.text(std::max(at + 2, columns - 1 - static_cast<int>(right.size())), 0, right, styles.bar);
@@ -143,7 +166,7 @@ void draw_status_line(const Scene& scene, CellBuffer& cells) {
 void draw_key_line(const Scene& scene, const Layout& layout, CellBuffer& cells) {
   const Styles styles = styles_for(scene.look);
   const int columns = cells.size().columns;
-  if (layout.rule_row >= 0)
+  if (layout.rule_row >= 0 && !scene.replay)
     cells.text(0, layout.rule_row, std::string(static_cast<std::size_t>(columns), '-'), styles.dim);
   cells.fill(0, layout.key_row, {columns, 1}, styles.bar);
   if (scene.mode == Mode::kChatEntry) {
@@ -157,6 +180,9 @@ void draw_key_line(const Scene& scene, const Layout& layout, CellBuffer& cells) 
     block.attributes = kReverse;
     cells.put(caret, layout.key_row, U' ', block);
     cells.text(columns - static_cast<int>(hint.size()), layout.key_row, hint, styles.bar);
+  } else if (scene.replay) {
+    draw_scrubber(scene, layout, cells);
+    draw_replay_key_line(scene, layout, cells);
   } else {
     cells.text(0, layout.key_row, keys_text(scene, columns), styles.bar);
   }
@@ -171,7 +197,8 @@ void draw_key_line(const Scene& scene, const Layout& layout, CellBuffer& cells) 
 void draw_panel(const Scene& scene, const Badges& badges, const Viewport& panel, CellBuffer& cells) {
   const Styles styles = styles_for(scene.look);
   PanelWriter out(panel, scene.look, styles, cells);
-  const int you_rows = scene.spectating ? 3 : 5;
+  const bool shows_room = scene.spectating && !scene.replay;
+  const int you_rows = shows_room ? 3 : 5;
   constexpr int kFrames = 4;  // three titles and the foot
   constexpr int kLeastChat = 3;
   const int most = std::max(1, panel.size.rows - kFrames - you_rows - kLeastChat);
@@ -180,9 +207,9 @@ void draw_panel(const Scene& scene, const Badges& badges, const Viewport& panel,
                       scene.hud.bots == 1 ? "bot" : "bots"));
   draw_players(scene, badges, styles, out, players);
   out.skip_to(1 + players);
-  out.title(scene.spectating ? "THE ROOM" : "YOU");
-  scene.spectating ? draw_room(scene, styles, out) : draw_you(scene, styles, out);
-  out.title("CHAT  (T to talk)");
+  out.title(shows_room ? "THE ROOM" : scene.replay ? followed_text(scene, badges) : "YOU");
+  shows_room ? draw_room(scene, styles, out) : draw_you(scene, styles, out);
+  out.title(scene.replay ? "CHAT" : "CHAT  (T to talk)");
   draw_chat(scene, styles, out, panel.size.rows - out.rows_used() - 1);
   out.finish();
 }

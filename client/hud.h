@@ -1,12 +1,17 @@
 // The lines and boxes around the map: who plays, how you move, what is said, which keys there are.
 #pragma once
 
+#include <string>
+
 #include "client/badges.h"
 #include "client/cell_buffer.h"
 #include "client/layout.h"
 #include "client/scene.h"
 
 namespace woodlouse::client {
+
+/// "state ok 12" of a server's keys, "state ok 9f3a 600/11544" of a recording's ticks, or where it differs.
+std::string proof_text(const StateProof& proof);
 
 /// Game, map, lice, rank, round-trip time, rates.
 void draw_status_line(const Scene& scene, CellBuffer& cells);

@@ -42,7 +42,7 @@ Drive drive(const Key& key) {
 }
 
 std::optional<Action> play_action(const Key& key) {
-  if (key.code == KeyCode::kTab) return Action::kScoreboard;
+  if (const auto action = picture_action(key)) return action;
   if (key.code != KeyCode::kCharacter) return std::nullopt;
   switch (letter(key)) {
     case U' ':
@@ -51,21 +51,6 @@ std::optional<Action> play_action(const Key& key) {
       return Action::kRespawn;
     case U't':
       return Action::kChat;
-    case U'v':
-      return Action::kView;
-    case U'?':
-    case U'h':
-      return Action::kHelp;
-    case U'l':
-      return Action::kLabels;
-    case U'p':
-      return Action::kTrails;
-    case U'+':
-    case U'=':
-      return Action::kZoomIn;
-    case U'-':
-    case U'_':
-      return Action::kZoomOut;
     case U'n':
       return Action::kNextLouse;
     case U'q':
@@ -83,6 +68,30 @@ std::optional<Action> question_action(const Key& key) {
 }
 
 }  // namespace
+
+std::optional<Action> picture_action(const Key& key) {
+  if (key.code == KeyCode::kTab) return Action::kScoreboard;
+  if (key.code != KeyCode::kCharacter) return std::nullopt;
+  switch (letter(key)) {
+    case U'v':
+      return Action::kView;
+    case U'?':
+    case U'h':
+      return Action::kHelp;
+    case U'l':
+      return Action::kLabels;
+    case U'p':
+      return Action::kTrails;
+    case U'+':
+    case U'=':
+      return Action::kZoomIn;
+    case U'-':
+    case U'_':
+      return Action::kZoomOut;
+    default:
+      return std::nullopt;
+  }
+}
 
 std::optional<Action> control_action(const Key& key) {
   if (key.action == KeyAction::kRelease || !key.control || key.code != KeyCode::kCharacter)

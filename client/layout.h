@@ -2,9 +2,11 @@
 //
 //     status line                      1 row
 //     map                  | panel     the panel 24 columns wide below 80, 33 up to 159, 38 beyond
-//     rule (ASCII only)                1 row
+//     rule (ASCII), scrubber (replay)  1 row
 //     keys                             1 row
 #pragma once
+
+#include <cstdint>
 
 #include "client/cell_buffer.h"
 #include "client/scene.h"
@@ -33,14 +35,17 @@ constexpr bool paints_pixels(const Look& look) {
 struct Layout {
   Viewport map;
   Viewport panel;
-  int rule_row = -1;  ///< -1: none
+  int rule_row = -1;  ///< of the rule or the scrubber; -1: neither
   int key_row = 0;
 };
 
+/// What stands below the map.
+enum class Foot : std::uint8_t { kKeys, kScrubberAndKeys };
+
 /// REQUIRES a size of kSmallestSize or more.
-constexpr Layout layout_for(Size size, const Look& look) {
+constexpr Layout layout_for(Size size, const Look& look, Foot foot = Foot::kKeys) {
   const int panel = size.columns < 80 ? 24 : size.columns < 160 ? 33 : 38;
-  const int rule = paints_pixels(look) ? 0 : 1;
+  const int rule = paints_pixels(look) && foot == Foot::kKeys ? 0 : 1;
   const int rows = size.rows - 2 - rule;
   Layout layout;
   layout.map = {0, 1, {size.columns - panel, rows}};

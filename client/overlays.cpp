@@ -39,33 +39,50 @@ struct HelpLine {
   std::string_view text;
 };
 
+constexpr std::array<HelpLine, 13> kGameHelp = {
+    {{"DRIVE", "W / Up     push along your heading: 0.4 s a press"},
+     {"", "S / Down   brake"},
+     {"", "A D / left right   turn 22.5 degrees"},
+     {"", "Space      cruise: the push stays on    R respawn"},
+     {"SEE", "V view: map / oblique / follow / slope  +/- zoom"},
+     {"", "L labels   P trails   N next louse (watching)"},
+     {"TALK", "T chat   Enter sends   Esc cancels"},
+     {"", "Tab scoreboard: distance travelled"},
+     {"QUIT", "Q (asks)   Ctrl-C (now; restores the terminal)"},
+     {"MAP", "Close lines are steep. You roll downhill for free,"},
+     {"", "hills eat speed. @ is you, a-z others, * marks a"},
+     {"", "bot, the glyph beside a letter is its heading."},
+     {"", "In colour low is blue, and a white head leads."}}};
+
+constexpr std::array<HelpLine, 13> kReplayHelp = {
+    {{"TIME", "Space      play, pause; at the end: once more"},
+     {"", "< >        5 s back, forth    also left and right"},
+     {"", ", .        one tick back, forth"},
+     {"", "[ ]        slower, faster: x0.25 to x16"},
+     {"", "0-9        jump by tenths     Home End"},
+     {"", "N Shift-N  next, previous event: + joined, x left,"},
+     {"", "           o began again, ! chat"},
+     {"SEE", "F Shift-F  follow the next, the previous louse"},
+     {"", "V view: map / oblique / follow / slope  +/- zoom"},
+     {"", "L labels   P trails   Tab scoreboard"},
+     {"QUIT", "Q          Ctrl-C (restores the terminal, too)"},
+     {"PROOF", "state ok: the ticks that were re-run here, all of"},
+     {"", "them with the very hash that was recorded."}}};
+
 void draw_help(const Scene& scene, const Styles& styles, CellBuffer& cells) {
-  constexpr std::array<HelpLine, 13> kLines = {
-      {{"DRIVE", "W / Up     push along your heading: 0.4 s a press"},
-       {"", "S / Down   brake"},
-       {"", "A D / left right   turn 22.5 degrees"},
-       {"", "Space      cruise: the push stays on    R respawn"},
-       {"SEE", "V view: map / oblique / follow / slope  +/- zoom"},
-       {"", "L labels   P trails   N next louse (watching)"},
-       {"TALK", "T chat   Enter sends   Esc cancels"},
-       {"", "Tab scoreboard: distance travelled"},
-       {"QUIT", "Q (asks)   Ctrl-C (now; restores the terminal)"},
-       {"MAP", "Close lines are steep. You roll downhill for free,"},
-       {"", "hills eat speed. @ is you, a-z others, * marks a"},
-       {"", "bot, the glyph beside a letter is its heading."},
-       {"", "In colour low is blue, and a white head leads."}}};
-  const Viewport box = centred({60, static_cast<int>(kLines.size()) + 5}, cells.size());
+  const std::array<HelpLine, 13>& lines = scene.replay ? kReplayHelp : kGameHelp;
+  const Viewport box = centred({60, static_cast<int>(lines.size()) + 5}, cells.size());
   draw_box(box, "HELP (any key closes)", scene.look, styles, cells);
   const int left = box.column + 2;
   constexpr int kMargin = 6;
   int row = box.row + 1;
-  for (const HelpLine& line : kLines) {
+  for (const HelpLine& line : lines) {
     cells.text(left, row, line.head, styles.strong);
     cells.text(left + kMargin, row++, line.text, styles.text, box.size.columns - kMargin - 4);
   }
   const std::string keys = scene.key_up_known ? "hold and release" : "no key-up seen: a press is a pulse";
   const std::string glyphs = scene.look.glyphs == GlyphSet::kAscii ? "ascii" : "half-blocks";
-  cells.text(left, ++row, "keys: " + keys, styles.dim, box.size.columns - 4);
+  if (!scene.replay) cells.text(left, ++row, "keys: " + keys, styles.dim, box.size.columns - 4);
   cells.text(left, ++row, "color: " + std::string(color_text(scene.look.color)) + "   glyphs: " + glyphs,
              styles.dim, box.size.columns - 4);
 }
@@ -141,7 +158,7 @@ void draw_overlay(const Scene& scene, const Badges& badges, CellBuffer& cells) {
   }
 }
 
-void draw_too_small(CellBuffer& cells) {
+void draw_too_small(const Scene& scene, CellBuffer& cells) {
   const Size size = cells.size();
   const std::string needs = formatted("WOODLOUSE needs %d x %d, this terminal is %d x %d.",
                                       kSmallestSize.columns, kSmallestSize.rows, size.columns, size.rows);
@@ -150,7 +167,7 @@ void draw_too_small(CellBuffer& cells) {
   cells.text(left, row, needs, {});
   cells.text(left, ++row, "Enlarge it, or zoom out (Ctrl and -).", {});
   if (size.rows >= 6) ++row;
-  cells.text(left, ++row, "The game goes on: your louse keeps rolling.", {});
+  if (!scene.replay) cells.text(left, ++row, "The game goes on: your louse keeps rolling.", {});
   cells.text(left, ++row, "Q leaves.", {});
 }
 

@@ -11,6 +11,6 @@ namespace woodlouse::client {
 void draw_overlay(const Scene& scene, const Badges& badges, CellBuffer& cells);
 
 /// Says what size is needed. Fits any size.
-void draw_too_small(CellBuffer& cells);
+void draw_too_small(const Scene& scene, CellBuffer& cells);
 
 }  // namespace woodlouse::client

@@ -27,7 +27,10 @@ void Lead::observe(const protocol::Ack& ack) {
 
 Pilot::Pilot(std::shared_ptr<const terrain::Terrain> terrain, const physics::Parameters& parameters,
              std::uint32_t tick_hz, std::uint32_t id)
-    : id_(id), steering_(tick_hz), prediction_(std::move(terrain), parameters, tick_hz), lead_(tick_hz) {}
+    : id_(id), steering_(tick_hz), lead_(tick_hz) {
+  if (terrain != nullptr) ways_ = {terrain->domain(), parameters.edges};
+  if (terrain != nullptr) prediction_.emplace(std::move(terrain), parameters, tick_hz);
+}
 
 protocol::Input Pilot::order(std::uint64_t tick, const ThrustOrder& wanted) {
   protocol::Input input;
@@ -36,7 +39,7 @@ protocol::Input Pilot::order(std::uint64_t tick, const ThrustOrder& wanted) {
   input.thrust = wanted.thrust.value;
   if (wanted.ticks != physics::kHeld) input.ticks = wanted.ticks;
   input.tick = tick;
-  prediction_.sent(input.seq, tick, wanted);
+  if (prediction_) prediction_->sent(input.seq, tick, wanted);
   last_tick_ = tick;
   return input;
 }
@@ -44,22 +47,27 @@ protocol::Input Pilot::order(std::uint64_t tick, const ThrustOrder& wanted) {
 std::optional<protocol::Input> Pilot::update(TimePoint now, ServerClock& clock, double rtt_seconds) {
   if (!clock.running()) return std::nullopt;
   ahead_ = std::max(ahead_, clock.tick(now) + lead_.ticks(rtt_seconds));
-  prediction_.advance(static_cast<std::uint64_t>(std::max(0.0, ahead_)));
+  auto next = static_cast<std::uint64_t>(std::max(0.0, ahead_));
+  const physics::Louse* louse = nullptr;
+  if (prediction_) {
+    prediction_->advance(next);
+    next = std::max(next, prediction_->tick());
+    louse = prediction_->louse();
+    wants_state_ |= louse == nullptr;
+  }
   fade(now);
 
-  const std::uint64_t next = std::max(prediction_.tick(), static_cast<std::uint64_t>(ahead_));
   if (next <= last_tick_)
     return std::nullopt;  // this tick has its input; what is wanted now waits for the next
   if (const auto wanted = steering_.poll(now)) return order(next, *wanted);
-  const bool ask = wants_state_ || prediction_.louse() == nullptr;
-  if (!ask || (asked_ && now - *asked_ < kAskAgain)) return std::nullopt;
+  if (!wants_state_ || (asked_ && now - *asked_ < kAskAgain)) return std::nullopt;
   asked_ = now;
-  return order(next, order_in_force(prediction_.louse()));
+  return order(next, order_in_force(louse));
 }
 
 void Pilot::acknowledge(const protocol::Ack& ack) {
   lead_.observe(ack);
-  prediction_.acknowledge(ack);
+  if (prediction_) prediction_->acknowledge(ack);
   if (!ack.you) return;
   wants_state_ = false;
   asked_.reset();
@@ -67,19 +75,20 @@ void Pilot::acknowledge(const protocol::Ack& ack) {
     steering_.point(ack.you->heading);
     heading_taken_ = true;
   }
-  correction_ += prediction_.take_correction();
+  if (!prediction_) return;
+  correction_ += prediction_->take_correction();
   if (std::hypot(correction_.x, correction_.y) > kLargestFade) correction_ = {};
 }
 
 void Pilot::compare(std::uint64_t tick, const LouseSample& row) {
-  const auto believed = prediction_.position_at(tick);
-  if (!believed || prediction_.pending() > 0) return;  // an ack is on its way anyway
-  const core::Vec2 off = *believed - row.position;
+  const auto believed = prediction_ ? prediction_->position_at(tick) : std::nullopt;
+  if (!believed || prediction_->pending() > 0) return;  // an ack is on its way anyway
+  const core::Vec2 off = ways_.way(row.position, *believed);
   if (std::hypot(off.x, off.y) > kStray) wants_state_ = true;
 }
 
 void Pilot::respawned() {
-  prediction_.forget();
+  if (prediction_) prediction_->forget();
   steering_.reset();
   heading_taken_ = false;
   wants_state_ = true;
@@ -94,11 +103,11 @@ void Pilot::fade(TimePoint now) {
 }
 
 std::optional<LouseSample> Pilot::sample() const {
-  const physics::Louse* louse = prediction_.louse();
+  const physics::Louse* louse = prediction_ ? prediction_->louse() : nullptr;
   if (louse == nullptr) return std::nullopt;
-  const double part = std::clamp(ahead_ - static_cast<double>(prediction_.tick()), 0.0, 1.0);
+  const double part = std::clamp(ahead_ - static_cast<double>(prediction_->tick()), 0.0, 1.0);
   LouseSample result;
-  result.position = louse->position + (part * prediction_.step_seconds()) * louse->velocity + correction_;
+  result.position = ways_.place(louse->position + (part * prediction_->step_seconds()) * louse->velocity + correction_);
   result.velocity = louse->velocity;
   result.heading = louse->heading;
   result.distance = louse->distance;

@@ -4,6 +4,10 @@
 // The lead: an input must reach the server before the step it asks for, so the louse is predicted one round
 // trip and a margin ahead of the frames that arrive. The margin is learnt from the acks: `late` widens it at
 // once, inputs that come earlier than needed narrow it slowly.
+//
+// On a big map the client has an overview, whose slopes are wrong by tens of per cent: a prediction from it would stray
+// by more than a row's quantum within a few ticks and ask for an exact state several times a second. So nothing is
+// predicted there, and the louse is drawn from the server's frames, kDelay behind, as all others are.
 #pragma once
 
 #include <cstdint>
@@ -37,6 +41,7 @@ class Lead {
 
 class Pilot {
  public:
+  /// terrain: the one that is played on; null where it is not known exactly: nothing is predicted.
   Pilot(std::shared_ptr<const terrain::Terrain> terrain, const physics::Parameters& parameters,
         std::uint32_t tick_hz, std::uint32_t id);
 
@@ -51,7 +56,7 @@ class Pilot {
   Steering& steering() { return steering_; }
   [[nodiscard]] const Steering& steering() const { return steering_; }
   [[nodiscard]] std::uint32_t id() const { return id_; }
-  /// The louse as it is to be drawn now; nothing before the first exact state.
+  /// The louse as it is to be drawn now; nothing before the first exact state, and where nothing is predicted.
   [[nodiscard]] std::optional<LouseSample> sample() const;
 
  private:
@@ -63,8 +68,9 @@ class Pilot {
   void fade(TimePoint now);
 
   std::uint32_t id_;
+  Ways ways_;
   Steering steering_;
-  Prediction prediction_;
+  std::optional<Prediction> prediction_;
   Lead lead_;
   std::uint32_t seq_ = 0;
   std::uint64_t last_tick_ = 0;     ///< the step the last input asked for

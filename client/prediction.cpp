@@ -27,7 +27,7 @@ physics::Louse louse_of(const protocol::ExactState& state) {
 
 Prediction::Prediction(std::shared_ptr<const terrain::Terrain> terrain, const physics::Parameters& parameters,
                        std::uint32_t tick_hz)
-    : world_(std::move(terrain), parameters, 1.0 / tick_hz) {}
+    : ways_(terrain->domain(), parameters.edges), world_(std::move(terrain), parameters, 1.0 / tick_hz) {}
 
 void Prediction::sent(std::uint32_t seq, std::uint64_t tick, const ThrustOrder& order) {
   assert(pending_.empty() || (pending_.back().seq < seq && pending_.back().tick < tick));
@@ -54,7 +54,7 @@ void Prediction::acknowledge(const protocol::Ack& ack) {
     if (input.tick < tick_) world_.set_thrust(*id_, input.order.thrust, input.order.ticks);
   }
   if (target - tick_ <= kMaxAheadTicks) advance(target);
-  if (was_known && tick_ == target) correction_ += believed - louse()->position;
+  if (was_known && tick_ == target) correction_ += ways_.way(louse()->position, believed);
 }
 
 void Prediction::advance(std::uint64_t tick) {

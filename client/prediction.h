@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "client/steering.h"
+#include "client/ways.h"
 #include "shared/physics/world.h"
 #include "shared/protocol/messages.h"
 
@@ -42,7 +43,7 @@ class Prediction {
   [[nodiscard]] double step_seconds() const { return world_.step_seconds(); }
   /// Where it was, or was last believed to be, before step `tick`; nothing when that is forgotten.
   [[nodiscard]] std::optional<core::Vec2> position_at(std::uint64_t tick) const;
-  /// How far the last ack moved what was already predicted: old minus new [m]. The drawing fades it out.
+  /// How far the last ack moved what was already predicted: old minus new, the shorter way [m]. The drawing fades it out.
   [[nodiscard]] core::Vec2 take_correction();
 
  private:
@@ -58,6 +59,7 @@ class Prediction {
 
   void step();
 
+  Ways ways_;
   physics::World world_;
   std::optional<physics::LouseId> id_;
   std::uint64_t tick_ = 0;

@@ -24,14 +24,23 @@ std::int64_t microseconds(TimePoint time) {
   return std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch()).count();
 }
 
+terrain::HeightGrid grid_of(const protocol::Overview& overview) {
+  return {overview.columns,   overview.rows,      overview.origin.x, overview.origin.y,
+          overview.spacing.x, overview.spacing.y, overview.heights};
+}
+
 }  // namespace
 
-protocol::Join make_join(protocol::Role role, const std::string& name, const std::string& room) {
+protocol::Join make_join(protocol::Role role, const std::string& name, const std::string& room, Hashes hashes) {
   protocol::Join join;
   join.role = role;
   join.name = name;
   join.room = room;
   join.fields = wanted_columns();
+  if (hashes == Hashes::kVerified) {
+    join.fields = protocol::all_columns();
+    join.format = protocol::Format::kExact;
+  }
   return join;
 }
 
@@ -70,7 +79,7 @@ void RoomView::take(const protocol::Welcome& welcome) {
   welcome_ = welcome;
   roster_.welcome(welcome);
   clock_.emplace(welcome.tick_hz);
-  view_.emplace(welcome.tick_hz);
+  view_.emplace(welcome.tick_hz, welcome.fields);
   pilot_.reset();
   rate_time_.reset();
   if (map_ && map_->hash == welcome.map_hash) {
@@ -83,7 +92,8 @@ void RoomView::take(const protocol::Welcome& welcome) {
 }
 
 core::Expected<void> RoomView::take(const protocol::MapMessage& message) {
-  auto parsed = map::parse_map(message.definition, "the server's map", {});
+  auto parsed = message.overview ? map::parse_overview(message.definition, "the server's map", grid_of(*message.overview))
+                                 : map::parse_map(message.definition, "the server's map", {});
   if (!parsed) return tl::unexpected(parsed.error());
   if (welcome_ && (*parsed)->hash != welcome_->map_hash) {
     return core::fail("the server's map",
@@ -98,11 +108,14 @@ core::Expected<void> RoomView::take(const protocol::MapMessage& message) {
 
 void RoomView::begin_piloting() {
   if (welcome_->id == 0) return;
-  pilot_.emplace(map_->terrain, map_->definition.physics, welcome_->tick_hz, welcome_->id);
+  // An overview is not the ground that is played on.
+  const auto ground = map_->detail == map::Detail::kExact ? map_->terrain : nullptr;
+  pilot_.emplace(ground, map_->definition.physics, welcome_->tick_hz, welcome_->id);
 }
 
 void RoomView::take(const protocol::Frame& frame, TimePoint now) {
   if (!view_) return;
+  verifier_.take(frame);
   clock_->observe(frame.tick, now);
   measure_rate(frame.tick, now);
   switch (view_->merge(frame)) {
@@ -191,7 +204,8 @@ void RoomView::draw_lice(TimePoint now) {
   if (!clock_->running()) return;
   const double frame_gap = 2.0 / std::max(1u, welcome_->state_hz);
   const double delay = std::max(std::chrono::duration<double>(kDelay).count(), frame_gap);
-  for (const auto& [id, sample] : view_->at(clock_->tick(now) - delay * clock_->tick_hz())) {
+  const Ways ways = map_ ? Ways(map_->terrain->domain(), map_->definition.physics.edges) : Ways();
+  for (const auto& [id, sample] : view_->at(clock_->tick(now) - delay * clock_->tick_hz(), ways)) {
     lice_[id].sample = sample;
   }
   if (pilot_) {
@@ -206,11 +220,6 @@ void RoomView::draw_lice(TimePoint now) {
     trails_.try_emplace(id, std::max(width, 1.0) / kTrailSpacings).first->second.add(louse.sample.position);
   }
   std::erase_if(trails_, [this](const auto& entry) { return !lice_.contains(entry.first); });
-}
-
-const Trail* RoomView::trail(std::uint32_t id) const {
-  const auto found = trails_.find(id);
-  return found == trails_.end() ? nullptr : &found->second;
 }
 
 std::vector<protocol::ClientMessage> RoomView::take_outgoing() { return std::exchange(outgoing_, {}); }

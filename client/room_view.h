@@ -11,9 +11,11 @@
 #include <string>
 #include <vector>
 
+#include "client/key_verifier.h"
 #include "client/pilot.h"
 #include "client/roster.h"
 #include "client/server_clock.h"
+#include "client/sight.h"
 #include "client/trail.h"
 #include "client/view_state.h"
 #include "shared/core/error.h"
@@ -21,14 +23,6 @@
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::client {
-
-/// A louse as it is drawn, and whose it is.
-struct Present {
-  LouseSample sample;
-  std::string name;
-  bool is_bot = false;
-  bool is_you = false;
-};
 
 class RoomView {
  public:
@@ -59,12 +53,14 @@ class RoomView {
   [[nodiscard]] const Pilot* pilot() const { return pilot_ ? &*pilot_ : nullptr; }
   /// Every louse as of the last update, by id.
   [[nodiscard]] const std::map<std::uint32_t, Present>& lice() const { return lice_; }
-  [[nodiscard]] const Trail* trail(std::uint32_t id) const;
+  [[nodiscard]] Sight sight() const { return {map_.get(), lice_, trails_, pilot()}; }
   /// The smallest of the last kRoundTrips: the others waited for something besides the network.
   [[nodiscard]] std::optional<double> rtt_seconds() const;
   /// The server's tick rate as its frames show it [Hz]; 0 before it can be known.
   [[nodiscard]] double measured_tick_hz() const { return measured_tick_hz_; }
   [[nodiscard]] const std::string& notice_line() const { return notice_; }
+  /// What came of the keys' hashes, over all sessions; nothing verified unless asked for (make_join).
+  [[nodiscard]] const KeyVerifier& verifier() const { return verifier_; }
 
  private:
   void take(const protocol::Welcome& welcome);
@@ -80,6 +76,7 @@ class RoomView {
   std::shared_ptr<const map::Map> map_;
   std::optional<ServerClock> clock_;
   std::optional<ViewState> view_;
+  KeyVerifier verifier_;
   std::optional<Pilot> pilot_;
   Roster roster_;
   std::map<std::uint32_t, Present> lice_;
@@ -96,6 +93,7 @@ class RoomView {
 };
 
 /// The join of our client: its columns, its format.
-protocol::Join make_join(protocol::Role role, const std::string& name, const std::string& room);
+protocol::Join make_join(protocol::Role role, const std::string& name, const std::string& room,
+                         Hashes hashes = Hashes::kIgnored);
 
 }  // namespace woodlouse::client

@@ -89,6 +89,32 @@ struct ChatLine {
   std::string text;
 };
 
+/// Whether what is shown is what was played: state hashes, recomputed here.
+struct StateProof {
+  std::uint64_t verified = 0;             ///< keys of a server, ticks of a recording
+  std::optional<std::uint64_t> total;     ///< ticks of the recording; empty: a server's
+  std::uint64_t hash = 0;                 ///< the newest that was right
+  std::optional<std::uint64_t> differs;   ///< the first tick whose hash is not what was stated
+};
+
+enum class EventSign : std::uint8_t { kJoined, kLeft, kRespawned, kChat };
+
+/// Something to find again on a recording's time line.
+struct EventMark {
+  double seconds = 0.0;  ///< since the recording's beginning
+  EventSign sign = EventSign::kJoined;
+};
+
+/// Where a recording stands.
+struct ReplayBar {
+  std::string file;
+  bool playing = false;
+  double seconds = 0.0;  ///< since its beginning
+  double total_seconds = 0.0;
+  double speed = 1.0;                                   ///< 1: as it was played
+  std::shared_ptr<const std::vector<EventMark>> marks;  ///< null: none
+};
+
 struct ConnectionLost {
   std::string reason;        ///< one line
   double retry_seconds = 0;  ///< until the next attempt; 0: trying now
@@ -115,6 +141,8 @@ struct Scene {
   std::string chat_entry;      ///< what is being typed, UTF-8 (Mode::kChatEntry)
   std::string notice;          ///< one line over the key line; empty: none
   ConnectionLost lost;         ///< Mode::kConnectionLost
+  std::optional<StateProof> proof;  ///< empty: nothing is verified
+  std::optional<ReplayBar> replay;  ///< a recording is watched; empty: a game
 };
 
 /// The smallest terminal that can be played on.

@@ -22,13 +22,22 @@ struct FrameFacts {
 Scene build_scene(const Session& session, const Interface& interface, const ChatEntry& entry,
                   const FrameFacts& facts);
 
+/// What every scene has, of a game or of a recording: the look, the map, the lice, whom the view follows, the
+/// scores and how many they are. Numbers of a single louse, chat and mode are the caller's.
+Scene picture(const Sight& sight, const Interface& interface, const FrameFacts& facts);
+
 /// The lice by distance travelled, best first; the scoreboard.
-std::vector<ScoreRow> score_rows(const RoomView& room);
+std::vector<ScoreRow> score_rows(const Sight& sight);
 
 /// Whom a spectator follows: the chosen one while there is one of that id, else the leader; 0: nobody.
-std::uint32_t followed(const RoomView& room, std::uint32_t chosen);
+std::uint32_t followed(const Sight& sight, std::uint32_t chosen);
 /// The next one after `id` by id, round and round; 0 when there is nobody.
-std::uint32_t next_louse(const RoomView& room, std::uint32_t id);
+std::uint32_t next_louse(const Sight& sight, std::uint32_t id);
+/// The one before.
+std::uint32_t previous_louse(const Sight& sight, std::uint32_t id);
+
+/// Speed, slope, way, height and rank of one louse, into `scene.hud`; nothing for an id that is not there.
+void fill_louse_numbers(const Sight& sight, std::uint32_t id, Scene& scene);
 
 /// Slope along a unit direction [degrees], uphill positive.
 double slope_degrees(const terrain::SurfaceSample& ground, core::Vec2 direction);

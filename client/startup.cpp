@@ -12,11 +12,13 @@
 #include <string>
 #include <utility>
 
+#include "client/descriptor.h"
 #include "client/game.h"
 #include "client/local_server.h"
 #include "client/outcome.h"
 #include "client/session.h"
 #include "client/text_game.h"
+#include "client/watch_recording.h"
 
 namespace woodlouse::client {
 namespace {
@@ -24,22 +26,6 @@ namespace {
 using std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kIntroduction{
     2500};  // how long the first run's text stands without a key
-
-/// A descriptor that closes itself.
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int get() const { return fd_; }
-  int release() { return std::exchange(fd_, -1); }
-
- private:
-  int fd_;
-};
 
 int complain(int exit_code, const std::string& what, const std::string& hint) {
   std::cerr << "woodlouse: " << what << "\n";
@@ -111,6 +97,13 @@ Outcome play(boost::asio::io_context& context, Session& session, const Config& c
   return game.run();
 }
 
+/// A state that was not what the server said outweighs how the run ended otherwise.
+Outcome judged(Outcome outcome, const KeyVerifier& verifier) {
+  if (!verifier.difference()) return outcome;
+  return {kExitDiffers, outcome.message + "woodlouse: " + to_text(*verifier.difference()) +
+                            "\n      the server, or something on the way here, altered the state\n"};
+}
+
 bool write_line(const std::string& line) {
   std::cout << line << "\n" << std::flush;
   return static_cast<bool>(std::cout);
@@ -132,6 +125,11 @@ Outcome tell(boost::asio::io_context& context, Session& session, LocalServer* lo
 
 int run_client(const Config& config) {
   const bool as_text = config.glyphs == GlyphChoice::kText;
+  if (config.part == Part::kReplay && (as_text || isatty(STDOUT_FILENO) == 0)) {
+    return complain(kExitUsage, "a recording is watched on a terminal. For scripts use:  woodlouse-server verify " +
+                                    config.recording,
+                    "");
+  }
   if (!as_text && isatty(STDOUT_FILENO) == 0) {
     return complain(kExitUsage, "stdout is not a terminal. For scripts use:  woodlouse --watch --glyphs text",
                     "");
@@ -141,6 +139,11 @@ int run_client(const Config& config) {
                     "try:  woodlouse --glyphs text");
   }
   std::signal(SIGPIPE, SIG_IGN);  // a pipe nobody reads is an error of write()
+  if (config.part == Part::kReplay) {
+    const Outcome outcome = watch_recording(config);
+    std::cerr << outcome.message;
+    return outcome.exit_code;
+  }
   std::unique_ptr<LocalServer> local;
   if (!config.server) {
     const auto map = find_map(config.map);
@@ -155,7 +158,7 @@ int run_client(const Config& config) {
   const protocol::Role role =
       config.part == Part::kWatch ? protocol::Role::kSpectator : protocol::Role::kPlayer;
   Session session(context, local ? local->address() : *config.server,
-                  make_join(role, config.name, config.room));
+                  make_join(role, config.name, config.room, config.hashes));
   if (const auto joined = session.join(); !joined) {
     return complain(kExitUnreachable,
                     "cannot connect to " + joined.error().where + ": " + joined.error().what,
@@ -163,7 +166,8 @@ int run_client(const Config& config) {
                         std::to_string(session.connection().address().port));
   }
   const Outcome outcome =
-      as_text ? tell(context, session, local.get()) : play(context, session, config, local.get());
+      judged(as_text ? tell(context, session, local.get()) : play(context, session, config, local.get()),
+             session.room().verifier());
   session.leave();
   std::cerr << outcome.message;
   return outcome.exit_code;

@@ -55,7 +55,7 @@ std::string louse(const RoomView& room, const Present& louse) {
 
 std::vector<std::string> room(const RoomView& view) {
   std::vector<std::string> lines;
-  const std::vector<ScoreRow> rows = score_rows(view);
+  const std::vector<ScoreRow> rows = score_rows(view.sight());
   std::size_t rank = 0;
   for (const ScoreRow& row : rows) {
     if (rank >= kMostLice && !row.is_you) {
@@ -124,12 +124,15 @@ void TextGame::update() {
   session_.update(now);
   tell_connection();
   tell_news();
+  tell_proof();
   if (now - state_told_ >= kStateEvery && session_.connection().phase() == Connection::Phase::kJoined) {
     state_told_ = now;
     const auto lines = words::room(session_.room());
     const bool only_own =
         session_.room().pilot() != nullptr && keys_;  // the others on Tab: a reader reads slowly
     for (std::size_t i = 0; i < lines.size() && !(only_own && i == 1); ++i) say(lines[i]);
+    if (const std::uint64_t keys = session_.room().verifier().verified(); keys > 0)
+      say("state ok, " + std::to_string(keys) + (keys == 1 ? " key" : " keys") + " verified");
   }
   if (outcome_) return;
   timer_.expires_after(kUpdate);
@@ -168,6 +171,13 @@ void TextGame::tell_news() {
   const std::string& notice = session_.room().notice_line();
   if (notice != notice_told_ && !notice.empty()) say(notice);
   notice_told_ = notice;
+}
+
+void TextGame::tell_proof() {
+  const auto& difference = session_.room().verifier().difference();
+  if (!difference) return;
+  say(to_text(*difference));
+  finish({});
 }
 
 void TextGame::on_key(const Key& key) {

@@ -47,6 +47,7 @@ class TextGame {
   void perform(Action action);
   void tell_news();
   void tell_connection();
+  void tell_proof();
   void say(const std::string& line);
   void finish(Outcome outcome);
 

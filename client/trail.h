@@ -16,7 +16,7 @@ class Trail {
   /// spacing [m] > 0: a point is kept once the louse is this far from the last; map width / 200 looks well.
   explicit Trail(double spacing) : spacing_(spacing) {}
 
-  /// Forgets everything on a jump (a respawn) of more than 20 spacings.
+  /// Forgets everything on a jump (a respawn, a seam of a map that wraps) of more than 20 spacings.
   void add(core::Vec2 position) {
     if (!points_.empty()) {
       const core::Vec2 step = position - points_.back();

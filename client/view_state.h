@@ -14,6 +14,7 @@
 #include <optional>
 #include <vector>
 
+#include "client/ways.h"
 #include "shared/core/vec2.h"
 #include "shared/protocol/messages.h"
 
@@ -32,11 +33,12 @@ struct Snapshot {
   std::map<std::uint32_t, LouseSample> lice;
 };
 
-/// The columns a client of ours asks for, in the order Snapshot is read from.
+/// The columns a client of ours asks for.
 const std::vector<protocol::Column>& wanted_columns();
 
-/// The louse between `from` and `to`, `seconds` apart, at `fraction` of the way (0..1).
-LouseSample between(const LouseSample& from, const LouseSample& to, double seconds, double fraction);
+/// The louse between `from` and `to`, `seconds` apart, at `fraction` of the shorter way (0..1).
+LouseSample between(const LouseSample& from, const LouseSample& to, double seconds, double fraction,
+                    const Ways& ways = {});
 
 class ViewState {
  public:
@@ -44,25 +46,28 @@ class ViewState {
     kTaken,
     kStale,        ///< not newer than what is here: passed over
     kMissingBase,  ///< a delta without its key: ask for a resync
-    kUnreadable,   ///< its columns are not wanted_columns(): a server that doesn't keep its word
+    kUnreadable,   ///< a wanted column is not there: a server that doesn't keep its word
   };
 
   static constexpr std::size_t kSnapshots = 64;        ///< the oldest are forgotten beyond
   static constexpr double kExtrapolateSeconds = 0.25;  ///< beyond the newest snapshot a louse stands still
 
-  explicit ViewState(std::uint32_t tick_hz) : tick_hz_(tick_hz) {}
+  /// columns: of the frames to come; wanted_columns() among them, in any order.
+  explicit ViewState(std::uint32_t tick_hz, const std::vector<protocol::Column>& columns = wanted_columns());
 
   Merge merge(const protocol::Frame& frame);
   /// Forgets all: a new session.
   void clear();
 
   /// Every louse at a (fractional) tick, by id; empty before the first key.
-  [[nodiscard]] std::map<std::uint32_t, LouseSample> at(double tick) const;
+  [[nodiscard]] std::map<std::uint32_t, LouseSample> at(double tick, const Ways& ways = {}) const;
   /// The newest snapshot; null before the first key.
   [[nodiscard]] const Snapshot* newest() const { return snapshots_.empty() ? nullptr : &snapshots_.back(); }
 
  private:
   double tick_hz_;
+  std::size_t columns_;              ///< of a row
+  std::vector<std::size_t> places_;  ///< where in a row the wanted columns stand; empty: not all do
   std::optional<Snapshot> key_;
   std::deque<Snapshot> snapshots_;  ///< ascending ticks
 };

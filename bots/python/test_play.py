@@ -15,6 +15,9 @@ import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
+sys.path.insert(0, HERE)
+import woodlouse
+
 PATIENCE_S = 60.0  # only a failing test takes so long
 
 
@@ -116,6 +119,18 @@ class TheExamples(unittest.TestCase):
 
     def test_the_orbiter_goes_round(self):
         self.bots["orbiter", "pot"].wait_for(r"1 times round")
+
+
+class TheModule(unittest.TestCase):
+    def test_the_keys_of_moving_lice_have_the_hashes_of_their_rows(self):
+        address = serve(self, "volcano")
+        with woodlouse.connect(address, name="proof", verify=True) as game:
+            for state in game.states():
+                if state.me and not game.last_ack:
+                    game.thrust((0.5, -0.25))
+                if game.verified >= 3:
+                    break
+            self.assertGreater(state.me.distance, 0.0)
 
 
 class ThePrograms(unittest.TestCase):

@@ -18,6 +18,7 @@ import math
 import os
 import select
 import socket
+import struct
 import sys
 import time
 
@@ -28,7 +29,8 @@ SILENCE_S = 15.0  # a server that says nothing for so long is gone
 
 
 class WoodlouseError(Exception):
-    """What went wrong; `code` is the server's (docs/protocol.md), or "connection" or "protocol"."""
+    """What went wrong; `code` is the server's (docs/protocol.md), or "connection", "protocol" or "differs" (a key
+    that was verified)."""
 
     def __init__(self, code, text):
         super().__init__("%s: %s" % (code, text))
@@ -106,17 +108,72 @@ def _slope(t):
     return (-0.5 + 2 * t - 1.5 * t * t, -5 * t + 4.5 * t * t, 0.5 + 4 * t - 4.5 * t * t, -t + 1.5 * t * t)
 
 
-def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields=None, format="quantized", state_hz=None):
+ALL_FIELDS = ["id", "phase", "x", "y", "vx", "vy", "heading_x", "heading_y", "tx", "ty", "flight_z", "flight_vz",
+              "distance", "thrust_kind", "ticks_left"]
+_LOUSE = struct.Struct("<II11dII")  # a louse's hashed record: ALL_FIELDS in this order
+_64_BITS = (1 << 64) - 1
+
+
+def state_hash(previous, inputs, tick, rows, generator):
+    """The hash of a tick, as docs/determinism.md lays it out. rows: of all lice by ascending id, each ALL_FIELDS."""
+    return xxh64(struct.pack("<QQQ", previous, inputs, tick) + b"".join(_LOUSE.pack(*row) for row in rows) +
+                 struct.pack("<Q", generator))
+
+
+def xxh64(data):
+    """XXH64 with seed 0 of bytes."""
+    p1, p2, p3, p4, p5 = (0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x85EBCA77C2B2AE63,
+                          0x27D4EB2F165667C5)
+
+    def rotated(value, bits):
+        return (value << bits | value >> 64 - bits) & _64_BITS
+
+    def lane(accumulator, word):
+        return rotated((accumulator + word * p2) & _64_BITS, 31) * p1 & _64_BITS
+
+    whole = len(data) & ~31  # stripes of 32 bytes, a word for each of four accumulators
+    if whole:
+        a, b, c, d = (p1 + p2) & _64_BITS, p2, 0, -p1 & _64_BITS
+        for w, x, y, z in struct.iter_unpack("<4Q", data[:whole]):
+            a, b, c, d = lane(a, w), lane(b, x), lane(c, y), lane(d, z)
+        value = rotated(a, 1) + rotated(b, 7) + rotated(c, 12) + rotated(d, 18) & _64_BITS
+        for accumulator in (a, b, c, d):
+            value = ((value ^ lane(0, accumulator)) * p1 + p4) & _64_BITS
+    else:
+        value = p5
+    value = value + len(data) & _64_BITS
+    rest = data[whole:]
+    for (word,) in struct.iter_unpack("<Q", rest[:len(rest) & ~7]):
+        value = (rotated(value ^ lane(0, word), 27) * p1 + p4) & _64_BITS
+    rest = rest[len(rest) & ~7:]
+    if len(rest) >= 4:
+        value = (rotated(value ^ int.from_bytes(rest[:4], "little") * p1 & _64_BITS, 23) * p2 + p3) & _64_BITS
+        rest = rest[4:]
+    for byte in rest:
+        value = rotated(value ^ byte * p5 & _64_BITS, 11) * p1 & _64_BITS
+    value = (value ^ value >> 33) * p2 & _64_BITS
+    value = (value ^ value >> 29) * p3 & _64_BITS
+    return value ^ value >> 32
+
+
+def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields=None, format="quantized", state_hz=None,
+            verify=False):
     """Connects to HOST:PORT and joins. Raises WoodlouseError. Use it in a `with`: that leaves at the end.
 
     role: "bot", "player" or "spectator". fields: names of columns, or "all"; id x y vx vy when left out.
     state_hz: how many states a second; the room's own when left out.
+    verify: recompute the hash of every key from its rows. Asks for all fields in exact format, so leave out `fields`
+    and `format`; game.verified counts the keys, and one that differs raises WoodlouseError with the code "differs".
     """
+    if verify:
+        if fields is not None:
+            raise ValueError("verify needs all fields: leave out `fields`")
+        fields, format = "all", "exact"
     join = {"type": "join", "protocol": 1, "role": role, "name": name, "format": format}
     for field, value in (("room", room), ("fields", fields), ("state_hz", state_hz)):
         if value is not None:
             join[field] = value
-    return Game(_open(address), join)
+    return Game(_open(address), join, verify)
 
 
 def run(main):
@@ -151,14 +208,17 @@ def _open(address):
 class Game:
     """A joined session. Attributes: id (your louse; 0 for a spectator), room, fields, tick_hz, state_hz, physics
     {gravity, drag, friction, thrust_max, edge_restitution}, extent (x_min, y_min, x_max, y_max), players
-    {id: name}, hello and welcome as they came, last_ack, and bye once the server said it."""
+    {id: name}, hello and welcome as they came, last_ack, verified (how many keys were right; 0 unless asked to verify),
+    and bye once the server said it."""
 
-    def __init__(self, connection, join):
+    def __init__(self, connection, join, verify=False):
         self._socket = connection
         self._socket.settimeout(SILENCE_S)
         self._bytes = bytearray()
         self._searched = 0
         self._seq = 0
+        self._verifies = verify
+        self.verified = 0
         self._key = None  # (tick, {id: row}) that deltas refer to
         self._resyncing = False
         self._ground = None
@@ -355,9 +415,24 @@ class Game:
         return {louse.id: louse for louse in rows}
 
     def _on_key(self, message):
+        if self._verifies:
+            self._verify(message)
         self._key = (message["tick"], self._rows(message))
         self._resyncing = False
         self._show(message["tick"], self._key[1])
+
+    def _verify(self, key):
+        if self.fields != ALL_FIELDS:
+            raise WoodlouseError("protocol", "the columns are %s, not those of the hash" % " ".join(self.fields))
+        try:
+            found = state_hash(int(key["previous"], 16), int(key["inputs"], 16), key["tick"], key["louse"],
+                               int(key["generator"], 16))
+        except struct.error as error:
+            raise WoodlouseError("protocol", "a key out of shape (%s)" % error) from None
+        if "%016x" % found != key["hash"]:
+            raise WoodlouseError("differs", "the key of tick %d says %s, its rows give %016x"
+                                 % (key["tick"], key["hash"], found))
+        self.verified += 1
 
     def _on_delta(self, message):
         if self._key is None or self._key[0] != message["base"]:

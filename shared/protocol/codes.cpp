@@ -38,6 +38,8 @@ constexpr std::array kCodes = {
     CodeEntry{code::kKeysOnly, "notice", Ends::kNo, "only keys come: the client reads very slowly"},
     CodeEntry{code::kRateRestored, "notice", Ends::kNo, "frames come at the full rate again"},
     CodeEntry{code::kDraining, "notice", Ends::kNo, "the server will stop soon"},
+    CodeEntry{code::kRecordingEnded, "notice", Ends::kNo,
+              "the game goes on, but is no longer recorded: the disk is full or too slow"},
 };
 
 }  // namespace

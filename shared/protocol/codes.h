@@ -43,6 +43,7 @@ inline constexpr std::string_view kRateLowered = "rate_lowered";
 inline constexpr std::string_view kKeysOnly = "keys_only";
 inline constexpr std::string_view kRateRestored = "rate_restored";
 inline constexpr std::string_view kDraining = "draining";
+inline constexpr std::string_view kRecordingEnded = "recording_ended";
 }  // namespace code
 
 /// Whether the connection ends with it. kRepeated: when three lines running were not JSON.

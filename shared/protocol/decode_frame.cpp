@@ -60,6 +60,13 @@ Decoded read_key(FieldReader& reader, const FrameContext& context) {
   std::uint64_t hash = 0;
   reader.hash("hash", hash);
   frame.hash = hash;
+  if (context.format == Format::kExact && context.fields == all_columns()) {
+    HashProof proof;
+    reader.hash("previous", proof.previous);
+    reader.hash("inputs", proof.inputs);
+    reader.hash("generator", proof.generator);
+    frame.proof = proof;
+  }
   return reader.finish<ServerMessage>(std::move(frame));
 }
 

@@ -216,6 +216,35 @@ Decoded read_rooms(FieldReader& reader, const Context&) {
   return reader.finish<ServerMessage>(std::move(rooms));
 }
 
+void read_overview(FieldReader& knots, Overview& overview) {
+  constexpr IntegerRange kSide{4, static_cast<std::int64_t>(kMaxOverviewSide)};
+  knots.pair("origin", overview.origin);
+  knots.pair("spacing", overview.spacing);
+  if (!knots.failed() && !(overview.spacing.x > 0.0 && overview.spacing.y > 0.0)) {
+    knots.fail(code::kBadField, "map.knots.spacing: it must be two numbers above 0");
+  }
+  knots.integer("columns", overview.columns, kSide);
+  knots.integer("rows", overview.rows, kSide);
+  knots.array("heights", "an array of rows", [&](json::Value row, std::size_t index) {
+    const auto refuse = [&] {
+      knots.refuse("heights", index, row, "one of `rows` arrays of `columns` numbers");
+      return false;
+    };
+    if (row.kind() != json::Kind::kArray || row.size() != overview.columns || index >= overview.rows) {
+      static_cast<void>(refuse());
+      return;
+    }
+    row.for_each([&](json::Value height) {
+      if (!height.is_number()) return refuse();
+      overview.heights.push_back(height.number());
+      return true;
+    });
+  });
+  if (!knots.failed() && overview.heights.size() != overview.columns * overview.rows) {
+    knots.fail(code::kBadField, "map.knots.heights: it must hold `rows` arrays");
+  }
+}
+
 Decoded read_map(FieldReader& reader, const Context&) {
   MapMessage map;
   reader.cleaned_text("name", map.name, kLabelBytes);
@@ -224,6 +253,9 @@ Decoded read_map(FieldReader& reader, const Context&) {
     if (definition->kind() != json::Kind::kObject) reader.refuse("definition", *definition, "an object");
     if (!reader.failed()) map.definition = definition->raw();  // the hash is taken over these bytes
   }
+  bool is_overview = false;
+  if (reader.field("overview", "true or false", Presence::kOptional)) reader.boolean("overview", is_overview);
+  if (is_overview) reader.object("knots", [&](FieldReader& knots) { read_overview(knots, map.overview.emplace()); });
   return reader.finish<ServerMessage>(std::move(map));
 }
 

@@ -7,6 +7,16 @@
 namespace woodlouse::protocol {
 namespace {
 
+/// [[south row, west to east], ..., [north row]]
+std::string rows_of(const Overview& overview) {
+  std::string out = "[";
+  for (std::size_t k = 0; k < overview.heights.size(); ++k) {
+    out += k % overview.columns != 0 ? "," : k == 0 ? "[" : "],[";
+    json::append_double(out, overview.heights[k]);
+  }
+  return out + "]]";
+}
+
 std::string line_of(const Hello& hello) {
   MessageText text("hello");
   text.integer("protocol", hello.protocol).integer("behavior", hello.behavior);
@@ -128,6 +138,13 @@ std::string encode_map(const MapMessage& message, std::string_view knots_json) {
   MessageText text("map");
   text.text("name", message.name).text("hash", core::to_hex(message.hash)).json("definition", message.definition);
   if (!knots_json.empty()) text.json("knots", knots_json);
+  if (message.overview) {
+    text.boolean("overview", true).object("knots", [&](MessageText& knots) {
+      knots.pair("origin", message.overview->origin).pair("spacing", message.overview->spacing);
+      knots.integer("columns", message.overview->columns).integer("rows", message.overview->rows);
+      knots.json("heights", rows_of(*message.overview));
+    });
+  }
   return std::move(text).line();
 }
 

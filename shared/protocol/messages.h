@@ -150,6 +150,14 @@ struct Welcome {
   friend bool operator==(const Welcome&, const Welcome&) = default;
 };
 
+/// What besides the rows went into a key's hash (docs/determinism.md).
+struct HashProof {
+  std::uint64_t previous = 0;          ///< the hash of the tick before
+  std::uint64_t inputs = 0;            ///< the hash of the inputs applied since
+  std::uint64_t generator = 0;         ///< the match's random state
+  friend bool operator==(const HashProof&, const HashProof&) = default;
+};
+
 /// A key or a delta, decoded. values: rows * columns numbers in the order of Welcome::fields, already in
 /// units (m, m/s, rad): the quantum is applied by the decoder.
 struct Frame {
@@ -160,6 +168,7 @@ struct Frame {
   std::vector<double> values;
   std::vector<std::uint32_t> gone;     ///< ids that are in the key and no longer there
   std::optional<std::uint64_t> hash;   ///< keys only
+  std::optional<HashProof> proof;      ///< keys of all_columns() in exact format only
   [[nodiscard]] std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
   friend bool operator==(const Frame&, const Frame&) = default;
 };
@@ -224,10 +233,21 @@ struct Rooms {
   friend bool operator==(const Rooms&, const Rooms&) = default;
 };
 
-/// The whole map: `definition` is a map file (maps/README.md) as a JSON object. Where its terrain names a
-/// function, the message also carries `knots` {origin, spacing, columns, rows, heights} for who only draws.
+/// Heights of a map too big to be sent: the whole domain at a few knots, for drawing; nothing may be computed from it.
+struct Overview {
+  core::Vec2 origin, spacing;          ///< of the south-western knot; between knots, > 0 [m]
+  std::size_t columns = 0, rows = 0;   ///< 4 to kMaxOverviewSide
+  std::vector<double> heights;         ///< row by row from the south, each from west to east [m]
+  friend bool operator==(const Overview&, const Overview&) = default;
+};
+inline constexpr std::size_t kMaxOverviewSide = 257;
+
+/// The map: `definition` is a map file (maps/README.md) as a JSON object. Where its terrain names a function, the
+/// message also carries `knots` {origin, spacing, columns, rows, heights} for who only draws. Where it names a file,
+/// the map is too big to be sent, and `knots` are its overview.
 struct MapMessage {
   std::string name; std::uint64_t hash = 0; std::string definition;
+  std::optional<Overview> overview = std::nullopt;
   friend bool operator==(const MapMessage&, const MapMessage&) = default;
 };
 

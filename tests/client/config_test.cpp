@@ -28,7 +28,7 @@ class Environment {
     set("XDG_CONFIG_HOME", folder_.string());
     for (const char* name :
          {"WOODLOUSE_NAME", "WOODLOUSE_FPS", "WOODLOUSE_COLOR", "WOODLOUSE_SERVER", "WOODLOUSE_GLYPHS",
-          "WOODLOUSE_VIEW", "WOODLOUSE_ROOM", "WOODLOUSE_MAP", "WOODLOUSE_WATCH"}) {
+          "WOODLOUSE_VIEW", "WOODLOUSE_ROOM", "WOODLOUSE_MAP", "WOODLOUSE_WATCH", "WOODLOUSE_VERIFY"}) {
       ::unsetenv(name);
     }
   }
@@ -158,4 +158,32 @@ TEST_CASE("attempts to reconnect come later and later, but not never") {
     REQUIRE(retry_delay(attempt) >= std::chrono::seconds(1));
     REQUIRE(retry_delay(attempt) <= std::chrono::seconds(15));
   }
+}
+
+TEST_CASE("replay FILE watches a recording, with the options of the picture before or after it") {
+  Environment environment;
+  const Parsed parsed = parse({"replay", "game.ndjson", "--color", "mono", "--fps", "20"});
+  REQUIRE_FALSE(parsed.exit_code);
+  CHECK(parsed.config.part == Part::kReplay);
+  CHECK(parsed.config.recording == "game.ndjson");
+  CHECK(parsed.config.color == ColorChoice::kMono);
+  CHECK(parsed.config.fps == 20);
+  CHECK(parse({"--view", "oblique", "replay", "game.ndjson"}).config.view == View::kOblique);
+  CHECK(parse({"replay"}).exit_code == 2);
+  const Parsed help = parse({"replay", "--help"});
+  CHECK(help.exit_code == 0);
+  CHECK(help.output.find("woodlouse replay game.ndjson") != std::string::npos);
+}
+
+TEST_CASE("hashes are verified where it is asked for, by flag, environment or file") {
+  {
+    Environment environment;
+    CHECK(parse({}).config.hashes == Hashes::kIgnored);
+    CHECK(parse({"--watch", "--verify"}).config.hashes == Hashes::kVerified);
+    environment.set("WOODLOUSE_VERIFY", "1");
+    CHECK(parse({}).config.hashes == Hashes::kVerified);
+    CHECK(parse({"--no-verify"}).config.hashes == Hashes::kIgnored);
+  }
+  Environment environment(R"({"verify": true})");
+  CHECK(parse({}).config.hashes == Hashes::kVerified);
 }

@@ -4,6 +4,7 @@
 
 #include "client/scene_builder.h"
 #include "client/text_game.h"
+#include "shared/core/stable_hash.h"
 #include "shared/map/map_loader.h"
 
 using namespace woodlouse;
@@ -113,13 +114,13 @@ TEST_CASE("lice have the names of welcome and of events, one that left keeps non
   REQUIRE(room.lice().at(3).name == "lin");
   REQUIRE(room.roster().chat().back().text == "lin joined");
 
-  const auto scores = score_rows(room);
+  const auto scores = score_rows(room.sight());
   REQUIRE(scores.size() == 3);
   REQUIRE(scores[0].name == "gauss");
   REQUIRE(scores[1].name == "lin");
-  REQUIRE(followed(room, 0) == 2);
-  REQUIRE(followed(room, 3) == 3);
-  REQUIRE(next_louse(room, 3) == 1);
+  REQUIRE(followed(room.sight(), 0) == 2);
+  REQUIRE(followed(room.sight(), 3) == 3);
+  REQUIRE(next_louse(room.sight(), 3) == 1);
 }
 
 TEST_CASE("a ping is sent every second and its answer is the round trip") {
@@ -185,4 +186,43 @@ TEST_CASE("the eight winds are named after their direction") {
   REQUIRE(words::compass({-1, 0}) == "west");
   REQUIRE(words::compass({-1, -0.001}) == "west");
   REQUIRE(words::compass({0, -1}) == "south");
+}
+
+TEST_CASE("on a map of which there is an overview alone, the own louse is drawn from frames, and still driven") {
+  const auto definition = R"({"name":"alps","terrain":{"file":"alps.flt"},"physics":{"thrust_max":4},)"
+                          R"("spawns":[{"position":[500,0]}]})";
+  protocol::Welcome message = welcome(*volcano(), 1);
+  message.map_hash = core::stable_hash(definition);
+  message.extent = {-500, -500, 500, 500};
+  const protocol::Overview overview{{-500, -500}, {250, 250}, 5, 5, std::vector<double>(25, 3.0)};
+  RoomView room;
+  REQUIRE(room.on_message(message, kStart));
+  REQUIRE(room.on_message(protocol::MapMessage{"alps", message.map_hash, definition, overview}, kStart));
+  REQUIRE(room.map()->detail == map::Detail::kOverview);
+  REQUIRE(room.pilot() != nullptr);
+  static_cast<void>(room.take_outgoing());
+  std::size_t asked = 0;
+  for (std::uint64_t tick = 600; tick < 720; tick += 3) {
+    const TimePoint now = kStart + std::chrono::microseconds((tick - 600) * 16667);
+    REQUIRE(room.on_message(key(tick, {1, 7.0 + 0.01 * static_cast<double>(tick - 600), -4.0, 0.6, 0.0, 1, 0, 0}), now));
+    room.update(now);
+    for (const auto& out : room.take_outgoing()) {
+      const auto* input = std::get_if<protocol::Input>(&out);
+      if (input == nullptr) continue;
+      ++asked;
+      protocol::Ack ack{input->seq, input->tick.value_or(tick), 9000, false, false, false, protocol::ExactState{}};
+      ack.you->tick = ack.tick + 1;
+      ack.you->id = 1;
+      ack.you->position = {400.0, 400.0};  // nothing is drawn from it
+      ack.you->heading = {1.0, 0.0};
+      REQUIRE(room.on_message(ack, now));
+    }
+  }
+  CHECK(asked == 1);  // for the heading, and never again for a state
+  REQUIRE(room.lice().contains(1));
+  CHECK_FALSE(room.pilot()->sample());
+  CHECK(room.lice().at(1).sample.position.x == Approx(8.11).margin(0.1));
+  room.pilot()->steering().push(kStart + 3s);
+  room.update(kStart + 3s);
+  CHECK(count<protocol::Input>(room.take_outgoing()) == 1);
 }

@@ -127,6 +127,30 @@ TEST_CASE("a respawned louse is at one place or the other, never in flight") {
   for (double tick = 60; tick <= 63; tick += 0.25) REQUIRE(std::abs(view.at(tick).at(1).position.x) >= 15.0);
 }
 
+TEST_CASE("over a seam of a map that wraps a louse is drawn the short way, and always on the map") {
+  const Ways ways({-20, -20, 20, 20}, physics::Edges::kWrap);
+  ViewState view(kTickHz);
+  view.merge(frame(60, {row(1, {19.7, 3}, {10, -20})}));
+  view.merge(frame(63, {row(1, {-19.8, 2}, {10, -20})}));
+  for (double tick = 60; tick <= 66; tick += 0.125) {
+    const core::Vec2 p = view.at(tick, ways).at(1).position;
+    const double gone = (tick - 60) / kTickHz;
+    CHECK(p.x >= -20.0);
+    CHECK(p.x < 20.0);
+    CHECK(ways.way({19.7, 3}, p).x == Approx(10 * gone).margin(1e-9));
+    CHECK(p.y == Approx(3 - 20 * gone).margin(1e-9));
+  }
+}
+
+TEST_CASE("ways on a map that wraps are never longer than half of it, and lead where they say") {
+  const Ways ways({-20, -10, 20, 30}, physics::Edges::kWrap);
+  CHECK(ways.way({19, 0}, {-19, 0}) == core::Vec2{2, 0});
+  CHECK(ways.way({-19, -9}, {19, 29}) == core::Vec2{-2, -2});
+  CHECK(ways.place(core::Vec2{19, 0} + core::Vec2{2, 0}) == core::Vec2{-19, 0});
+  CHECK(Ways().way({19, 0}, {-19, 0}) == core::Vec2{-38, 0});
+  CHECK(Ways().place({25, 0}) == core::Vec2{25, 0});
+}
+
 TEST_CASE("a louse that left is drawn until its last snapshot and not after") {
   ViewState view(kTickHz);
   view.merge(frame(60, {row(1, {0, 0}), row(2, {1, 1})}));

@@ -149,3 +149,16 @@ TEST_CASE("a delta may leave out gone") {
   CHECK(frame.gone.empty());
   CHECK(frame.rows() == 0);
 }
+
+TEST_CASE("a key of all columns in exact format carries what its hash is made of, and no other frame does") {
+  const std::string head = R"({"type":"key","tick":7,"louse":[],"hash":"0000000000000001")";
+  const std::string proof = R"(,"previous":"0000000000000002","inputs":"ffffffffffffffff","generator":"000000000000000a"})";
+  const Frame proved = frame_of(head + proof + "\n", all_columns(), Format::kExact);
+  REQUIRE(proved.proof);
+  CHECK(*proved.proof == HashProof{2, 0xffff'ffff'ffff'ffff, 10});
+  CHECK_FALSE(frame_of(head + proof + "\n", all_columns(), Format::kQuantized).proof);
+  CHECK_FALSE(frame_of(head + "}\n", default_columns(), Format::kExact).proof);
+  CHECK_FALSE(decode_server(head + "}\n", all_columns(), Format::kExact));
+  const std::string delta = R"({"type":"delta","tick":9,"base":7,"louse":[],"gone":[]})" "\n";
+  CHECK_FALSE(frame_of(delta, all_columns(), Format::kExact).proof);
+}

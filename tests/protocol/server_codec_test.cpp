@@ -77,6 +77,8 @@ TEST_CASE("every server message comes back as it was sent") {
       ErrorMessage{std::string(code::kRateLimited), "slow down", false, 250u}, Bye{std::string(code::kShutdown), "", true},
       Rooms{{{"volcano", "volcano", 1, 2, 3}, {"b", "hills", 0, 0, 0}}}, Rooms{},
       MapMessage{"volcano", 0xfedcba9876543210, R"({"name":"volcano","terrain":{"heights":[[1,2.50],[3,4e0]]}})"},
+      MapMessage{"alps", 7, R"({"name":"alps","terrain":{"file":"alps.flt"}})",
+                 Overview{{-50.0, 0.25}, {0.5, 1.0 / 3.0}, 4, 5, std::vector<double>(20, -1.5)}},
       Ping{12}, Pong{-12}};
   for (const ServerMessage& message : messages) {
     INFO(line_of(message));
@@ -114,6 +116,29 @@ TEST_CASE("a map's definition comes back byte for byte, with knots or without, w
   REQUIRE(escaped);
   CHECK(std::get<MapMessage>(*escaped).definition == R"({"a":1.50})");
   CHECK(refused(R"({"type":"map","name":"m","hash":"0000000000000001","definition":[]})") == code::kBadField);
+}
+
+TEST_CASE("an overview that is not what it says is refused with the field's name") {
+  const auto text_of = [](const std::string& knots) {
+    const auto back = decode(R"({"type":"map","name":"m","hash":"0000000000000001","definition":{},"overview":true)" + knots + "}");
+    return back ? std::string() : back.error().text;
+  };
+  const auto knots = [](const std::string& spacing, int columns, int rows, const std::string& row = "[0,1,2,3]") {
+    std::string text = R"(,"knots":{"origin":[0,0],"spacing":)" + spacing + R"(,"columns":)" + std::to_string(columns) +
+                       R"(,"rows":4,"heights":[)" + row;
+    for (int k = 1; k < rows; ++k) text += "," + row;
+    return text + "]}";
+  };
+  CHECK(text_of(knots("[1,1]", 4, 4)).empty());
+  CHECK(text_of("").find("map.knots") == 0);
+  CHECK(text_of(knots("[1,0]", 4, 4)).find("map.knots.spacing") == 0);
+  CHECK(text_of(knots("[1,1]", 3, 4)).find("map.knots.columns") == 0);
+  CHECK(text_of(knots("[1,1]", 258, 4)).find("map.knots.columns") == 0);
+  CHECK(text_of(knots("[1,1]", 4, 3)).find("map.knots.heights") == 0);
+  CHECK(text_of(knots("[1,1]", 4, 5)).find("map.knots.heights[4]") == 0);
+  CHECK(text_of(knots("[1,1]", 5, 4)).find("map.knots.heights[0]") == 0);
+  CHECK(text_of(knots("[1,1]", 4, 4, R"([0,1,2,"3"])")).find("map.knots.heights[0]") == 0);
+  CHECK(text_of(knots("[1,1]", 4, 4, "7")).find("map.knots.heights[0]") == 0);
 }
 
 TEST_CASE("strings that are not UTF-8 or hold control characters still make a line of JSON") {
