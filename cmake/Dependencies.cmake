@@ -1,13 +1,22 @@
 # Every outside library, found once. The Debian packages that hold them stand in packages.txt.
 find_package(Threads REQUIRED)
-find_package(Boost 1.81 REQUIRED)
 find_package(nlohmann_json 3.11 REQUIRED)
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(CLI11 REQUIRED)
-find_package(spdlog REQUIRED)
 find_package(tl-expected REQUIRED)
-find_package(benchmark REQUIRED)
 find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
+# So far headers alone, which serve any machine.
+if(WOODLOUSE_ONLY STREQUAL "scenario")
+  return()
+endif()
+find_path(ZSTD_INCLUDE_DIR zstd.h REQUIRED)
+find_library(ZSTD_LIBRARY zstd REQUIRED)
+add_library(woodlouse_zstd INTERFACE)
+target_include_directories(woodlouse_zstd SYSTEM INTERFACE ${ZSTD_INCLUDE_DIR})
+target_link_libraries(woodlouse_zstd INTERFACE ${ZSTD_LIBRARY})
+find_package(Boost 1.81 REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(spdlog REQUIRED)
+find_package(benchmark REQUIRED)
 
 # Asio with C++20 coroutines, header only. The separate target keeps Boost out of shared/.
 add_library(woodlouse_asio INTERFACE)

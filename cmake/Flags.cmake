@@ -15,7 +15,7 @@ target_compile_options(woodlouse_flags INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 
 set(CMAKE_CXX_FLAGS_RELEASE "-O3")
-set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g")
+set(CMAKE_CXX_FLAGS_DEBUG "-O1 -g")
 
 set(WOODLOUSE_SANITIZE "" CACHE STRING "Sanitizers, as in -fsanitize= (for example address,undefined)")
 if(WOODLOUSE_SANITIZE)
@@ -23,3 +23,7 @@ if(WOODLOUSE_SANITIZE)
                          -fno-sanitize-recover=all)
   target_link_options(woodlouse_flags INTERFACE -fsanitize=${WOODLOUSE_SANITIZE})
 endif()
+
+# So that cmake/proof can show that a flag which breaks the promise is caught; a list, after all others.
+set(WOODLOUSE_LAST_FLAGS "" CACHE STRING "Compiler options after all others; only to break the build on purpose")
+target_compile_options(woodlouse_flags INTERFACE ${WOODLOUSE_LAST_FLAGS})

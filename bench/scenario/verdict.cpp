@@ -1,0 +1,98 @@
+#include "bench/scenario/verdict.h"
+
+#include <cassert>
+
+#include "shared/core/joined.h"
+#include "shared/core/stable_hash.h"
+
+namespace woodlouse::scenario {
+namespace {
+
+std::string at_tick(const Scenario& scenario, std::uint64_t tick) {
+  return core::joined({"scenario ", scenario.name, ", tick ", std::to_string(tick), ": "});
+}
+
+/// The line of a tick's hash: --update writes one a line; a list on one line has them all there.
+std::string golden_place(const Scenario& scenario, std::uint64_t tick) {
+  const std::string key = core::joined({"\"", std::to_string(tick), "\""});
+  const Span place = scenario.goldens_place;
+  const std::string_view before =
+      std::string_view(scenario.text).substr(place.begin, place.size).substr(0, scenario.text.find(key, place.begin) - place.begin);
+  std::size_t line = scenario.goldens_line;
+  for (const char c : before) line += c == '\n' ? 1 : 0;
+  return core::joined({scenario.file.string(), ":", std::to_string(line), ": hashes.", std::to_string(tick)});
+}
+
+}  // namespace
+
+std::optional<core::Error> disagreement(std::span<const std::unique_ptr<Play>> plays) {
+  const Play& first = *plays.front();
+  const Scenario& scenario = first.scenario();
+  for (const auto& other : plays) {
+    const Play& play = *other;
+    for (std::size_t k = 0; k < play.hashes().size(); ++k) {
+      if (play.hashes()[k] == first.hashes()[k]) continue;
+      return core::Error{
+          scenario.file.string(),
+          core::joined({at_tick(scenario, scenario.goldens[k].tick), "hash ", core::to_hex(first.hashes()[k]), " by ",
+                        physics::to_text(first.instructions()), ", ", core::to_hex(play.hashes()[k]), " by ",
+                        physics::to_text(play.instructions())}),
+          "the same match gave two results in one program: this is a fault, whatever the file says"};
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<core::Error> differences(const Scenario& scenario, const Play& played) {
+  if (scenario.behavior != match::kBehavior) {
+    return {core::Error{core::joined({scenario.file.string(), ": behavior"}),
+                        core::joined({std::to_string(scenario.behavior), " made these hashes, this program is of behavior ",
+                                      std::to_string(match::kBehavior)}),
+                        "if that is wanted: woodlouse-scenario run --update"}};
+  }
+  for (std::size_t k = 0; k < scenario.goldens.size(); ++k) {
+    const GoldenHash& golden = scenario.goldens[k];
+    const std::uint64_t hash = played.hashes()[k];
+    if (golden.hash == hash) continue;
+    const std::string place = golden_place(scenario, golden.tick);
+    if (!golden.hash) {
+      return {core::Error{place, core::joined({at_tick(scenario, golden.tick), "no hash is expected yet"}),
+                          "woodlouse-scenario run --update fills it in"}};
+    }
+    return {core::Error{place,
+                        core::joined({at_tick(scenario, golden.tick), "hash ", core::to_hex(*golden.hash), " expected, ",
+                                      core::to_hex(hash), " played by ", physics::to_text(played.instructions())}),
+                        {}}};
+  }
+  return {};
+}
+
+std::string table_of(const Play& played) {
+  std::string table;
+  for (std::size_t k = 0; k < played.hashes().size(); ++k) {
+    table += core::joined({played.scenario().name, " ", std::to_string(played.scenario().goldens[k].tick), " ",
+                           core::to_hex(played.hashes()[k]), "\n"});
+  }
+  return table;
+}
+
+std::string updated_text(const Scenario& scenario, const std::vector<std::uint64_t>& hashes) {
+  std::string goldens = "{";
+  for (std::size_t k = 0; k < hashes.size(); ++k) {
+    goldens += core::joined({k == 0 ? "\n" : ",\n", "    \"", std::to_string(scenario.goldens[k].tick), "\": \"",
+                             core::to_hex(hashes[k]), "\""});
+  }
+  goldens += "\n  }";
+  std::string text = scenario.text;
+  const auto put_behavior = [&] {
+    text.replace(scenario.behavior_place.begin, scenario.behavior_place.size, std::to_string(match::kBehavior));
+  };
+  const auto put_goldens = [&] { text.replace(scenario.goldens_place.begin, scenario.goldens_place.size, goldens); };
+  // The later place first: the other one then still is where it was.
+  const bool goldens_last = scenario.goldens_place.begin > scenario.behavior_place.begin;
+  goldens_last ? put_goldens() : put_behavior();
+  goldens_last ? put_behavior() : put_goldens();
+  return text;
+}
+
+}  // namespace woodlouse::scenario
