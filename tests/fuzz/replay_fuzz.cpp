@@ -1,0 +1,212 @@
+// Recordings, plain or compressed: each line reads back the same once written anew or is refused with its place; the
+// archive opens, plays to its end and jumps, or says why not; and a keyframe that was altered, but whose hash was made to
+// fit, is refused or can be gone on from. The re-run is as long as the file, which the fuzzer bounds.
+//
+// Input: the file.
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "shared/core/error.h"
+#include "shared/core/stable_hash.h"
+#include "shared/physics/state_hash.h"
+#include "shared/replay/line_text.h"
+#include "shared/replay/recorded_map.h"
+#include "shared/replay/replay_archive.h"
+#include "shared/replay/replay_file.h"
+#include "shared/replay/replay_source.h"
+#include "shared/replay/rerun.h"
+#include "tests/fuzz/map_size.h"
+#include "tests/fuzz/property.h"
+
+using namespace woodlouse;
+using namespace woodlouse::replay;
+using fuzz::demand;
+using fuzz::demand_readable;
+
+namespace {
+
+const std::string kSource = "r.ndjson";
+
+void check(const core::Error& error) {
+  demand(error.where.starts_with(kSource), "an error names its place", error.text());
+  demand_readable(error.text());
+}
+
+// ---- lines -----------------------------------------------------------------------------------------------
+
+std::string text_of(const Header& header) {
+  std::string out;
+  append_header(out, header);
+  return out;
+}
+
+/// Of an index nothing: the reader keeps its tick alone.
+struct LineText {
+  std::string operator()(const StepLine& line) const {
+    PlayerLabels labels;
+    for (std::size_t k = 0; k < line.labels.size(); ++k) {
+      if (line.labels[k]) labels[line.step.roster[k].player] = *line.labels[k];
+    }
+    Margins margins;
+    for (std::size_t k = 0; k < line.margins_ms.size(); ++k) {
+      const match::AppliedInput& input = line.step.inputs[k];
+      if (line.margins_ms[k]) margins[{input.player, input.seq}] = *line.margins_ms[k];
+    }
+    std::string out;
+    append_step(out, line.step, labels, margins);
+    return out;
+  }
+  std::string operator()(const Keyframe& line) const {
+    std::string out;
+    append_keyframe(out, line.state, line.labels);
+    return out;
+  }
+  std::string operator()(const ChatLine& line) const {
+    std::string out;
+    append_chat(out, line);
+    return out;
+  }
+  std::string operator()(const IndexLine&) const { return {}; }
+  std::string operator()(const End& line) const {
+    std::string out;
+    append_end(out, line);
+    return out;
+  }
+};
+
+std::string text_of(const Line& line) { return std::visit(LineText{}, line); }
+
+void check_round_trip(const Header& header) {
+  const std::string text = text_of(header);
+  std::istringstream in(text);
+  const auto again = ReplayReader(in, "written").read_header();
+  demand(again.has_value(), "a header that is written can be read", text);
+  demand(text_of(*again) == text, "a header reads back the same", text);
+}
+
+void check_round_trip(const Line& line) {
+  const std::string text = text_of(line);
+  if (text.empty()) return;
+  demand(text.find('\n') == text.size() - 1, "a line is one line", text);
+  std::istringstream in(text);
+  const auto again = ReplayReader(in, "written").next();
+  demand(again && *again, "what is written can be read", again ? text : again.error().text());
+  demand((*again)->index() == line.index(), "a line reads back as its kind", text);
+  demand(text_of(**again) == text, "a line reads back the same", text);
+  if (const auto* step = std::get_if<StepLine>(&line)) {
+    const auto& other = std::get<StepLine>(**again).step;
+    demand(step->step.roster == other.roster && step->step.inputs == other.inputs, "a step reads back the same", text);
+  }
+}
+
+// ---- keyframes -------------------------------------------------------------------------------------------
+
+void check_finite(const match::Match& match) {
+  for (const physics::Louse& louse : match.world().lice()) {
+    for (const double value : {louse.position.x, louse.position.y, louse.velocity.x, louse.velocity.y, louse.heading.x,
+                               louse.heading.y, louse.flight_z, louse.flight_vz, louse.distance}) {
+      demand(std::isfinite(value), "a louse's state stays finite");
+    }
+  }
+}
+
+/// Whoever alters a keyframe can make its hash fit: what passes then must be a state that goes on.
+void check_keyframe(const Header& header, const std::shared_ptr<const map::Map>& map, Keyframe keyframe) {
+  const match::MatchSettings settings{header.tick_hz, header.seed};
+  match::MatchState& state = keyframe.state;
+  if (state.tick != 0) {
+    core::StableHasher hasher;
+    state.hash = physics::state_hash(hasher, {state.previous, state.inputs, state.tick, state.generator}, state.lice);
+  }
+  const std::vector<match::PlayerSeq> players = state.players;
+  const auto rerun = Rerun::from(map, settings, std::move(keyframe), kSource + ":2");
+  if (!rerun) return check(rerun.error());
+  constexpr int kSteps = 3;
+  for (int k = 0; k < kSteps; ++k) {
+    StepLine line;
+    line.step.tick = (*rerun)->match().tick();
+    for (const match::PlayerSeq& player : players) {
+      match::AppliedInput input;
+      input.tick = line.step.tick;
+      input.player = player.player;
+      input.kind = physics::ThrustKind::kMapVector;
+      input.thrust = {0.5, -0.5};
+      input.ticks = 2;
+      line.step.inputs.push_back(input);
+    }
+    const auto went = (*rerun)->step(line, kSource + ":3");
+    if (!went) return check(went.error());
+    check_finite((*rerun)->match());
+  }
+}
+
+// ---- the whole file --------------------------------------------------------------------------------------
+
+/// False where a re-run would take another file, or a map that takes long to build.
+bool check_lines(const ReplaySource& source) {
+  const auto stream = source.open();
+  if (!stream) {
+    check(stream.error());
+    return false;
+  }
+  ReplayReader reader(**stream, source.name);
+  const auto header = reader.read_header();
+  if (!header) {
+    check(header.error());
+    return false;
+  }
+  check_round_trip(*header);
+  const bool is_quick = !header->map_definition.empty() && fuzz::is_quick_map(header->map_definition);
+  std::shared_ptr<const map::Map> map;
+  if (is_quick) map = load_recorded_map(*header, source.name, {}).value_or(nullptr);
+  for (;;) {
+    const auto line = reader.next();
+    if (!line) {
+      check(line.error());
+      break;
+    }
+    if (!*line) break;
+    check_round_trip(**line);
+    const auto* keyframe = std::get_if<Keyframe>(&**line);
+    if (keyframe != nullptr && map != nullptr) check_keyframe(*header, map, *keyframe);
+  }
+  return is_quick;
+}
+
+void check_playback(Playback& playback, const ReplayArchive& archive) {
+  for (;;) {
+    const auto step = playback.advance();
+    if (!step) return check(step.error());
+    if (!*step) break;
+    demand(playback.tick() <= archive.last_tick(), "a recording ends at its last tick");
+  }
+  for (const std::uint64_t tick : {archive.last_tick(), archive.first_tick() + (archive.last_tick() - archive.first_tick()) / 2}) {
+    const auto sought = playback.seek(tick);
+    if (!sought) return check(sought.error());
+    demand(playback.tick() == tick, "a jump ends where it was to");
+  }
+}
+
+void check_archive(const ReplaySource& source) {
+  const auto archive = ReplayArchive::open(source);
+  if (!archive) return check(archive.error());
+  demand((*archive)->first_tick() <= (*archive)->last_tick(), "a recording does not end before it begins");
+  const auto playback = (*archive)->play((*archive)->first_tick());
+  if (!playback) return check(playback.error());
+  check_playback(**playback, **archive);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const ReplaySource source = ReplaySource::of_bytes(std::string(reinterpret_cast<const char*>(data), size), kSource);
+  if (check_lines(source)) check_archive(source);
+  return 0;
+}

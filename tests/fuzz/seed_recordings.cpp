@@ -1,0 +1,98 @@
+// Writes short recordings of real matches for the replay target to start from: their hashes are those of the build at hand,
+// so that they re-run to their end.
+//
+//     woodlouse_seed_recordings FOLDER
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "shared/core/random.h"
+#include "shared/map/map_loader.h"
+#include "shared/replay/replay_writer.h"
+
+namespace {
+
+using namespace woodlouse;
+
+struct Seed {
+  std::string_view name;
+  std::string_view map;
+  std::uint64_t steps;
+};
+
+constexpr Seed kSeeds[] = {
+    {"function", R"({"name":"f","terrain":{"function":"wavy_pot","grid":2,"scale":10},"surface":"function"})", 40},
+    {"spline", R"({"name":"s","terrain":{"spacing":2,"heights":[[0,1,0,1],[1,0,0,1],[0,0,1,0],[1,0,0,0]]}})", 25},
+    {"flight",
+     R"({"name":"j","terrain":{"function":"hills","scale":20},"surface":"function","physics":{"gravity":2,"contact":"unilateral","method":"cheap"},"spawns":[{"position":[0,0],"speed":30}]})",
+     12},
+};
+
+/// Lice come, steer, ask for later ticks out of order, respawn and leave.
+std::string recording(const Seed& seed, replay::Encoding encoding) {
+  const auto map = map::parse_map(seed.map, seed.name, {});
+  if (!map) {
+    std::fprintf(stderr, "%s\n", map.error().text().c_str());
+    return {};
+  }
+  match::Match match(*map, {60, 7});
+  replay::ReplayWriter writer(encoding);
+  core::Random random(1);
+  std::string out;
+  writer.append_header(out, replay::make_header(match, "fuzz", "m.json"));
+  writer.append_keyframe(out, match.state());
+  std::uint32_t seq = 0;
+  for (std::uint64_t step = 0; step < seed.steps; ++step) {
+    if (step % 12 == 0) writer.note_player(match.join(), "louse", protocol::Role::kBot);
+    if (step == 20) match.respawn(1);
+    if (step == 30) match.leave(2);
+    if (step % 3 == 0) {
+      match::Input input;
+      input.player = 1;
+      input.seq = ++seq;
+      input.thrust = step % 2 == 0 ? physics::Thrust{physics::ThrustKind::kMapVector, {0.5, -0.25}}
+                                   : physics::Thrust{physics::ThrustKind::kAlongHeading, {0.75, 0.0}};
+      input.wanted_tick = match.tick() + random.next() % 8;
+      if (step % 4 == 0) input.ticks = 5;
+      match.file(input);
+      writer.note_margin(1, input.seq, 1500);
+    }
+    if (step == 5) writer.append_chat(out, step, 1, "louse", "hello");
+    const match::StepRecord& record = match.advance();
+    writer.append_step(out, record);
+    constexpr std::uint64_t kKeyframeTicks = 10;  // more of them than a server writes
+    if (match.tick() % kKeyframeTicks == 0) writer.append_keyframe(out, match.state());
+  }
+  writer.append_end(out, "done");
+  writer.flush(out);
+  return out;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: woodlouse_seed_recordings FOLDER\n");
+    return 2;
+  }
+  const std::filesystem::path folder(argv[1]);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  for (const Seed& seed : kSeeds) {
+    for (const std::string_view ending : {".ndjson", ".ndjson.zst"}) {
+      const std::filesystem::path file = folder / (std::string(seed.name) + std::string(ending));
+      const std::string bytes = recording(seed, replay::encoding_of(file));
+      std::ofstream out(file, std::ios::binary);
+      out << bytes;
+      if (bytes.empty() || !out.flush()) {
+        std::fprintf(stderr, "%s: can't be written\n", file.c_str());
+        return 1;
+      }
+    }
+  }
+  return 0;
+}
