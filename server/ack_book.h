@@ -20,6 +20,7 @@ struct PendingAck {
   Time arrived{};
   bool late = false;
   bool clamped = false;
+  std::uint64_t ticks_late = 0;  ///< how many steps after the one it asked for takes it
 };
 
 class AckBook {

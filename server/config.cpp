@@ -14,40 +14,67 @@ namespace {
 
 constexpr std::uint32_t kMaxTickHz = 1000;
 constexpr std::uint32_t kMaxBots = 1000;
+constexpr unsigned kMaxJobs = 256;
 
-/// The options as typed, before they are checked against each other.
-struct Typed {
+constexpr const char* kExamples = R"(Examples:
+  woodlouse-server --map maps/volcano.json --bots 3 --record game.ndjson --shadow
+  woodlouse-server verify game.ndjson
+  woodlouse-server fork game.ndjson --tick 1200 --listen :7778)";
+
+constexpr const char* kForkExamples = R"(Its lice go on as they were; who joins under a recorded name takes that louse
+over. Map, tick rate and seed are the recording's.
+
+Examples:
+  woodlouse-server fork game.ndjson --tick 1200 --listen :7778
+  woodlouse-server fork game.ndjson.zst --tick 1200 --bots 4 --record other-end.ndjson.zst)";
+
+/// The options of a server as typed, before they are checked against each other.
+struct TypedServe {
   ServeConfig serve;
-  CheckConfig check;
-  VerifyConfig verify;
   std::string listen = "127.0.0.1:7777";
   std::string config_file;
 };
 
-void add_serve_options(CLI::App& app, Typed& typed) {
-  static const std::map<std::string, LogFormat> kLogFormats = {{"text", LogFormat::kText},
-                                                               {"json", LogFormat::kJson}};
-  ServeConfig& serve = typed.serve;
+struct Typed {
+  TypedServe serve;
+  TypedServe fork;
+  ForkPoint fork_point;
+  CheckConfig check;
+  VerifyConfig verify;
+  InspectConfig inspect;
+};
+
+/// Which games; a fork takes all of it from its recording.
+void add_game_options(CLI::App& app, ServeConfig& serve) {
   app.add_option("--map", serve.maps, "Map file; several make several rooms")->envname("WOODLOUSE_MAP");
-  app.add_option("--listen", typed.listen,
-                 "HOST:PORT; port 0 picks a free one, printed as `listening HOST:PORT`")
-      ->envname("WOODLOUSE_LISTEN")
-      ->capture_default_str();
   app.add_option("--tick-hz", serve.tick_hz, "Steps a second")
       ->envname("WOODLOUSE_TICK_HZ")
       ->check(CLI::Range(1u, kMaxTickHz))
       ->capture_default_str();
-  app.add_option("--state-hz", serve.state_hz, "Frames a second; divides --tick-hz")
+  app.add_option("--seed", serve.seed, "Seed of spawns and bots; another one each time when left out")
+      ->envname("WOODLOUSE_SEED");
+}
+
+void add_serve_options(CLI::App& app, TypedServe& typed) {
+  static const std::map<std::string, LogFormat> kLogFormats = {{"text", LogFormat::kText},
+                                                               {"json", LogFormat::kJson}};
+  ServeConfig& serve = typed.serve;
+  app.add_option("--listen", typed.listen,
+                 "HOST:PORT; port 0 picks a free one, printed as `listening HOST:PORT`")
+      ->envname("WOODLOUSE_LISTEN")
+      ->capture_default_str();
+  app.add_option("--state-hz", serve.state_hz, "Frames a second; divides the tick rate")
       ->envname("WOODLOUSE_STATE_HZ")
       ->check(CLI::Range(1u, kMaxTickHz))
       ->capture_default_str();
   app.add_option("--record", serve.record, "Write a recording; with several rooms one file each, by room")
       ->envname("WOODLOUSE_RECORD");
+  app.add_flag("--shadow", serve.shadow,
+               "Re-run every tick beside the game and compare; a difference is logged and kept")
+      ->envname("WOODLOUSE_SHADOW");
   app.add_option("--ticks", serve.ticks, "Stop after so many ticks")
       ->envname("WOODLOUSE_TICKS")
       ->check(CLI::PositiveNumber);
-  app.add_option("--seed", serve.seed, "Seed of spawns and bots; another one each time when left out")
-      ->envname("WOODLOUSE_SEED");
   app.add_option("--bots", serve.bots, "The house's own bots, in every room")
       ->envname("WOODLOUSE_BOTS")
       ->check(CLI::Range(0u, kMaxBots))
@@ -58,6 +85,26 @@ void add_serve_options(CLI::App& app, Typed& typed) {
       ->default_str("text");
   app.add_option("--config", typed.config_file, "JSON file with any of these options")
       ->envname("WOODLOUSE_CONFIG");
+}
+
+CLI::App* add_fork(CLI::App& app, Typed& typed) {
+  CLI::App* fork = app.add_subcommand("fork", "Serve a live room that goes on from a tick of a recording");
+  fork->add_option("file", typed.fork_point.recording, "A recording")->required();
+  fork->add_option("--tick", typed.fork_point.tick, "Where to go on")->required();
+  add_serve_options(*fork, typed.fork);
+  fork->footer(kForkExamples);
+  return fork;
+}
+
+CLI::App* add_inspect(CLI::App& app, replay::InspectRequest& request) {
+  CLI::App* inspect = app.add_subcommand("inspect", "Say what a recording holds, or the exact state at a tick");
+  inspect->add_option("file", request.file, "A recording")->required();
+  CLI::Option* tick = inspect->add_option("--tick", request.tick, "The state at this tick, as JSON");
+  inspect->add_option("--at", request.seconds, "The same, by seconds since the game began")
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(tick);
+  inspect->add_flag("--summary", request.summary, "Players, inputs, events, and who was late; also without an option");
+  return inspect;
 }
 
 /// Options that neither a flag nor a variable gave take the file's value.
@@ -80,14 +127,16 @@ core::Expected<bool> apply_config_file(CLI::App& app, const std::string& file) {
   return true;
 }
 
-core::Expected<Config> checked(Typed typed) {
+core::Expected<Config> checked(CLI::App& app, TypedServe& typed) {
+  if (!typed.config_file.empty())
+    if (const auto applied = apply_config_file(app, typed.config_file); !applied)
+      return tl::unexpected(applied.error());
   ServeConfig& serve = typed.serve;
-  if (serve.maps.empty())
-    return core::fail("--map", "no map given", "try:  woodlouse-server --map maps/volcano.json");
-  if (serve.tick_hz % serve.state_hz != 0)
-    return core::fail("--state-hz " + std::to_string(serve.state_hz),
-                      "does not divide --tick-hz " + std::to_string(serve.tick_hz),
-                      "frames fall on ticks: for 60 take 60, 30, 20, 15, 12 or 10");
+  if (!serve.fork) {
+    if (serve.maps.empty())
+      return core::fail("--map", "no map given", "try:  woodlouse-server --map maps/volcano.json");
+    if (const auto fits = check_state_hz(serve.state_hz, serve.tick_hz); !fits) return tl::unexpected(fits.error());
+  }
   auto listen = parse_listen_address(typed.listen);
   if (!listen) return tl::unexpected(listen.error());
   serve.listen = std::move(*listen);
@@ -96,32 +145,47 @@ core::Expected<Config> checked(Typed typed) {
 
 }  // namespace
 
+core::Expected<void> check_state_hz(std::uint32_t state_hz, std::uint32_t tick_hz) {
+  if (tick_hz % state_hz == 0) return {};
+  return core::fail("--state-hz " + std::to_string(state_hz), "does not divide the tick rate " + std::to_string(tick_hz),
+                    "frames fall on ticks: for 60 take 60, 30, 20, 15, 12 or 10");
+}
+
 core::Expected<Config> parse_config(int argc, const char* const* argv) {
   Typed typed;
   CLI::App app("Woodlouse: a game server for wood-lice on a spline hill.", "woodlouse-server");
   app.set_version_flag("--version", std::string(kServerName));
-  add_serve_options(app, typed);
+  app.footer(kExamples);
+  add_game_options(app, typed.serve.serve);
+  add_serve_options(app, typed.serve);
   CLI::App* check = app.add_subcommand("check", "Say what is wrong with map files");
   check->add_option("map", typed.check.maps, "Map files")->required();
   CLI::App* verify = app.add_subcommand("verify", "Re-run a recording and compare");
-  verify->add_option("file", typed.verify.file, "A recording")->required();
+  verify->add_option("file", typed.verify.files, "Recordings")->required();
+  verify->add_option("--jobs", typed.verify.jobs, "Threads; each takes a stretch between keyframes")
+      ->check(CLI::Range(1u, kMaxJobs))
+      ->capture_default_str();
+  CLI::App* inspect = add_inspect(app, typed.inspect.request);
+  CLI::App* fork = add_fork(app, typed);
   app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
     return Config{PrintConfig{std::string(kServerName) + "\n"}};
   } catch (const CLI::CallForHelp&) {
-    CLI::App* shown = check->parsed() ? check : verify->parsed() ? verify : &app;
+    CLI::App* shown = &app;
+    for (CLI::App* command : {check, verify, inspect, fork})
+      if (command->parsed()) shown = command;
     return Config{PrintConfig{shown->help()}};
   } catch (const CLI::Error& error) {
     return core::fail({}, error.what(), "see woodlouse-server --help");
   }
   if (check->parsed()) return Config{typed.check};
   if (verify->parsed()) return Config{typed.verify};
-  if (!typed.config_file.empty())
-    if (const auto applied = apply_config_file(app, typed.config_file); !applied)
-      return tl::unexpected(applied.error());
-  return checked(std::move(typed));
+  if (inspect->parsed()) return Config{typed.inspect};
+  if (!fork->parsed()) return checked(app, typed.serve);
+  typed.fork.serve.fork = typed.fork_point;
+  return checked(*fork, typed.fork);
 }
 
 }  // namespace woodlouse::server

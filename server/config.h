@@ -9,18 +9,22 @@
 #include <variant>
 #include <vector>
 
+#include "server/fork.h"
 #include "server/listen_address.h"
 #include "server/log.h"
 #include "shared/core/error.h"
+#include "shared/replay/inspect.h"
 
 namespace woodlouse::server {
 
 struct ServeConfig {
-  std::vector<std::filesystem::path> maps;  ///< a room each; at least one
+  std::vector<std::filesystem::path> maps;  ///< a room each; at least one, but for a fork
+  std::optional<ForkPoint> fork;            ///< one room, whose map, tick rate and seed are the recording's
   ListenAddress listen;
   std::uint32_t tick_hz = 60;   ///< 1..1000
   std::uint32_t state_hz = 20;  ///< divides tick_hz
   std::optional<std::filesystem::path> record;
+  bool shadow = false;                 ///< re-run and compare each tick beside the game
   std::optional<std::uint64_t> ticks;  ///< stop after so many
   std::optional<std::uint64_t> seed;   ///< empty: from the machine's entropy
   std::uint32_t bots = 0;              ///< of the house, in every room
@@ -31,14 +35,21 @@ struct CheckConfig {
   std::vector<std::filesystem::path> maps;
 };
 struct VerifyConfig {
-  std::filesystem::path file;
+  std::vector<std::filesystem::path> files;
+  unsigned jobs = 1;  ///< threads, 1..256
+};
+struct InspectConfig {
+  replay::InspectRequest request;
 };
 /// Help or the version was asked for.
 struct PrintConfig {
   std::string text;
 };
 
-using Config = std::variant<ServeConfig, CheckConfig, VerifyConfig, PrintConfig>;
+using Config = std::variant<ServeConfig, CheckConfig, VerifyConfig, InspectConfig, PrintConfig>;
+
+/// Frames fall on ticks. Of a fork it is known once its recording is read.
+core::Expected<void> check_state_hz(std::uint32_t state_hz, std::uint32_t tick_hz);
 
 /// Errors: where = the option, or FILE: key of the config file.
 core::Expected<Config> parse_config(int argc, const char* const* argv);

@@ -40,7 +40,13 @@ int run(const CheckConfig& config) {
   return exit_code;
 }
 
-int run(const VerifyConfig& config) { return woodlouse::replay::verify_command(config.file, std::cout); }
+int run(const VerifyConfig& config) {
+  return woodlouse::replay::verify_command(config.files, config.jobs, std::cout);
+}
+
+int run(const InspectConfig& config) {
+  return woodlouse::replay::inspect_command(config.request, std::cout, std::cerr);
+}
 
 int run(const ServeConfig& config) {
   auto server = Server::create(config, make_logger(config.log_format));

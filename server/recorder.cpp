@@ -9,7 +9,7 @@
 namespace woodlouse::server {
 namespace {
 
-constexpr std::uint32_t kFlushEvery = 60;  // jobs; what a killed server may lose of its recording
+constexpr std::size_t kWriteAt = 256u << 10;  // bytes that are not kept back for the next flush
 
 }  // namespace
 
@@ -26,42 +26,51 @@ core::Expected<std::unique_ptr<Recorder>> Recorder::open(const std::filesystem::
 
 Recorder::Recorder(std::filesystem::path file, std::ofstream out, boost::asio::thread_pool& disk,
                    std::shared_ptr<spdlog::logger> log)
-    : file_(std::move(file)), disk_(disk), log_(std::move(log)), out_(std::move(out)) {}
+    : file_(std::move(file)),
+      disk_(disk),
+      log_(std::move(log)),
+      out_(std::move(out)),
+      writer_(replay::encoding_of(file_)),
+      flush_timer_(disk.get_executor()) {}
 
-void Recorder::begin(const replay::Header& header) {
-  keyframe_ticks_ = replay::kKeyframeSeconds * header.tick_hz;
-  writer_ = std::make_unique<replay::ReplayWriter>(keyframe_ticks_);
-  enqueue([this, header](std::string& out) { writer_->append_header(out, header); });
+void Recorder::begin(const replay::Header& header, match::MatchState first) {
+  keyframe_ticks_ = replay::keyframe_ticks(header.tick_hz);
+  enqueue([this, header, first = std::move(first)](std::string& out) {
+    writer_.append_header(out, header);
+    writer_.append_keyframe(out, first);
+  });
 }
 
 void Recorder::player(match::PlayerId player, const std::string& name, protocol::Role role) {
-  enqueue([this, player, name, role](std::string&) { writer_->note_player(player, name, role); });
+  enqueue([this, player, name, role](std::string&) { writer_.note_player(player, name, role); });
 }
 
 void Recorder::chat(std::uint64_t tick, match::PlayerId player, const std::string& name,
                     const std::string& text) {
   enqueue([this, tick, player, name, text](std::string& out) {
-    writer_->append_chat(out, tick, player, name, text);
+    writer_.append_chat(out, tick, player, name, text);
   });
 }
 
 void Recorder::step(const match::StepRecord& record, std::vector<InputMargin> margins,
-                    std::span<const physics::Louse> lice) {
-  std::vector<physics::Louse> keyframe;
-  if ((record.tick + 1) % keyframe_ticks_ == 0) keyframe.assign(lice.begin(), lice.end());
+                    const match::Match& match) {
+  if (failed_) return;
+  std::shared_ptr<const match::MatchState> keyframe;
+  if (match.tick() % keyframe_ticks_ == 0) keyframe = std::make_shared<const match::MatchState>(match.state());
   enqueue([this, record, margins = std::move(margins), keyframe = std::move(keyframe)](std::string& out) {
     for (const InputMargin& margin : margins)
-      writer_->note_margin(margin.player, margin.seq, margin.microseconds);
-    writer_->append_step(out, record, keyframe);
+      writer_.note_margin(margin.player, margin.seq, margin.microseconds);
+    writer_.append_step(out, record);
+    if (keyframe) writer_.append_keyframe(out, *keyframe);
   });
 }
 
-void Recorder::finish(std::uint64_t tick, const std::string& reason, std::function<void()> done) {
-  boost::asio::post(disk_, [this, tick, reason, done = std::move(done)] {
+void Recorder::finish(const std::string& reason, std::function<void()> done) {
+  boost::asio::post(disk_, [this, reason, done = std::move(done)] {
+    flush_timer_.cancel();
     if (!failed_) {
-      text_.clear();
-      writer_->append_end(text_, tick, reason);
-      write(text_);
+      writer_.append_end(bytes_, reason);
+      write_out();
       errno = 0;
       out_.close();
       if (!failed_ && !out_) give_up(std::strerror(errno));
@@ -75,21 +84,29 @@ void Recorder::enqueue(Job job) {
   if (queued_.fetch_add(1) >= kMaxQueued) return give_up("the disk is too slow");
   boost::asio::post(disk_, [this, job = std::move(job)] {
     if (!failed_) {
-      text_.clear();
-      job(text_);
-      write(text_);
+      job(bytes_);
+      if (bytes_.size() >= kWriteAt) write_out();
+      if (!std::exchange(will_flush_, true)) await_flush();
     }
     queued_.fetch_sub(1);
   });
 }
 
-void Recorder::write(const std::string& text) {
+void Recorder::await_flush() {
+  flush_timer_.expires_after(kFlushEvery);
+  flush_timer_.async_wait([this](const boost::system::error_code& error) {
+    will_flush_ = false;
+    if (error || failed_) return;
+    writer_.flush(bytes_);
+    write_out();
+  });
+}
+
+void Recorder::write_out() {
   errno = 0;
-  out_ << text;
-  if (++unflushed_ >= kFlushEvery) {
-    out_.flush();
-    unflushed_ = 0;
-  }
+  out_.write(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
+  out_.flush();
+  bytes_.clear();
   if (!out_) give_up(std::strerror(errno));
 }
 
@@ -97,6 +114,7 @@ void Recorder::give_up(const std::string& why) {
   if (failed_.exchange(true)) return;
   log_->error("RECORDING ENDED: cannot write {}: {}; the game goes on, what follows is not recorded",
               file_.string(), why);
+  if (on_failure_) on_failure_(why);
 }
 
 }  // namespace woodlouse::server

@@ -21,9 +21,12 @@
 #include "server/ack_book.h"
 #include "server/broadcaster.h"
 #include "server/frame_channels.h"
+#include "server/ground_ahead.h"
 #include "server/metrics.h"
+#include "server/opening.h"
 #include "server/recorder.h"
 #include "server/roster.h"
+#include "server/shadow.h"
 #include "server/subscriber.h"
 #include "server/tick_clock.h"
 #include "shared/match/match.h"
@@ -33,21 +36,24 @@ namespace woodlouse::server {
 
 struct RoomSettings {
   std::string name;
-  std::string map_file;  ///< as the server was given it; for the recording
-  std::uint32_t tick_hz = 60;
-  std::uint32_t state_hz = 20;  ///< divides tick_hz
-  std::uint64_t seed = 0;
+  std::uint32_t state_hz = 20;              ///< divides the match's tick_hz
   std::uint32_t bots = 0;                   ///< of the house
   std::optional<std::uint64_t> tick_limit;  ///< ends after so many
   std::uint32_t per_room = 1024;            ///< members at most, the house's bots apart
 };
 
+/// Who works beside a room's game; each may be null.
+struct RoomStaff {
+  std::unique_ptr<Recorder> recorder;
+  std::unique_ptr<Shadow> shadow;
+  std::unique_ptr<GroundAhead> ahead;  ///< null where the map is in memory as a whole
+};
+
 class Room {
  public:
-  /// ticks: where the room's strand lives; io: where its broadcaster lives. recorder may be null.
-  Room(boost::asio::io_context& ticks, boost::asio::io_context& io, RoomSettings settings,
-       std::shared_ptr<const map::Map> map, std::unique_ptr<Recorder> recorder,
-       std::shared_ptr<spdlog::logger> log);
+  /// ticks: where the room's strand lives; io: where its broadcaster lives.
+  Room(boost::asio::io_context& ticks, boost::asio::io_context& io, RoomSettings settings, Opening opening,
+       RoomStaff staff, std::shared_ptr<spdlog::logger> log);
 
   // Any thread. Calls of one thread take effect in their order.
 
@@ -78,10 +84,14 @@ class Room {
   void record_step(const match::StepRecord& step, Time begun, const std::vector<PendingAck>& acks);
   void send_acks(std::uint64_t tick, Time begun, const std::vector<PendingAck>& acks);
   void send_frames();
+  void begin_recording();
+  void finish_staff(const std::string& reason, std::function<void()> stopped);
   void add_house_bots();
+  void look_ahead();
 
   void admit(SessionId session, std::shared_ptr<Subscriber> subscriber, const protocol::Join& join);
   std::optional<protocol::ErrorMessage> why_not() const;
+  match::PlayerId give_louse(Member& member);
   protocol::Welcome welcome_for(const Member& member, const protocol::Join& join,
                                 std::uint32_t state_hz) const;
   void remove(SessionId session);
@@ -102,12 +112,18 @@ class Room {
   Strand strand_;
   boost::asio::steady_timer timer_;
   std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<Shadow> shadow_;
   Broadcaster broadcaster_;
   Line map_line_;
   std::atomic<std::uint32_t> players_{0}, bots_{0}, spectators_{0};
 
   // The strand's:
-  match::Match match_;
+  std::unique_ptr<match::Match> match_owner_;
+  match::Match& match_ = *match_owner_;
+  std::uint32_t tick_hz_;
+  std::string map_file_;
+  std::optional<replay::Parent> parent_;
+  std::unique_ptr<GroundAhead> ahead_;
   std::optional<TickClock> clock_;
   Roster roster_;
   AckBook acks_;

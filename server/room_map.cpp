@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "shared/json/text.h"
+#include "shared/map/height_survey.h"
 #include "shared/protocol/codec.h"
 #include "shared/terrain/terrain.h"
 
@@ -33,6 +34,12 @@ std::string encode_knots(const terrain::HeightGrid& grid) {
   return out + "]}";
 }
 
+static_assert(map::kOverviewSide <= protocol::kMaxOverviewSide);
+
+protocol::Overview overview_of(const terrain::HeightGrid& grid) {
+  return {{grid.x_origin, grid.y_origin}, {grid.dx, grid.dy}, grid.columns, grid.rows, grid.heights};
+}
+
 }  // namespace
 
 Line encode_map_line(const map::Map& map) {
@@ -41,7 +48,10 @@ Line encode_map_line(const map::Map& map) {
     const std::size_t side = 2 * function->grid + 1;
     knots = encode_knots(terrain::sample_grid(*map.terrain, side, side));
   }
-  const protocol::MapMessage message{map.definition.name, map.hash, map.canonical};
+  protocol::MapMessage message{map.definition.name, map.hash, map.canonical};
+  if (const auto* tiled = std::get_if<map::TiledTerrain>(&map.definition.terrain)) {
+    message.overview = overview_of(tiled->overview);
+  }
   return std::make_shared<const std::string>(protocol::encode_map(message, knots));
 }
 

@@ -6,7 +6,7 @@
 
 namespace woodlouse::server {
 
-/// The `map` message: the definition, and the knots where it only names a function.
+/// The `map` message: the definition, the knots where it only names a function, and an overview where it names a file.
 Line encode_map_line(const map::Map& map);
 
 }  // namespace woodlouse::server

@@ -67,10 +67,10 @@ void Room::admit(SessionId session, std::shared_ptr<Subscriber> subscriber, cons
     return subscriber->refuse_join(
         error(code::kBadField, "join.fields: this room serves " + std::to_string(FrameChannels::kMaxLayouts) +
                                    " different choices of fields and format already; leave `fields` out"));
-  Member member{std::move(subscriber), join.name, join.role, 0, *channel};
+  Member member{std::move(subscriber), join.name, join.role, 0, *channel, 0};
   const std::uint32_t state_hz = granted_state_hz(join.state_hz, settings_.state_hz);
   if (join.role != protocol::Role::kSpectator) {
-    member.louse = match_.join();
+    member.louse = give_louse(member);
     if (recorder_) recorder_->player(member.louse, member.name, member.role);
   }
   member.subscriber->welcome(welcome_for(member, join, state_hz), settings_.state_hz / state_hz);
@@ -83,6 +83,14 @@ void Room::admit(SessionId session, std::shared_ptr<Subscriber> subscriber, cons
   emit({0, 0, protocol::EventKind::kJoined, added.louse, added.name, added.role, {}});
 }
 
+match::PlayerId Room::give_louse(Member& member) {
+  const std::optional<Orphan> taken = roster_.take_over(member.name);
+  if (!taken) return match_.join();
+  member.first_seq = taken->first_seq;
+  log_->info("room {}: \"{}\" takes over louse {} of the recording", settings_.name, member.name, taken->louse);
+  return taken->louse;
+}
+
 protocol::Welcome Room::welcome_for(const Member& member, const protocol::Join& join,
                                     std::uint32_t state_hz) const {
   const map::Map& map = match_.map();
@@ -92,7 +100,7 @@ protocol::Welcome Room::welcome_for(const Member& member, const protocol::Join& 
   welcome.id = member.louse;
   welcome.room = settings_.name;
   welcome.tick = match_.tick();
-  welcome.tick_hz = settings_.tick_hz;
+  welcome.tick_hz = tick_hz_;
   welcome.state_hz = state_hz;
   welcome.fields = join.fields;
   welcome.format = join.format;
@@ -121,10 +129,12 @@ void Room::remove(SessionId session) {
 }
 
 void Room::on_message(SessionId session, Member& member, const protocol::Input& input, Time arrived) {
-  const match::Filed filed = match_.file({member.louse, input.seq, thrust_of(input),
-                                          input.ticks.value_or(physics::kHeld), input.tick.value_or(0)});
+  const std::uint32_t seq = member.first_seq + input.seq;
+  const match::Filed filed = match_.file(
+      {member.louse, seq, thrust_of(input), input.ticks.value_or(physics::kHeld), input.tick.value_or(0)});
   if (filed.outcome != match::Filed::Outcome::kFiled) return drop_input(member, input, filed);
-  acks_.add(filed.tick, {session, member.louse, input.seq, arrived, filed.late, input.clamped});
+  const std::uint64_t ticks_late = filed.late ? filed.tick - input.tick.value_or(filed.tick) : 0;
+  acks_.add(filed.tick, {session, member.louse, seq, arrived, filed.late, input.clamped, ticks_late});
 }
 
 void Room::drop_input(Member& member, const protocol::Input& input, const match::Filed& filed) {

@@ -1,8 +1,9 @@
 // The whole server: rooms, port, threads, signals, and the order in which they start and stop.
 //
 // Threads: rooms tick in a context of their own (one thread for each room, at most one a core), sockets and
-// broadcasts run in another (kIoThreads), recordings are written on one more. A tick so never waits for a
-// socket or a disk.
+// broadcasts run in another (kIoThreads), recordings are written on one more, tiles of big maps are built ahead of lice
+// on another, shadows re-run games on as many as rooms tick on. A tick so never waits for a socket, and for a disk only
+// where a louse outruns the tiles.
 #pragma once
 
 #include <spdlog/logger.h>
@@ -14,6 +15,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -22,6 +24,7 @@
 #include "server/config.h"
 #include "server/lobby.h"
 #include "server/metrics.h"
+#include "server/opening.h"
 #include "server/room.h"
 #include "server/session.h"
 #include "shared/core/error.h"
@@ -34,9 +37,8 @@ class Server {
   /// From the signal to the exit at most.
   static constexpr Duration kStopWithin = std::chrono::milliseconds(800);
 
-  /// Loads the maps, creates the recordings, opens the port.
-  static core::Expected<std::unique_ptr<Server>> create(const ServeConfig& config,
-                                                        std::shared_ptr<spdlog::logger> log);
+  /// Loads the maps or the recording to go on from, opens the port, creates the recordings.
+  static core::Expected<std::unique_ptr<Server>> create(ServeConfig config, std::shared_ptr<spdlog::logger> log);
   ~Server();
 
   /// `127.0.0.1:7777`, with the port that was really taken.
@@ -51,7 +53,9 @@ class Server {
 
  private:
   Server(const ServeConfig& config, std::shared_ptr<spdlog::logger> log);
-  core::Expected<bool> open_rooms(const ServeConfig& config);
+  core::Expected<void> open_rooms(const ServeConfig& config);
+  core::Expected<void> open_room(const ServeConfig& config, const std::string& name, Opening opening);
+  core::Expected<RoomStaff> hire(const ServeConfig& config, const std::string& room, const Opening& opening);
   void await_signal();
   void room_ended();
   void stop(const std::string& text, const std::string& reason);
@@ -61,6 +65,8 @@ class Server {
 
   std::shared_ptr<spdlog::logger> log_;
   boost::asio::thread_pool disk_{1};
+  std::optional<boost::asio::thread_pool> ground_;  ///< once a map is too big for the memory
+  std::optional<boost::asio::thread_pool> shadows_;
   boost::asio::io_context ticks_;
   boost::asio::io_context io_;
   boost::asio::strand<boost::asio::io_context::executor_type> strand_;

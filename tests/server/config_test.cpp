@@ -135,9 +135,43 @@ TEST_CASE("a wrong config file is refused by its key or place") {
   CHECK_THAT(config.error().text(), Catch::Contains(names));
 }
 
+TEST_CASE("a fork takes a server's options but what its recording decides") {
+  const ServeConfig config = serve({"fork", "game.ndjson", "--tick", "600", "--listen", ":0", "--bots", "2",
+                                    "--record", "other.ndjson", "--shadow", "--ticks", "7", "--state-hz", "25"});
+  REQUIRE(config.fork);
+  CHECK(config.fork->recording == "game.ndjson");
+  CHECK(config.fork->tick == 600);
+  CHECK(config.bots == 2);
+  CHECK(config.record == std::filesystem::path("other.ndjson"));
+  CHECK(config.shadow);
+  CHECK(config.ticks == 7u);
+  CHECK(config.state_hz == 25);
+  CHECK(config.maps.empty());
+  CHECK_THAT(std::get<PrintConfig>(*parse({"fork", "--help"})).text,
+             Catch::Contains("--shadow") && Catch::Contains("fork game.ndjson --tick"));
+  for (const char* option : {"--map", "--tick-hz", "--seed"})
+    CHECK_FALSE(parse({"fork", "game.ndjson", "--tick", "600", option, "60"}));
+  CHECK_FALSE(parse({"fork", "game.ndjson"}));
+}
+
+TEST_CASE("a shadow is asked for by flag, variable or file") {
+  CHECK_FALSE(serve({"--map", "a.json"}).shadow);
+  CHECK(serve({"--map", "a.json", "--shadow"}).shadow);
+  const File file(R"({"map": "f.json", "shadow": true})");
+  CHECK(serve({"--config", file.path()}).shadow);
+  const Variable variable("WOODLOUSE_SHADOW", "true");
+  CHECK(serve({"--map", "a.json"}).shadow);
+}
+
 TEST_CASE("check and verify take their files, help and version are texts") {
   CHECK(std::get<CheckConfig>(*parse({"check", "a.json", "b.json"})).maps.size() == 2);
-  CHECK(std::get<VerifyConfig>(*parse({"verify", "game.ndjson"})).file == "game.ndjson");
+  const auto verify = std::get<VerifyConfig>(*parse({"verify", "game.ndjson", "other.ndjson.zst", "--jobs", "4"}));
+  CHECK(verify.files == std::vector<std::filesystem::path>{"game.ndjson", "other.ndjson.zst"});
+  CHECK(verify.jobs == 4);
+  const auto inspect = std::get<InspectConfig>(*parse({"inspect", "game.ndjson", "--at", "41.7"}));
+  CHECK(inspect.request.file == "game.ndjson");
+  CHECK(inspect.request.seconds == 41.7);
+  CHECK_FALSE(inspect.request.tick);
   CHECK_THAT(std::get<PrintConfig>(*parse({"--help"})).text, Catch::Contains("--state-hz"));
   CHECK_THAT(std::get<PrintConfig>(*parse({"--version"})).text, Catch::Contains("woodlouse-server"));
   CHECK_FALSE(parse({"verify"}));

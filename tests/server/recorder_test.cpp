@@ -27,7 +27,7 @@ void play(Recorder& recorder, boost::asio::thread_pool& disk, int ticks) {
   auto map = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/volcano.json");
   REQUIRE(map);
   match::Match match(*map, {60, 99});
-  recorder.begin(replay::make_header(match, "test", "maps/volcano.json"));
+  recorder.begin(replay::make_header(match, "test", "maps/volcano.json"), match.state());
   const match::PlayerId player = match.join();
   recorder.player(player, "mara", protocol::Role::kPlayer);
   for (int tick = 0; tick < ticks; ++tick) {
@@ -35,10 +35,10 @@ void play(Recorder& recorder, boost::asio::thread_pool& disk, int ticks) {
       match.file(
           {player, static_cast<std::uint32_t>(tick), {physics::ThrustKind::kAlongHeading, {0.5, 0.0}}, 5, 0});
     const match::StepRecord& step = match.advance();
-    recorder.step(step, {{player, static_cast<std::uint32_t>(tick), 1000}}, match.world().lice());
+    recorder.step(step, {{player, static_cast<std::uint32_t>(tick), 1000}}, match);
   }
   recorder.chat(match.tick(), player, "mara", "over \"and\" out");
-  recorder.finish(match.tick(), "test over", [] {});
+  recorder.finish("test over", [] {});
   disk.join();
 }
 
@@ -64,12 +64,32 @@ TEST_CASE("a recorded game with joins, inputs, keyframes and chat verifies") {
   std::filesystem::remove(file);
 }
 
-TEST_CASE("a full disk ends the recording with one log line and nothing else") {
+TEST_CASE("a recording named .zst is packed and verifies") {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / "woodlouse_recorder_test.ndjson.zst";
+  Log log;
+  boost::asio::thread_pool disk(1);
+  {
+    auto recorder = Recorder::open(file, disk, log.logger);
+    REQUIRE(recorder);
+    play(**recorder, disk, 700);
+  }
+  const auto result = replay::verify(replay::ReplaySource::of_file(file), 2);
+  REQUIRE(result);
+  CHECK(replay::to_text(*result) == "ok 700 ticks\n");
+  CHECK(log.text.str().empty());
+  std::filesystem::remove(file);
+}
+
+TEST_CASE("a full disk ends the recording with one log line, a word to who asked, and nothing else") {
   Log log;
   boost::asio::thread_pool disk(1);
   auto recorder = Recorder::open("/dev/full", disk, log.logger);
   REQUIRE(recorder);
+  std::vector<std::string> told;
+  (*recorder)->on_failure([&told](const std::string& why) { told.push_back(why); });
   play(**recorder, disk, 700);
+  CHECK(told == std::vector<std::string>{"No space left on device"});
   const std::string text = log.text.str();
   CHECK_THAT(text, Catch::Contains("RECORDING ENDED") && Catch::Contains("No space left on device"));
   CHECK(std::count(text.begin(), text.end(), '\n') == 1);

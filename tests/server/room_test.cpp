@@ -39,12 +39,18 @@ class Guest final : public Subscriber {
 
 /// A room whose timer has not begun: what it does between two ticks.
 struct House {
-  explicit House(RoomSettings settings) : room(ticks, io, std::move(settings), load(), nullptr, log) {}
+  explicit House(RoomSettings settings, Opening opening = open())
+      : room(ticks, io, std::move(settings), std::move(opening), {}, log) {}
 
   static std::shared_ptr<const map::Map> load() {
     auto map = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/volcano.json");
     REQUIRE(map);
     return *map;
+  }
+
+  static Opening open() {
+    const auto map = load();
+    return {map, std::make_unique<match::Match>(map, match::MatchSettings{60, 0}), "maps/volcano.json", {}, {}};
   }
 
   std::shared_ptr<Guest> join(SessionId session, protocol::Join join = {}) {
@@ -185,4 +191,87 @@ TEST_CASE("a room that stops says bye to everyone and takes nobody more") {
   REQUIRE(mara->byes.size() == 1);
   CHECK(mara->byes[0].code == "shutdown");
   CHECK(house.join(2)->refusals.size() == 1);
+}
+
+namespace {
+
+/// A game that goes on after two players pushed: mara by her input 17, the other one, a bot, by none.
+Opening went_on() {
+  Opening opening = House::open();
+  const match::PlayerId mara = opening.match->join();
+  const match::PlayerId rolly = opening.match->join();
+  opening.match->file({mara, 17, {physics::ThrustKind::kAlongHeading, {0.5, 0.0}}, physics::kHeld, 0});
+  opening.match->advance();
+  opening.orphans = {{mara, "mara", protocol::Role::kPlayer, 18}, {rolly, "Rolly", protocol::Role::kBot, 0}};
+  return opening;
+}
+
+protocol::Join named(const std::string& name, protocol::Role role = protocol::Role::kPlayer) {
+  protocol::Join join;
+  join.name = name;
+  join.role = role;
+  return join;
+}
+
+}  // namespace
+
+TEST_CASE("who is only in the recording is named to guests, and keeps a louse until somebody takes it over by name") {
+  House house(settings(8), went_on());
+  const auto eve = house.join(1, named("mara", protocol::Role::kSpectator));
+  REQUIRE(eve->welcomes.size() == 1);
+  REQUIRE(eve->welcomes[0].players.size() == 2);
+  CHECK(eve->welcomes[0].players[0].id == 1);
+  CHECK(eve->welcomes[0].players[0].name == "mara");
+  CHECK(eve->welcomes[0].players[1].role == protocol::Role::kBot);
+  CHECK(eve->welcomes[0].id == 0);
+  CHECK(eve->welcomes[0].tick == 1);
+
+  CHECK(house.join(2, named("timo"))->welcomes.at(0).id == 3);
+  const auto mara = house.join(3, named("mara"));
+  CHECK(mara->welcomes.at(0).id == 1);
+  CHECK(mara->welcomes[0].players.size() == 3);  // Rolly, the spectator and timo
+  CHECK(house.join(4, named("mara"))->welcomes.at(0).id == 4);
+}
+
+TEST_CASE("whoever took a louse over counts its inputs from the start and is answered in that count") {
+  House house(settings(8), went_on());
+  const auto mara = house.join(1, named("mara"));
+  protocol::Input input;
+  input.seq = 0;
+  input.thrust = {1.0, 0.0};
+  house.room.submit(1, input, Clock::now());
+  input.seq = 0;
+  house.room.submit(1, input, Clock::now());
+  house.settle();
+  REQUIRE(mara->answers.size() == 2);  // of the second one: an error and an ack, dropped
+  CHECK(std::get<protocol::ErrorMessage>(mara->answers[0]).code == "stale_seq");
+  CHECK(std::get<protocol::Ack>(mara->answers[1]).dropped);
+  house.room.start([] {});
+  for (int turn = 0; turn < 1000 && mara->answers.size() < 3; ++turn) house.ticks.run_one();
+  REQUIRE(mara->answers.size() == 3);
+  const auto& ack = std::get<protocol::Ack>(mara->answers[2]);
+  CHECK(ack.seq == 0);
+  CHECK(ack.tick == 1);
+  CHECK_FALSE(ack.dropped);
+  CHECK(ack.you->id == 1);
+}
+
+TEST_CASE("the house's bots take over the lice of bots of their name") {
+  const std::string name = HouseBot(0, 0).name();
+  Opening opening = went_on();
+  opening.orphans[1].name = name;
+  RoomSettings with_bots = settings(8);
+  with_bots.bots = 2;
+  House house(with_bots, std::move(opening));
+  house.room.start([] {});
+  for (int turn = 0; turn < 30; ++turn) house.ticks.run_one();
+  house.settle();
+  const auto eve = house.join(1, named("eve", protocol::Role::kSpectator));
+  REQUIRE(eve->welcomes.size() == 1);
+  const auto& players = eve->welcomes[0].players;
+  REQUIRE(players.size() == 3);  // mara, and two bots, one of them on a louse of its own
+  CHECK(players[0].name == "mara");
+  CHECK(players[1].name == name);
+  CHECK(players[1].id == 2);
+  CHECK(players[2].id == 3);
 }

@@ -39,7 +39,7 @@ class Recording(unittest.TestCase):
         steps = [line for line in lines if "step" in line]
         self.assertEqual([line["step"] for line in steps], list(range(420)))
         self.assertTrue(all("hash" in line for line in steps))
-        self.assertEqual(sum("keyframe" in line for line in lines), 1)
+        self.assertEqual([line["keyframe"] for line in lines if "keyframe" in line], [0, 300])
         self.assertGreater(sum(len(line.get("inputs", [])) for line in steps), 78)
         names = json.dumps([line["roster"] for line in steps if "roster" in line])
         for name in ("mara", "timo", "Rolly", "Sherpa"):
@@ -49,10 +49,9 @@ class Recording(unittest.TestCase):
         self.play()
         with open(self.file) as file:
             text = file.read().splitlines(keepends=True)
-        # The first input of a step in the middle, whatever way it is written: its thrust's first digit changes.
-        at = next(i for i in range(200, len(text)) if '"inputs"' in text[i])
+        at = next(i for i in range(200, len(text)) if '"inputs"' in text[i] and "step" in text[i])
         line = json.loads(text[at])
-        alter_a_number(line["inputs"][0])
+        alter_thrust(line["inputs"][0])
         text[at] = json.dumps(line, separators=(",", ":")) + "\n"
         with open(self.file, "w") as file:
             file.writelines(text)
@@ -69,22 +68,53 @@ class Recording(unittest.TestCase):
         for name in names:
             self.assertEqual(run("verify", os.path.join(self.folder.name, name))[:2], (0, "ok 30 ticks\n"))
 
-    def test_a_killed_server_leaves_a_recording_that_verifies_as_far_as_it_goes(self):
-        with Server("--record", self.file, "--bots", "2") as server, server.player() as player:
-            for _ in range(50):
-                player.expect("delta")
-            server.process.kill()
-            server.process.wait()
-        code, verdict, errors = run("verify", self.file)
-        self.assertEqual((code, verdict.split()[0]), (0, "ok"), verdict + errors)
+    def test_a_killed_server_leaves_a_recording_that_verifies_up_to_a_second_before(self):
+        for name in ("game.ndjson", "game.ndjson.zst"):
+            file = os.path.join(self.folder.name, name)
+            with self.subTest(name), Server("--record", file, "--bots", "2") as server, server.player() as player:
+                for _ in range(50):
+                    tick = player.expect("delta")["tick"]
+                server.process.kill()
+                server.process.wait()
+                code, verdict, errors = run("verify", file)
+                self.assertEqual((code, verdict.split()[0]), (0, "ok"), verdict + errors)
+                self.assertIn("cut off", verdict)
+                self.assertGreaterEqual(int(verdict.split()[1]), tick - 60)
+                self.assertEqual(run("inspect", file, "--tick", "60")[0], 0)
 
-    def test_a_full_disk_ends_the_recording_with_a_loud_line_and_never_the_game(self):
-        with Server("--record", "/dev/full", "--bots", "2") as server, server.player() as player:
-            server.wait_for_log("RECORDING ENDED")
+    def test_a_disk_that_fails_ends_the_recording_with_a_loud_line_and_a_notice_and_never_the_game(self):
+        pipe = os.path.join(self.folder.name, "pipe.ndjson")
+        os.mkfifo(pipe)
+        disk = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+        with Server("--record", pipe, "--bots", "2") as server, server.player() as player:
+            player.expect("delta")
+            os.close(disk)
+            player.expect("notice", code="recording_ended")
             for _ in range(30):
                 player.expect("delta")
             self.assertEqual(server.stop()[0], 0)
             self.assertEqual(server.log().count("RECORDING ENDED"), 1)
+
+    def test_a_packed_recording_is_inspected_at_any_tick_and_tells_who_was_late(self):
+        file = os.path.join(self.folder.name, "game.ndjson.zst")
+        with Server("--record", file, "--bots", "2") as server, server.player("mara") as mara:
+            for _ in range(5):
+                mara.expect("delta")
+            for seq in range(1, 30):
+                late = {"tick": 1} if seq < 5 else {}
+                mara.send({"type": "input", "seq": seq, "thrust": [0.5, 0.1], **late})
+                mara.expect("ack", seq=seq)
+            tick = mara.expect("key")["tick"]
+            self.assertEqual(server.stop()[0], 0)
+        self.assertEqual(run("verify", "--jobs", "2", file)[0], 0)
+        code, state, errors = run("inspect", file, "--tick", str(tick))
+        self.assertEqual(code, 0, errors)
+        state = json.loads(state)
+        self.assertEqual((state["keyframe"], len(state["lice"])), (tick, 3))
+        code, summary, errors = run("inspect", file, "--summary")
+        self.assertEqual(code, 0, errors)
+        mara = next(line.split() for line in summary.splitlines() if line.endswith("mara"))
+        self.assertEqual((mara[1], mara[4], mara[5]), ("player", "29", "4"), summary)
 
     def test_the_same_seed_gives_the_bots_the_same_game(self):
         hashes = []
@@ -96,20 +126,17 @@ class Recording(unittest.TestCase):
         self.assertEqual(hashes[0], hashes[1])
 
 
-def alter_a_number(entry):
-    """Flips the sign of the first fraction found, or adds to the last whole number: another push."""
-    items = list(entry.items() if isinstance(entry, dict) else enumerate(entry))
-    for key, value in items:
-        if isinstance(value, list):
-            return alter_a_number(value)
-        if isinstance(value, float) and value != 0:
-            entry[key] = -value
-            return None
-    for key, value in reversed(items):
-        if isinstance(value, int) and not isinstance(value, bool):
-            entry[key] = value + 1
-            return None
-    raise AssertionError(f"no number in {entry}")
+def alter_thrust(row):
+    """Another push, no longer than the one before: player, seq, thrust, margin, ticks."""
+
+    def nearer_to_zero(value):
+        return value - 1 if value > 0 else value + 1
+
+    if isinstance(row[2], list):
+        at = 0 if row[2][0] else 1
+        row[2][at] = nearer_to_zero(row[2][at])
+    else:
+        row[2] = nearer_to_zero(row[2])
 
 
 if __name__ == "__main__":

@@ -34,10 +34,12 @@ def run(*arguments, **options):
 
 
 class Server:
-    """A running woodlouse-server on a free loopback port; ended with the `with` block."""
+    """A running woodlouse-server on a free loopback port; ended with the `with` block. fork: a recording and a tick to
+    go on from, instead of maps."""
 
-    def __init__(self, *arguments, maps=("volcano",), listen="127.0.0.1:0"):
-        command = [PROGRAM, "--map", *map(map_file, maps), "--listen", listen, *arguments]
+    def __init__(self, *arguments, maps=("volcano",), listen="127.0.0.1:0", fork=None):
+        games = ["fork", fork[0], "--tick", str(fork[1])] if fork else ["--map", *map(map_file, maps)]
+        command = [PROGRAM, *games, "--listen", listen, *arguments]
         self.errors = tempfile.TemporaryFile("w+")
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=self.errors, text=True)
         first = self.process.stdout.readline()
