@@ -5,9 +5,11 @@
 //     along G:   v -= lambda (A.G) G,   x -= lambda h^2 (B.G) G,   lambda = (E - E0) / ((A.G)^2 + h^2 (B.G)^2)
 //     nearest:   v -= lambda A,         x -= lambda h^2 B,         lambda = (E - E0) / (A.A + h^2 B.B)
 // One step of Newton's method; h weighs a metre against a metre per second. The force acts along G, and so does the
-// correction: what a symmetric terrain conserves besides (the velocity along a gutter, the angular momentum in a bowl)
-// is left alone. Where that way is long (v is level, or the gradient vanishes), the nearest state is taken. The order of
-// the integrator stays; its energy error does not add up.
+// correction where that way is about as short as the nearest: what a symmetric terrain conserves besides (the velocity
+// along a gutter, the angular momentum in a bowl) is left alone.
+//
+// It acts only where the energy errs by more than a small share a second: there it keeps errors from adding up over
+// thousands of waves, while on smooth ground the integrator's own small error is better than any correction.
 // Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, IV.4.
 //
 // + - * / only, in the order written. T: double, or several at once (core/lanes.h).
@@ -45,6 +47,7 @@ template <typename T>
 [[gnu::always_inline]] inline EnergyKept<T> with_energy(T energy0, const BasicSurfaceSample<T>& s, const BasicMotion<T>& end, T h,
                                                         double gravity) {
   using core::select;
+  using Truth = decltype(T{} < T{});
   const Pair<T> v = end.velocity;
   const Pair<T> gradient{s.zx, s.zy};
   const T gradient2 = dot(gradient, gradient);
@@ -52,22 +55,28 @@ template <typename T>
   const Pair<T> by_velocity{v.x + vz * s.zx, v.y + vz * s.zy};                     // A
   const Pair<T> by_place{h * (T(gravity) * s.zx + vz * (s.zxx * v.x + s.zxy * v.y)),  // h B
                          h * (T(gravity) * s.zy + vz * (s.zxy * v.x + s.zyy * v.y))};
-  const T excess = energy(s, v, gravity) - energy0;
+  const T speed2 = dot(v, v) + vz * vz;
+  const T excess = T(0.5) * speed2 + T(gravity) * s.z - energy0;
   const T excess2 = excess * excess;
-  const T scale2 = dot(v, v) + h * h * (T(gravity * gravity) * gradient2);  // what v is, and what gravity makes of it in h
-  constexpr double kSmall = 1e-5;
-  constexpr double kFar = 1e-3;
+  constexpr double kDrift = 5e-7;  // of v^2, a second
+  const T borne = T(kDrift) * h * speed2;
+  const Truth errs = excess2 > borne * borne;
+  const Truth is_kept = excess2 <= borne * borne;  // not the reverse for NaN
 
+  const T nearest = dot(by_velocity, by_velocity) + dot(by_place, by_place);
   const T v_share = dot(by_velocity, gradient);
   const T x_share = dot(by_place, gradient);
   const T slope_along = v_share * v_share + x_share * x_share;
-  const auto along = excess2 * gradient2 < T(kSmall * kSmall) * slope_along * scale2;
-  const T slope = select(along, slope_along, dot(by_velocity, by_velocity) + dot(by_place, by_place));
-  const auto near = static_cast<decltype(T{} < T{})>(along | (excess2 < T(kFar * kFar) * slope * scale2));
-  const T lambda = select(near, excess / select(near, slope, T(1.0)), T(0.0));
+  const Truth along = slope_along > T(0.5) * gradient2 * nearest;  // at most 1.5 times as long
+  const T slope = select(along, slope_along, nearest);
+  const T scale2 = dot(v, v) + h * h * (T(gravity * gravity) * gradient2);  // what v is, and what gravity makes of it in h
+  constexpr double kFar = 1e-3;
+  const Truth near = excess2 < T(kFar * kFar) * nearest * scale2;
+  const Truth moves = near & errs;
+  const T lambda = select(moves, excess / select(moves, slope, T(1.0)), T(0.0));
   const Pair<T> dv{select(along, v_share * gradient.x, by_velocity.x), select(along, v_share * gradient.y, by_velocity.y)};
   const Pair<T> dx{select(along, x_share * gradient.x, by_place.x), select(along, x_share * gradient.y, by_place.y)};
-  return {{end.position - (lambda * h) * dx, v - lambda * dv}, near};
+  return {{end.position - (lambda * h) * dx, v - lambda * dv}, static_cast<Truth>(near | is_kept)};
 }
 
 }  // namespace woodlouse::physics
