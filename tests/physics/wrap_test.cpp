@@ -164,7 +164,7 @@ TEST_CASE("hundreds of crossings leave the energy where it was") {
     world.insert(tests::moving({1.0, 2.0}, {17.0, 11.0}));
     const auto energy = [&] {
       const Louse& louse = world.lice()[0];
-      const terrain::SurfaceSample s = ground->sample(louse.position.x, louse.position.y);
+      const terrain::SurfaceSample s = world.terrain().sample(louse.position.x, louse.position.y);
       return 0.5 * squared_length_in_space(s, louse.velocity) + p.gravity * s.z;
     };
     const double before = energy();

@@ -103,7 +103,7 @@ TEST_CASE("an altered bit of a packed recording is an error, never another game"
     std::string altered = packed.bytes;
     const std::size_t at = random.next() % altered.size();
     altered[at] = static_cast<char>(altered[at] ^ (1 << random.next() % 8));
-    const auto verification = verify_bytes(altered, 1 + round % 2);
+    const auto verification = verify_bytes(altered, 1u + static_cast<unsigned>(round % 2));
     if (!verification) ++refused;
     if (verification && verification->ok() && !verification->cut_off) CHECK(verification->ticks == 130);
   }
