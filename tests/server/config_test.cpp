@@ -1,5 +1,7 @@
 #include "server/config.h"
 
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 
 #include <cstdlib>
@@ -39,7 +41,7 @@ class Variable {
 class File {
  public:
   explicit File(const std::string& text)
-      : path_((std::filesystem::temp_directory_path() / "woodlouse_config_test.json").string()) {
+      : path_((std::filesystem::temp_directory_path() / ("woodlouse_config_test_" + std::to_string(::getpid()) + ".json")).string()) {
     std::ofstream(path_) << text;
   }
   ~File() { std::filesystem::remove(path_); }

@@ -1,5 +1,7 @@
 #include "server/fork.h"
 
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 
 #include <filesystem>
@@ -61,7 +63,7 @@ class Played {
     return opening.error().text();
   }
 
-  fs::path file = fs::temp_directory_path() / "woodlouse_fork_test.ndjson";
+  fs::path file = fs::temp_directory_path() / ("woodlouse_fork_test_" + std::to_string(::getpid()) + ".ndjson");
   std::vector<match::MatchState> states;
 
  private:

@@ -1,5 +1,8 @@
 #include "server/recorder.h"
 
+#include <string>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 
 #include <spdlog/sinks/ostream_sink.h>
@@ -46,7 +49,7 @@ void play(Recorder& recorder, boost::asio::thread_pool& disk, int ticks) {
 
 TEST_CASE("a recorded game with joins, inputs, keyframes and chat verifies") {
   const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / "woodlouse_recorder_test.ndjson";
+      std::filesystem::temp_directory_path() / ("woodlouse_recorder_test_" + std::to_string(::getpid()) + ".ndjson");
   Log log;
   boost::asio::thread_pool disk(1);
   {
@@ -66,7 +69,7 @@ TEST_CASE("a recorded game with joins, inputs, keyframes and chat verifies") {
 
 TEST_CASE("a recording named .zst is packed and verifies") {
   const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / "woodlouse_recorder_test.ndjson.zst";
+      std::filesystem::temp_directory_path() / ("woodlouse_recorder_test_" + std::to_string(::getpid()) + ".ndjson.zst");
   Log log;
   boost::asio::thread_pool disk(1);
   {

@@ -1,5 +1,8 @@
 #include "server/shadow.h"
 
+#include <string>
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 
 #include <spdlog/sinks/ostream_sink.h>
@@ -61,7 +64,7 @@ class Stage {
     REQUIRE(map);
     return *map;
   }
-  fs::path folder_ = fs::temp_directory_path() / "woodlouse_shadow_test";
+  fs::path folder_ = fs::temp_directory_path() / ("woodlouse_shadow_test_" + std::to_string(::getpid()));
   std::shared_ptr<const map::Map> map_ = load();
   std::uint32_t seq_ = 0;
 
