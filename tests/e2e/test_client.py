@@ -290,7 +290,7 @@ class Playing(InATerminal):
         before, LOOK = LOOK, "--color 256 --glyphs half"
         try:
             self.start()
-            self.assertIn("\N{LOWER HALF BLOCK}", self.terminal.screen())
+            wait_for("half blocks", lambda: "\N{LOWER HALF BLOCK}" in self.terminal.screen())
         finally:
             LOOK = before
 
