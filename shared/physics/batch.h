@@ -2,7 +2,7 @@
 //
 // The common case is a louse that moves, away from walls and seams, whose sub-steps stay above the cap and that does
 // not halt: Nystrom-4 steps. Whoever meets anything else is left where it was then, for the scalar step (stepper.h). The
-// lanes run the very templates of the scalar step (surface_motion.h, sub_step_rules.h, terrain's evaluate_cell) in its
+// lanes run the very templates of the scalar step (surface_motion.h, nystrom.h, sub_step_rules.h, terrain's evaluate_cell) in its
 // order, so that the bits are the same whichever way a louse was stepped.
 #pragma once
 

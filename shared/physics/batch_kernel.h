@@ -107,7 +107,7 @@ class LaneStepper {
 
   /// What a batch hands from stage to stage.
   struct Batch {
-    Pair<L> x, v;
+    BasicMotion<L> start;
     BasicDrive<L> drive;
     LanePlace<L> place;
     BasicSurfaceSample<L> s;
@@ -173,13 +173,13 @@ class LaneStepper {
     all(sample);
     all([&](Batch& batch) __attribute__((always_inline)) {
       accelerate(batch, batch.a2);
-      batch.w = batch.v + (L(0.5) * batch.h) * batch.a2;
+      batch.w = batch.start.velocity + (L(0.5) * batch.h) * batch.a2;
     });
     all([&](Batch& batch) __attribute__((always_inline)) {
       accelerate(batch, batch.a3);
       const L h = batch.h;
-      batch.w = batch.v + h * batch.a3;
-      place(batch, batch.x + h * batch.v + (h * (L(0.5) * h)) * batch.a3);
+      batch.w = batch.start.velocity + h * batch.a3;
+      place(batch, nystrom_last(batch.start, batch.a3, h));
     });
     all(sample);
     all([&](Batch& batch) __attribute__((always_inline)) {
@@ -196,13 +196,13 @@ class LaneStepper {
   [[gnu::always_inline]] inline void load(Batch& batch) {
     LaneFields<L> fields;
     fields.load(batch.lice);
-    batch.x = {fields.field[0], fields.field[1]};
-    batch.v = {fields.field[2], fields.field[3]};
+    batch.start.position = {fields.field[0], fields.field[1]};
+    batch.start.velocity = {fields.field[2], fields.field[3]};
     batch.heading = {fields.field[4], fields.field[5]};
     batch.thrust = {fields.field[6], fields.field[7]};
-    batch.w = batch.v;
+    batch.w = batch.start.velocity;
     if constexpr (F::thrust) drive(batch);
-    place(batch, batch.x);
+    place(batch, batch.start.position);
   }
 
   [[gnu::always_inline]] inline void drive(Batch& batch) {
@@ -232,8 +232,8 @@ class LaneStepper {
   [[gnu::always_inline]] inline void depart(Batch& batch) {
     using core::any, core::select, core::square_root;
     const BasicSurfaceSample<L> s = batch.s;
-    const Pair<L> x = batch.x;
-    const Pair<L> v = batch.v;
+    const Pair<L> x = batch.start.position;
+    const Pair<L> v = batch.start.velocity;
     const Pair<L> a1 = batch.a1;
     const L speed2 = squared_length_in_space(s, v);
     const L speed = square_root(speed2);
@@ -269,9 +269,8 @@ class LaneStepper {
     if constexpr (kConservative<F>) batch.energy = energy(s, v, context_.parameters.gravity);
     batch.h = h;
     batch.way = h * speed;
-    const L half = L(0.5) * h;
-    batch.w = v + half * a1;
-    place(batch, x + half * v + (L(0.5) * half * half) * a1);
+    batch.w = v + (L(0.5) * h) * a1;
+    place(batch, nystrom_middle(batch.start, a1, h));
   }
 
   [[gnu::always_inline]] inline typename L::Mask inside(Pair<L> x) const {
@@ -280,10 +279,7 @@ class LaneStepper {
   }
 
   [[gnu::always_inline]] inline void arrive(Batch& batch) {
-    const L h = batch.h;
-    const L sixth = h * L(1.0 / 6.0);
-    batch.end.position = batch.x + h * batch.v + (h * sixth) * (batch.a1 + batch.a2 + batch.a3);
-    batch.end.velocity = batch.v + sixth * (batch.a1 + L(2.0) * (batch.a2 + batch.a3) + batch.a4);
+    batch.end = nystrom_end(batch.start, batch.a1, batch.a2, batch.a3, batch.a4, batch.h);
     if constexpr (kConservative<F>) {
       batch.special |= (~inside(batch.end.position)).lanes();
       place(batch, batch.end.position);

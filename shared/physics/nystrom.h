@@ -19,23 +19,41 @@ struct BasicMotion {
 };
 using Motion = BasicMotion<double>;
 
-/// sample(Pair<T>) gives the surface, accelerate(sample, velocity) the acceleration; a1 is that of the start.
+/// x2, where a2 and a3 are taken.
+template <typename T>
+[[gnu::always_inline]] inline core::Pair<T> nystrom_middle(const BasicMotion<T>& start, core::Pair<T> a1, T h) {
+  const T half = T(0.5) * h;
+  return start.position + half * start.velocity + (T(0.5) * half * half) * a1;
+}
+
+/// x4, where a4 is taken.
+template <typename T>
+[[gnu::always_inline]] inline core::Pair<T> nystrom_last(const BasicMotion<T>& start, core::Pair<T> a3, T h) {
+  return start.position + h * start.velocity + (h * (T(0.5) * h)) * a3;
+}
+
+template <typename T>
+[[gnu::always_inline]] inline BasicMotion<T> nystrom_end(const BasicMotion<T>& start, core::Pair<T> a1, core::Pair<T> a2,
+                                                         core::Pair<T> a3, core::Pair<T> a4, T h) {
+  const T sixth = h * T(1.0 / 6.0);
+  return {start.position + h * start.velocity + (h * sixth) * (a1 + a2 + a3),
+          start.velocity + sixth * (a1 + T(2.0) * (a2 + a3) + a4)};
+}
+
+/// The step at one go; batch_kernel.h makes it in stages. sample(Pair<T>) gives the surface,
+/// accelerate(sample, velocity) the acceleration; a1 is that of the start.
 template <typename T, typename Sample, typename Accelerate>
 [[gnu::always_inline]] inline BasicMotion<T> nystrom4(const BasicMotion<T>& start, core::Pair<T> a1, T h,
                                                       const Sample& sample, const Accelerate& accelerate) {
   using core::Pair;
-  const Pair<T> x = start.position;
   const Pair<T> v = start.velocity;
   const T half = T(0.5) * h;
-  const Pair<T> x2 = x + half * v + (T(0.5) * half * half) * a1;
-  const auto s2 = sample(x2);
+  const auto s2 = sample(nystrom_middle(start, a1, h));
   const Pair<T> a2 = accelerate(s2, v + half * a1);
   const Pair<T> a3 = accelerate(s2, v + half * a2);
-  const Pair<T> x4 = x + h * v + (h * half) * a3;
-  const auto s4 = sample(x4);
+  const auto s4 = sample(nystrom_last(start, a3, h));
   const Pair<T> a4 = accelerate(s4, v + h * a3);
-  const T sixth = h * T(1.0 / 6.0);
-  return {x + h * v + (h * sixth) * (a1 + a2 + a3), v + sixth * (a1 + T(2.0) * (a2 + a3) + a4)};
+  return nystrom_end(start, a1, a2, a3, a4, h);
 }
 
 }  // namespace woodlouse::physics
