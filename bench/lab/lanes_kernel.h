@@ -8,11 +8,12 @@ namespace woodlouse::lab {
 
 template <typename L>
 double sum_of_lanes(const terrain::BicubicSpline::View& spline, const double* x, const double* y, std::size_t n) {
-  physics::LanePlace<L> place;
+  const physics::SplineLanes<L> ground(spline);
+  typename physics::SplineLanes<L>::Place place;
   L total(0.0);
   for (std::size_t i = 0; i < n; i += static_cast<std::size_t>(L::kCount)) {
-    physics::locate(spline, core::Pair<L>{L::load(x + i), L::load(y + i)}, place);
-    const terrain::BasicSurfaceSample<L> s = physics::evaluate(place);
+    ground.locate(core::Pair<L>{L::load(x + i), L::load(y + i)}, place);
+    const terrain::BasicSurfaceSample<L> s = ground.sample(place);
     total = total + ((s.z + s.zx + s.zy) + (s.zxx + s.zxy + s.zyy));
   }
   double lanes[L::kCount];

@@ -33,7 +33,7 @@ struct Truth {
     terrain::SurfaceSample s = surface.sample(x, y);
     if (!waves_alone) return s;
     const terrain::SurfaceSample bowl = FunctionSurface(FunctionName::kParabolicPot, 1.0).sample(x, y);
-    return {s.z - bowl.z, s.zx - bowl.zx, s.zy - bowl.zy, s.zxx - bowl.zxx, s.zxy - bowl.zxy, s.zyy - bowl.zyy};
+    return {{s.z - bowl.z, s.zx - bowl.zx, s.zy - bowl.zy}, s.zxx - bowl.zxx, s.zxy - bowl.zxy, s.zyy - bowl.zyy};
   }
   [[nodiscard]] terrain::HeightGrid grid(std::size_t g) const {
     terrain::HeightGrid result = terrain::sample_function(surface.name(), 1.0, g);

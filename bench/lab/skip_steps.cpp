@@ -24,9 +24,13 @@ std::shared_ptr<const terrain::Terrain> volcano() {
       terrain::BicubicSpline(terrain::sample_function(terrain::FunctionName::kVolcano, kScale, 100)));
 }
 
+terrain::HeightGrid flat_grid() {
+  return {201, 201, -kScale, -kScale, 0.2, 0.2, std::vector<double>(201 * 201, 0.0)};
+}
+
+/// Flat ground as maps have it.
 std::shared_ptr<const terrain::Terrain> flat() {
-  terrain::HeightGrid grid{21, 21, -kScale, -kScale, 2.0, 2.0, std::vector<double>(21 * 21, 0.0)};
-  return std::make_shared<const terrain::Terrain>(terrain::BicubicSpline(grid));
+  return std::make_shared<const terrain::Terrain>(*terrain::plane_through(flat_grid()));
 }
 
 std::vector<physics::Louse> lice_of(std::size_t count, double speed) {
@@ -84,6 +88,17 @@ void add_forces(std::vector<Duel>& duels) {
   }
 }
 
+void add_flat(std::vector<Duel>& duels) {
+  std::vector<physics::Louse> lice = lice_of(200, 2.0);
+  for (physics::Louse& louse : lice) push(louse, {0.6, 0.8});
+  const auto curved = std::make_shared<const terrain::Terrain>(terrain::BicubicSpline(flat_grid()));
+  for (const auto set : {physics::InstructionSet::kScalar, physics::best_instruction_set()}) {
+    duels.push_back({std::string("curvature of flat ground, ") + physics::to_text(set), "ns a louse-step",
+                     fresh_ticks(world_of(curved, {}, set, lice)), fresh_ticks(world_of(flat(), {}, set, lice))});
+    if (set == physics::best_instruction_set()) break;
+  }
+}
+
 void add_resting(std::vector<Duel>& duels) {
   const auto set = physics::best_instruction_set();
   duels.push_back({"resting lice in no list, 10000", "ns a louse and tick",
@@ -137,6 +152,7 @@ void add_columns(std::vector<Duel>& duels) {
 core::Expected<void> measure_skipped_steps(Table& table, Effort effort) {
   std::vector<Duel> duels;
   add_forces(duels);
+  add_flat(duels);
   add_resting(duels);
   add_hessians(duels);
   add_columns(duels);

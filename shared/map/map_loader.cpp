@@ -38,8 +38,10 @@ std::shared_ptr<const Map> build(MapDefinition definition) {
     options.fill_level = tiled->fill_level;
     map->terrain = std::make_shared<const terrain::Terrain>(terrain::TiledGround(tiled->heights, options));
   } else {
+    const terrain::HeightGrid knots = knots_of(definition);
+    const auto plane = terrain::plane_through(knots);
     map->terrain = std::make_shared<const terrain::Terrain>(
-        terrain::BicubicSpline(knots_of(definition), ends_of(definition)));
+        plane ? terrain::Terrain(*plane) : terrain::Terrain(terrain::BicubicSpline(knots, ends_of(definition))));
   }
   map->definition = std::move(definition);
   return map;

@@ -4,10 +4,10 @@
 
 namespace woodlouse::physics {
 
-BatchStep find_scalar_step(bool drag, bool friction, bool thrust);
+BatchStep find_scalar_step(BatchGround ground, const BatchForces& forces);
 #ifdef WOODLOUSE_X86_LANES
-BatchStep find_avx2_step(bool drag, bool friction, bool thrust);
-BatchStep find_avx512_step(bool drag, bool friction, bool thrust);
+BatchStep find_avx2_step(BatchGround ground, const BatchForces& forces);
+BatchStep find_avx512_step(BatchGround ground, const BatchForces& forces);
 #endif
 
 const char* to_text(InstructionSet set) {
@@ -36,13 +36,13 @@ InstructionSet best_instruction_set() {
   return InstructionSet::kScalar;
 }
 
-BatchStep find_batch_step(InstructionSet set, bool drag, bool friction, bool thrust) {
+BatchStep find_batch_step(InstructionSet set, BatchGround ground, const BatchForces& forces) {
   assert(is_available(set));
 #ifdef WOODLOUSE_X86_LANES
-  if (set == InstructionSet::kAvx2) return find_avx2_step(drag, friction, thrust);
-  if (set == InstructionSet::kAvx512) return find_avx512_step(drag, friction, thrust);
+  if (set == InstructionSet::kAvx2) return find_avx2_step(ground, forces);
+  if (set == InstructionSet::kAvx512) return find_avx512_step(ground, forces);
 #endif
-  return find_scalar_step(drag, friction, thrust);
+  return find_scalar_step(ground, forces);
 }
 
 }  // namespace woodlouse::physics

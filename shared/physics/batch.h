@@ -43,7 +43,8 @@ struct BatchLists {
 
 /// What a batch reads besides its lice.
 struct BatchContext {
-  terrain::BicubicSpline::View spline;
+  terrain::BicubicSpline::View spline;  ///< on BatchGround::kBicubicSpline
+  core::Vec2 slope;                     ///< on BatchGround::kPlane
   Parameters parameters;
   terrain::Rectangle interior;  ///< who leaves it meets a wall or a seam
   double tick = 0.0;            ///< [s]
@@ -57,7 +58,17 @@ struct BatchStep {
   void (*advance)(const BatchContext&, Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists, StepCounters& counters) = nullptr;
 };
 
-/// The batched step of an instruction set for a map's forces; REQUIRES is_available(set).
-BatchStep find_batch_step(InstructionSet set, bool drag, bool friction, bool thrust);
+/// The grounds that have a batched step.
+enum class BatchGround { kBicubicSpline, kPlane };
+
+/// The forces a map has.
+struct BatchForces {
+  bool drag = false;
+  bool friction = false;
+  bool thrust = false;
+};
+
+/// The batched step of an instruction set for a map's ground and forces; REQUIRES is_available(set).
+BatchStep find_batch_step(InstructionSet set, BatchGround ground, const BatchForces& forces);
 
 }  // namespace woodlouse::physics

@@ -4,8 +4,8 @@
 
 namespace woodlouse::physics {
 
-BatchStep find_avx2_step(bool drag, bool friction, bool thrust) {
-  return choose_kernel<core::Lanes4>(drag, friction, thrust);
+BatchStep find_avx2_step(BatchGround ground, const BatchForces& forces) {
+  return choose_kernel<core::Lanes4>(ground, forces);
 }
 
 }  // namespace woodlouse::physics

@@ -4,8 +4,8 @@
 
 namespace woodlouse::physics {
 
-BatchStep find_avx512_step(bool drag, bool friction, bool thrust) {
-  return choose_kernel<core::Lanes8>(drag, friction, thrust);
+BatchStep find_avx512_step(BatchGround ground, const BatchForces& forces) {
+  return choose_kernel<core::Lanes8>(ground, forces);
 }
 
 }  // namespace woodlouse::physics

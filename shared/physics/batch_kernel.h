@@ -18,40 +18,11 @@
 
 #include "shared/physics/batch.h"
 #include "shared/physics/energy_projection.h"
+#include "shared/physics/lane_grounds.h"
 #include "shared/physics/nystrom.h"
 #include "shared/physics/surface_motion.h"
 
 namespace woodlouse::physics {
-
-/// The lanes' cells and where in them the lanes are.
-template <typename L>
-struct LanePlace {
-  const double* cell[L::kCount];
-  L u, v;
-};
-
-template <typename L>
-[[gnu::always_inline]] inline void locate(const terrain::BicubicSpline::View& spline, Pair<L> x, LanePlace<L>& place) {
-  const L rx = x.x - L(spline.x_origin);
-  const L ry = x.y - L(spline.y_origin);
-  const L i = (rx * L(spline.inverse_dx)).cell_index(spline.last_column);
-  const L j = (ry * L(spline.inverse_dy)).cell_index(spline.last_row);
-  (j * L(spline.last_column + 1.0) + i).store_pointers(spline.cells, place.cell);
-  place.u = rx - i * L(spline.dx);
-  place.v = ry - j * L(spline.dy);
-}
-
-/// z, gradient and Hessian.
-template <typename L>
-[[gnu::always_inline]] inline BasicSurfaceSample<L> evaluate(const LanePlace<L>& place) {
-  L coefficients[16];
-  const double* from[L::kCount];
-  for (int part = 0; part < 16; part += L::kRow) {
-    for (int l = 0; l < L::kCount; ++l) from[l] = place.cell[l] + part;
-    L::load_transposed(from, coefficients + part);
-  }
-  return terrain::evaluate_cell(coefficients, place.u, place.v);
-}
 
 /// The fields of physics::Louse from position to thrust, one register a field.
 template <typename L>
@@ -83,10 +54,11 @@ struct LaneFields {
   }
 };
 
-template <typename L, typename F>
+/// L: the lanes; F: the Forces the map has; G: its ground (lane_grounds.h).
+template <typename L, typename F, typename G>
 class LaneStepper {
  public:
-  explicit LaneStepper(const BatchContext& context) : context_(context), shortest_(context.tick / SubStepRules::kMaxSubSteps) {}
+  explicit LaneStepper(const BatchContext& context) : context_(context), ground_(context), shortest_(context.tick / SubStepRules::kMaxSubSteps) {}
 
   /// See BatchStep.
   void advance(Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists, StepCounters& counters) {
@@ -104,13 +76,14 @@ class LaneStepper {
   static constexpr std::size_t kCount = L::kCount;
   static constexpr std::size_t kBlock = 32;
   static constexpr std::size_t kBatches = kBlock / kCount;
+  static constexpr bool kKeepsEnergy = kConservative<F> && terrain::Curved<typename G::Sample>;
 
   /// What a batch hands from stage to stage.
   struct Batch {
     BasicMotion<L> start;
     BasicDrive<L> drive;
-    LanePlace<L> place;
-    BasicSurfaceSample<L> s;
+    typename G::Place place;
+    typename G::Sample s;
     Pair<L> w;                      ///< velocity of the stage
     Pair<L> a1, a2, a3, a4, heading, thrust;
     L h, way, remaining;
@@ -162,7 +135,7 @@ class LaneStepper {
     const auto all = [&](auto stage) __attribute__((always_inline)) {
       for (std::size_t b = 0; b < batches; ++b) stage(batches_[b]);
     };
-    const auto sample = [](Batch& batch) __attribute__((always_inline)) { batch.s = evaluate(batch.place); };
+    const auto sample = [this](Batch& batch) __attribute__((always_inline)) { batch.s = ground_.sample(batch.place); };
     const auto accelerate = [this](Batch& batch, Pair<L>& a) __attribute__((always_inline)) {
       a = acceleration<F>(batch.s, batch.w, batch.drive, context_.parameters);
     };
@@ -179,14 +152,14 @@ class LaneStepper {
       accelerate(batch, batch.a3);
       const L h = batch.h;
       batch.w = batch.start.velocity + h * batch.a3;
-      place(batch, nystrom_last(batch.start, batch.a3, h));
+      ground_.locate(nystrom_last(batch.start, batch.a3, h), batch.place);
     });
     all(sample);
     all([&](Batch& batch) __attribute__((always_inline)) {
       accelerate(batch, batch.a4);
       arrive(batch);
     });
-    if constexpr (kConservative<F>) {
+    if constexpr (kKeepsEnergy) {
       all(sample);
       all([this](Batch& batch) __attribute__((always_inline)) { keep_energy(batch); });
     }
@@ -202,7 +175,7 @@ class LaneStepper {
     batch.thrust = {fields.field[6], fields.field[7]};
     batch.w = batch.start.velocity;
     if constexpr (F::thrust) drive(batch);
-    place(batch, batch.start.position);
+    ground_.locate(batch.start.position, batch.place);
   }
 
   [[gnu::always_inline]] inline void drive(Batch& batch) {
@@ -221,17 +194,9 @@ class LaneStepper {
     batch.drive.along = select(is_along, thrust.x, L(0.0)) * L(context_.parameters.thrust_max);
   }
 
-  [[gnu::always_inline]] inline void place(Batch& batch, Pair<L> x) {
-    locate(context_.spline, x, batch.place);
-    for (std::size_t l = 0; l < kCount; ++l) {
-      __builtin_prefetch(batch.place.cell[l]);
-      __builtin_prefetch(batch.place.cell[l] + 8);
-    }
-  }
-
   [[gnu::always_inline]] inline void depart(Batch& batch) {
     using core::any, core::select, core::square_root;
-    const BasicSurfaceSample<L> s = batch.s;
+    const auto s = batch.s;
     const Pair<L> x = batch.start.position;
     const Pair<L> v = batch.start.velocity;
     const Pair<L> a1 = batch.a1;
@@ -266,11 +231,11 @@ class LaneStepper {
       }
     }
     batch.special = special.lanes();
-    if constexpr (kConservative<F>) batch.energy = energy(s, v, context_.parameters.gravity);
+    if constexpr (kKeepsEnergy) batch.energy = energy(s, v, context_.parameters.gravity);
     batch.h = h;
     batch.way = h * speed;
     batch.w = v + (L(0.5) * h) * a1;
-    place(batch, nystrom_middle(batch.start, a1, h));
+    ground_.locate(nystrom_middle(batch.start, a1, h), batch.place);
   }
 
   [[gnu::always_inline]] inline typename L::Mask inside(Pair<L> x) const {
@@ -280,9 +245,9 @@ class LaneStepper {
 
   [[gnu::always_inline]] inline void arrive(Batch& batch) {
     batch.end = nystrom_end(batch.start, batch.a1, batch.a2, batch.a3, batch.a4, batch.h);
-    if constexpr (kConservative<F>) {
+    if constexpr (kKeepsEnergy) {
       batch.special |= (~inside(batch.end.position)).lanes();
-      place(batch, batch.end.position);
+      ground_.locate(batch.end.position, batch.place);
     }
   }
 
@@ -323,24 +288,30 @@ class LaneStepper {
   }
 
   const BatchContext& context_;
+  G ground_;
   double shortest_;
   Batch batches_[kBatches];
 };
 
-template <typename L, typename F>
+template <typename L, typename F, typename G>
 void advance_lanes(const BatchContext& context, Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists, StepCounters& counters) {
-  LaneStepper<L, F>(context).advance(lice, moving, lists, counters);
+  LaneStepper<L, F, G>(context).advance(lice, moving, lists, counters);
 }
 
-/// The kernel for a map's forces.
-template <typename L>
-BatchStep choose_kernel(bool drag, bool friction, bool thrust) {
+template <typename L, typename G>
+BatchStep choose_kernel(const BatchForces& forces) {
   constexpr BatchStep kKernels[8] = {
-      {L::kCount, advance_lanes<L, Forces<false, false, false>>}, {L::kCount, advance_lanes<L, Forces<false, false, true>>},
-      {L::kCount, advance_lanes<L, Forces<false, true, false>>},  {L::kCount, advance_lanes<L, Forces<false, true, true>>},
-      {L::kCount, advance_lanes<L, Forces<true, false, false>>},  {L::kCount, advance_lanes<L, Forces<true, false, true>>},
-      {L::kCount, advance_lanes<L, Forces<true, true, false>>},   {L::kCount, advance_lanes<L, Forces<true, true, true>>}};
-  return kKernels[(drag ? 4 : 0) + (friction ? 2 : 0) + (thrust ? 1 : 0)];
+      {L::kCount, advance_lanes<L, Forces<false, false, false>, G>}, {L::kCount, advance_lanes<L, Forces<false, false, true>, G>},
+      {L::kCount, advance_lanes<L, Forces<false, true, false>, G>},  {L::kCount, advance_lanes<L, Forces<false, true, true>, G>},
+      {L::kCount, advance_lanes<L, Forces<true, false, false>, G>},  {L::kCount, advance_lanes<L, Forces<true, false, true>, G>},
+      {L::kCount, advance_lanes<L, Forces<true, true, false>, G>},   {L::kCount, advance_lanes<L, Forces<true, true, true>, G>}};
+  return kKernels[(forces.drag ? 4 : 0) + (forces.friction ? 2 : 0) + (forces.thrust ? 1 : 0)];
+}
+
+/// The kernel for a map's ground and forces.
+template <typename L>
+BatchStep choose_kernel(BatchGround ground, const BatchForces& forces) {
+  return ground == BatchGround::kPlane ? choose_kernel<L, PlaneLanes<L>>(forces) : choose_kernel<L, SplineLanes<L>>(forces);
 }
 
 }  // namespace woodlouse::physics

@@ -4,8 +4,8 @@
 
 namespace woodlouse::physics {
 
-BatchStep find_scalar_step(bool drag, bool friction, bool thrust) {
-  return choose_kernel<core::Lanes1>(drag, friction, thrust);
+BatchStep find_scalar_step(BatchGround ground, const BatchForces& forces) {
+  return choose_kernel<core::Lanes1>(ground, forces);
 }
 
 }  // namespace woodlouse::physics

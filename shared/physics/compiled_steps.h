@@ -28,7 +28,7 @@ class CompiledSteps final : public GroundSteps {
                BatchLists& lists, StepCounters& counters) const override {
     const auto& surface = surface_of(ground_);
     const OneStepper stepper(surface, rules_.parameters, rules_.walls, rules_.tick);
-    if constexpr (std::is_same_v<S, terrain::BicubicSpline>) {
+    if constexpr (kHasLanes) {
       if (batch.width > 0) return advance_batched(stepper, lice, moving, batch, lists, counters);
     }
     for (const std::uint32_t index : moving) stepper.advance(lice[index], counters);
@@ -42,13 +42,19 @@ class CompiledSteps final : public GroundSteps {
  private:
   using Surface = std::remove_cvref_t<decltype(surface_of(std::declval<const S&>()))>;
   using OneStepper = Stepper<Surface, F, SurfaceEquations, I>;
+  static constexpr bool kHasLanes = std::is_same_v<S, terrain::BicubicSpline> || std::is_same_v<S, terrain::PlaneSurface>;
 
   void advance_batched(const OneStepper& stepper, std::span<Louse> lice, std::span<const std::uint32_t> moving,
                        const BatchStep& batch, BatchLists& lists, StepCounters& counters) const {
     // Whoever leaves the interior takes the scalar step, which knows of walls and seams.
     const terrain::Rectangle interior = Rim(rules_.walls, rules_.parameters.edges).interior();
-    const BatchContext context{ground_.view(), rules_.parameters, interior, rules_.tick,
-                               SubStepRules(rules_.parameters, ground_.cell(), rules_.tick)};
+    BatchContext context{{}, {}, rules_.parameters, interior, rules_.tick,
+                         SubStepRules(rules_.parameters, ground_.cell(), rules_.tick)};
+    if constexpr (std::is_same_v<S, terrain::PlaneSurface>) {
+      context.slope = ground_.slope();
+    } else {
+      context.spline = ground_.view();
+    }
     counters.louse_steps += moving.size();
     batch.advance(context, lice.data(), moving, lists, counters);
     for (const LouseTick& tick : lists.left) {

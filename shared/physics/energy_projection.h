@@ -32,7 +32,7 @@ inline bool conserves_energy(const Parameters& p) {
 
 /// |v|3^2 / 2 + g z [m^2/s^2].
 template <typename T>
-[[gnu::always_inline]] inline T energy(const BasicSurfaceSample<T>& s, Pair<T> v, double gravity) {
+[[gnu::always_inline]] inline T energy(const BasicSlopeSample<T>& s, Pair<T> v, double gravity) {
   return T(0.5) * squared_length_in_space(s, v) + T(gravity) * s.z;
 }
 
@@ -53,8 +53,8 @@ template <typename T>
   const T gradient2 = dot(gradient, gradient);
   const T vz = dot(gradient, v);
   const Pair<T> by_velocity{v.x + vz * s.zx, v.y + vz * s.zy};                     // A
-  const Pair<T> by_place{h * (T(gravity) * s.zx + vz * (s.zxx * v.x + s.zxy * v.y)),  // h B
-                         h * (T(gravity) * s.zy + vz * (s.zxy * v.x + s.zyy * v.y))};
+  const Pair<T> turned = curvature_times(s, v);
+  const Pair<T> by_place{h * (T(gravity) * s.zx + vz * turned.x), h * (T(gravity) * s.zy + vz * turned.y)};  // h B
   const T speed2 = dot(v, v) + vz * vz;
   const T excess = T(0.5) * speed2 + T(gravity) * s.z - energy0;
   const T excess2 = excess * excess;

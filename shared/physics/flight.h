@@ -30,17 +30,18 @@ struct Flight {
 };
 
 /// g + v'Hv: the normal force's sign; below 0 a unilateral contact ends.
-inline double lift(const terrain::SurfaceSample& s, core::Vec2 v, const Parameters& p) {
+template <typename Sample>
+double lift(const Sample& s, core::Vec2 v, const Parameters& p) {
   return p.gravity + curvature_along(s, v);
 }
 
 /// The flight that begins where a motion on the surface ends.
-inline Flight taken_off(const terrain::SurfaceSample& s, const Motion& from) {
+inline Flight taken_off(const terrain::SlopeSample& s, const Motion& from) {
   return {from, s.z, s.zx * from.velocity.x + s.zy * from.velocity.y};
 }
 
 /// What a landing leaves of the velocity, over the map.
-inline core::Vec2 landed_velocity(const terrain::SurfaceSample& s, const Flight& flight) {
+inline core::Vec2 landed_velocity(const terrain::SlopeSample& s, const Flight& flight) {
   const double w2 = 1.0 + s.zx * s.zx + s.zy * s.zy;
   const core::Vec2 v = flight.over.velocity;
   const double along_normal = (flight.climb - s.zx * v.x - s.zy * v.y) / w2;  // vn / w

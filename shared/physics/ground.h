@@ -3,6 +3,7 @@
 #pragma once
 
 #include <type_traits>
+#include <utility>
 
 #include "shared/physics/nystrom.h"
 #include "shared/physics/parameters.h"
@@ -12,8 +13,9 @@
 
 namespace woodlouse::physics {
 
-/// A surface sample that knows the central pull there.
-struct PulledSample : terrain::SurfaceSample {
+/// A sample that knows the central pull there.
+template <typename Sample>
+struct PulledSample : Sample {
   core::Vec2 pull;
 };
 
@@ -21,7 +23,8 @@ struct PulledSample : terrain::SurfaceSample {
 template <terrain::Surface S, typename F, typename E>
 class Ground {
  public:
-  using Site = std::conditional_t<F::central, PulledSample, terrain::SurfaceSample>;
+  using Sample = decltype(std::declval<const S&>().sample(0.0, 0.0));
+  using Site = std::conditional_t<F::central, PulledSample<Sample>, Sample>;
 
   /// What a sub-step knows of its start.
   struct Start {
@@ -36,7 +39,7 @@ class Ground {
 
   [[nodiscard]] const S& surface() const { return surface_; }
 
-  [[nodiscard, gnu::always_inline]] inline Site site_of(const terrain::SurfaceSample& s, core::Vec2 x) const {
+  [[nodiscard, gnu::always_inline]] inline Site site_of(const Sample& s, core::Vec2 x) const {
     if constexpr (F::central) {
       return {s, -central_pull(x, parameters_.central_gravity) * x};
     } else {
@@ -93,7 +96,7 @@ struct Field {
   [[nodiscard]] const auto& surface() const { return ground.surface(); }
   [[nodiscard, gnu::always_inline]] inline auto sample(core::Vec2 x) const { return ground.site(x); }
   /// The same for a sample that was taken otherwise.
-  [[nodiscard, gnu::always_inline]] inline auto at(const terrain::SurfaceSample& s, core::Vec2 x) const {
+  [[nodiscard, gnu::always_inline]] inline auto at(const typename Ground::Sample& s, core::Vec2 x) const {
     return ground.site_of(s, x);
   }
   [[nodiscard, gnu::always_inline]] inline core::Vec2 accelerate(const typename Ground::Site& s, core::Vec2 v) const {

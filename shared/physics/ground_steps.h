@@ -23,7 +23,7 @@ class GroundSteps {
   virtual ~GroundSteps() = default;
 
   /// Moves lice[moving[0]], lice[moving[1]], ..., none of them resting, through one tick. batch: for as many at
-  /// once as it can; width 0: none, and so REQUIRED of every ground but the bicubic spline. lists: room for it.
+  /// once as it can; width 0: none, and so REQUIRED of every ground but the bicubic spline and the plane. lists: room for it.
   virtual void advance(std::span<Louse> lice, std::span<const std::uint32_t> moving, const BatchStep& batch,
                        BatchLists& lists, StepCounters& counters) const = 0;
   /// Whether friction, brake and walls hold this louse where it is.
@@ -40,5 +40,6 @@ struct StepRules {
 std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::BicubicSpline& ground, const StepRules& rules);
 std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::FunctionSurface& ground, const StepRules& rules);
 std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::TiledGround& ground, const StepRules& rules);
+std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::PlaneSurface& ground, const StepRules& rules);
 
 }  // namespace woodlouse::physics

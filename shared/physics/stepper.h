@@ -48,7 +48,7 @@ class Stepper {
         tick_(tick),
         shortest_(tick / SubStepRules::kMaxSubSteps),
         rules_(parameters, surface.cell(), tick),
-        unilateral_(E::kExact && parameters.contact == SurfaceContact::kUnilateral) {}
+        unilateral_(E::kExact && kCurved && parameters.contact == SurfaceContact::kUnilateral) {}
 
   /// Moves the louse through one tick. Its thrust is not counted down here.
   void advance(Louse& louse, StepCounters& counters) const {
@@ -150,14 +150,16 @@ class Stepper {
   }
 
  private:
-  static constexpr bool kRules = E::kExact && I::kSubSteps;
-  static constexpr bool kKeepsEnergy = E::kExact && I::kKeepsEnergy && kConservative<F>;
-  static constexpr int kMaxBounces = 8;
-  static constexpr int kMaxPieces = 2048;  // sub-steps, impacts and stops of one tick, whatever happens
-
   using Ground = physics::Ground<S, F, E>;
   using Field = physics::Field<Ground>;
   using Start = typename Ground::Start;
+
+  static constexpr bool kCurved = terrain::Curved<typename Ground::Sample>;
+  static constexpr bool kRules = E::kExact && I::kSubSteps;
+  /// On flat ground the steps themselves are exact where nothing but gravity acts.
+  static constexpr bool kKeepsEnergy = E::kExact && I::kKeepsEnergy && kConservative<F> && kCurved;
+  static constexpr int kMaxBounces = 8;
+  static constexpr int kMaxPieces = 2048;  // sub-steps, impacts and stops of one tick, whatever happens
 
   enum class Halt { kNo, kRests, kTurnsBack };
 
@@ -292,7 +294,7 @@ class Stepper {
   [[nodiscard]] Motion energy_kept(const Start& start, const Drive& drive, double h, const Motion& end, bool at_wall) const {
     if (at_wall) return energy_bounded(start, drive, h, end);
     const double energy0 = energy(start.sample, start.at.velocity, parameters_.gravity);
-    const terrain::SurfaceSample s = surface_.sample(end.position.x, end.position.y);
+    const auto s = surface_.sample(end.position.x, end.position.y);
     const EnergyKept<double> kept = with_energy(energy0, s, end, h, parameters_.gravity);
     return kept.near && rim_.lets_pass(kept.end.position) ? kept.end : energy_bounded(start, drive, h, end);
   }
@@ -307,7 +309,7 @@ class Stepper {
     const double push = drive.push + std::fabs(drive.along);
     const double most = 0.5 * start.speed2 + parameters_.gravity * start.sample.z +
                         push * (h * speed + 0.5 * h * h * push);
-    const terrain::SurfaceSample s = surface_.sample(place.x, place.y);
+    const auto s = surface_.sample(place.x, place.y);
     const double kinetic = most - parameters_.gravity * s.z;
     const double speed2 = squared_length_in_space(s, end.velocity);
     if (!(kinetic >= 0.0) || !(speed2 < 1e300)) return back;

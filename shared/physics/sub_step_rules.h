@@ -21,13 +21,17 @@ class SubStepRules {
         swing_factor_(p.gravity * p.gravity / (kSwing * kSwing * kSwing * kSwing)) {}
 
   /// Whether curvature, speed, drag or the cells ask for less than h. speed2: |v|3^2.
-  template <typename T>
-  [[gnu::always_inline, nodiscard]] inline auto too_long(const BasicSurfaceSample<T>& s, T speed2, T h) const {
-    const T h2 = h * h;
-    const T hessian2 = s.zxx * s.zxx + T(2.0) * s.zxy * s.zxy + s.zyy * s.zyy;
-    const T way2 = h2 * speed2;
-    return (way2 * hessian2 > T(kBend * kBend)) | (h2 * h2 * hessian2 * T(swing_factor_) > T(1.0)) |
-           (way2 * T(inverse_cell2_) > T(1.0)) | (h > T(longest_));
+  template <typename Sample, typename T>
+  [[gnu::always_inline, nodiscard]] inline auto too_long(const Sample& s, T speed2, T h) const {
+    if constexpr (terrain::Curved<Sample>) {
+      const T h2 = h * h;
+      const T hessian2 = s.zxx * s.zxx + T(2.0) * s.zxy * s.zxy + s.zyy * s.zyy;
+      const T way2 = h2 * speed2;
+      return (way2 * hessian2 > T(kBend * kBend)) | (h2 * h2 * hessian2 * T(swing_factor_) > T(1.0)) |
+             (way2 * T(inverse_cell2_) > T(1.0)) | (h > T(longest_));
+    } else {
+      return h > T(longest_);  // flat ground has no cells either
+    }
   }
 
   /// The same for a force of that stiffness [1/s^2] (central gravity: k / r^3).

@@ -27,6 +27,7 @@
 namespace woodlouse::physics {
 
 using core::Pair;
+using terrain::BasicSlopeSample;
 using terrain::BasicSurfaceSample;
 
 /// Which forces a map has; what it has not is compiled out.
@@ -81,26 +82,40 @@ inline Drive drive_of(const Louse& louse, double thrust_max) {
 }
 
 template <typename T>
-[[gnu::always_inline]] inline T squared_length_in_space(const BasicSurfaceSample<T>& s, Pair<T> u) {
+[[gnu::always_inline]] inline T squared_length_in_space(const BasicSlopeSample<T>& s, Pair<T> u) {
   const T rise = s.zx * u.x + s.zy * u.y;
   return u.x * u.x + u.y * u.y + rise * rise;
 }
 
-/// v'Hv.
-template <typename T>
-[[gnu::always_inline]] inline T curvature_along(const BasicSurfaceSample<T>& s, Pair<T> v) {
-  return (s.zxx * v.x + T(2.0) * s.zxy * v.y) * v.x + s.zyy * v.y * v.y;
+/// v'Hv; 0 for a sample of flat ground.
+template <typename Sample, typename T>
+[[gnu::always_inline]] inline T curvature_along(const Sample& s, Pair<T> v) {
+  if constexpr (terrain::Curved<Sample>) {
+    return (s.zxx * v.x + T(2.0) * s.zxy * v.y) * v.x + s.zyy * v.y * v.y;
+  } else {
+    return T(0.0);
+  }
+}
+
+/// Hv; 0 for a sample of flat ground.
+template <typename Sample, typename T>
+[[gnu::always_inline]] inline Pair<T> curvature_times(const Sample& s, Pair<T> v) {
+  if constexpr (terrain::Curved<Sample>) {
+    return {s.zxx * v.x + s.zxy * v.y, s.zxy * v.x + s.zyy * v.y};
+  } else {
+    return {T(0.0), T(0.0)};
+  }
 }
 
 /// f h / |h|3.
 template <typename T>
-[[gnu::always_inline]] inline Pair<T> push_over_tangent(const BasicSurfaceSample<T>& s, Pair<T> direction, T push) {
+[[gnu::always_inline]] inline Pair<T> push_over_tangent(const BasicSlopeSample<T>& s, Pair<T> direction, T push) {
   return (push / core::square_root(squared_length_in_space(s, direction))) * direction;
 }
 
 /// The part of a map-plane force that acts along the surface: F - G (G.F) / w^2.
 template <typename T>
-[[gnu::always_inline]] inline Pair<T> along_surface(const BasicSurfaceSample<T>& s, Pair<T> force, T w2) {
+[[gnu::always_inline]] inline Pair<T> along_surface(const BasicSlopeSample<T>& s, Pair<T> force, T w2) {
   const T share = (s.zx * force.x + s.zy * force.y) / w2;
   return {force.x - share * s.zx, force.y - share * s.zy};
 }
@@ -112,9 +127,8 @@ inline constexpr double kStandstill2 = 1e-200;
 ///
 /// w^2, |v|3^2 and |h|3^2 divide; their quotients come from one division by the product, that waits for no root:
 /// divisions and roots are most of what a step waits for.
-template <typename F, typename T>
-[[gnu::always_inline]] inline Pair<T> acceleration(const BasicSurfaceSample<T>& s, Pair<T> v, const BasicDrive<T>& drive,
-                                                   const Parameters& p) {
+template <typename F, typename Sample, typename T>
+[[gnu::always_inline]] inline Pair<T> acceleration(const Sample& s, Pair<T> v, const BasicDrive<T>& drive, const Parameters& p) {
   using core::any, core::magnitude, core::select, core::square_root;
   const T w2 = T(1.0) + s.zx * s.zx + s.zy * s.zy;
   const T lift = T(p.gravity) + curvature_along(s, v);
@@ -157,8 +171,8 @@ template <typename F, typename T>
 /// The equations above, as a choice beside those of document_equations.h.
 struct SurfaceEquations {
   static constexpr bool kExact = true;
-  template <typename F, typename T>
-  [[gnu::always_inline]] static inline Pair<T> acceleration(const BasicSurfaceSample<T>& s, Pair<T> v, const BasicDrive<T>& drive,
+  template <typename F, typename Sample, typename T>
+  [[gnu::always_inline]] static inline Pair<T> acceleration(const Sample& s, Pair<T> v, const BasicDrive<T>& drive,
                                                             const Parameters& p) {
     return physics::acceleration<F>(s, v, drive, p);
   }
@@ -167,8 +181,8 @@ struct SurfaceEquations {
 /// The implicit half kick of VerletQ: v' = v + k a(s, v'). Gravity and curvature are a quadratic in sigma,
 ///     v' = c (u - k sigma G),  sigma w^2 = g + v'Hv',  u = v + k push,  c = 1 / (1 + k resistance),
 /// solved in closed form; the resistance (drag, friction, drive along v) is taken at v, then once more at v'.
-template <typename F>
-core::Vec2 implicit_kick(const terrain::SurfaceSample& s, core::Vec2 v, double k, const Drive& drive, const Parameters& p) {
+template <typename F, typename Sample>
+core::Vec2 implicit_kick(const Sample& s, core::Vec2 v, double k, const Drive& drive, const Parameters& p) {
   const double w2 = 1.0 + s.zx * s.zx + s.zy * s.zy;
   const core::Vec2 gradient{s.zx, s.zy};
   core::Vec2 u = v;
@@ -181,7 +195,7 @@ core::Vec2 implicit_kick(const terrain::SurfaceSample& s, core::Vec2 v, double k
     extra_load = s.zx * drive.pull.x + s.zy * drive.pull.y;
   }
   const double g_h_g = curvature_along(s, gradient);
-  const double g_h_u = (s.zxx * gradient.x + s.zxy * gradient.y) * u.x + (s.zxy * gradient.x + s.zyy * gradient.y) * u.y;
+  const double g_h_u = dot(curvature_times(s, gradient), u);
   const double u_h_u = curvature_along(s, u);
   core::Vec2 result = v;
   for (int pass = 0; pass < (F::singular ? 2 : 1); ++pass) {
@@ -213,7 +227,7 @@ struct RestingBalance {
 };
 
 template <typename F>
-RestingBalance resting_balance(const terrain::SurfaceSample& s, core::Vec2 heading, const Drive& drive,
+RestingBalance resting_balance(const terrain::SlopeSample& s, core::Vec2 heading, const Drive& drive,
                                const Parameters& p) {
   const double w2 = 1.0 + s.zx * s.zx + s.zy * s.zy;
   RestingBalance balance;

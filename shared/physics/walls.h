@@ -29,18 +29,18 @@ constexpr bool outward(int side, double component) {
 }
 
 /// u less `factor` times its x component's reaction: factor 1 cancels the component, 1 + e reflects it.
-inline core::Vec2 react_x(const terrain::SurfaceSample& s, core::Vec2 u, double factor) {
+inline core::Vec2 react_x(const terrain::SlopeSample& s, core::Vec2 u, double factor) {
   const double impulse = factor * u.x;
   return {u.x - impulse, u.y + impulse * (s.zx * s.zy) / (1.0 + s.zy * s.zy)};
 }
 
-inline core::Vec2 react_y(const terrain::SurfaceSample& s, core::Vec2 u, double factor) {
+inline core::Vec2 react_y(const terrain::SlopeSample& s, core::Vec2 u, double factor) {
   const double impulse = factor * u.y;
   return {u.x + impulse * (s.zx * s.zy) / (1.0 + s.zx * s.zx), u.y - impulse};
 }
 
 /// The acceleration that the touched walls leave of `a`: each wall pushes inwards or not at all.
-inline core::Vec2 supported(const terrain::SurfaceSample& s, Contact contact, core::Vec2 a) {
+inline core::Vec2 supported(const terrain::SlopeSample& s, Contact contact, core::Vec2 a) {
   const bool x = outward(contact.x, a.x);
   const bool y = outward(contact.y, a.y);
   if (!x && !y) return a;
@@ -56,7 +56,7 @@ inline core::Vec2 supported(const terrain::SurfaceSample& s, Contact contact, co
 }
 
 /// The velocity after the impacts on the touched walls; `restitution` 0 leaves no outward velocity.
-inline core::Vec2 bounced(const terrain::SurfaceSample& s, Contact contact, core::Vec2 v, double restitution) {
+inline core::Vec2 bounced(const terrain::SlopeSample& s, Contact contact, core::Vec2 v, double restitution) {
   constexpr int kCornerImpacts = 8;  // between the two walls of one corner
   for (int i = 0; i < kCornerImpacts; ++i) {
     if (outward(contact.x, v.x)) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -21,6 +22,14 @@ enum class List {
 List list_of(const Louse& louse) {
   if (louse.phase != Phase::kResting) return List::kMoving;
   return louse.thrust_ticks != 0 && louse.thrust_ticks != kHeld ? List::kWaiting : List::kNone;
+}
+
+/// The lanes' ground for a map, if they can step it: flight, central gravity and the other methods are not in them.
+std::optional<BatchGround> batch_ground(const terrain::Terrain& terrain, const Parameters& p) {
+  if (p.central_gravity > 0.0 || p.method == Method::kCheap) return std::nullopt;
+  if (std::holds_alternative<terrain::PlaneSurface>(terrain.surface())) return BatchGround::kPlane;  // where nobody takes off, and nothing is split
+  const bool is_usual = p.contact == SurfaceContact::kBilateral && p.method == Method::kStandard;
+  return is_usual && std::holds_alternative<terrain::BicubicSpline>(terrain.surface()) ? std::optional(BatchGround::kBicubicSpline) : std::nullopt;
 }
 
 void clear_thrust(Louse& louse) {
@@ -45,10 +54,9 @@ World::World(std::shared_ptr<const terrain::Terrain> terrain, const Parameters& 
 
 void World::use(InstructionSet set) {
   assert(is_available(set));
-  // Flight, central gravity and the other methods are not in the lanes.
-  const bool has_lanes = parameters_.method == Method::kStandard && parameters_.contact == SurfaceContact::kBilateral && !(parameters_.central_gravity > 0.0) && std::holds_alternative<terrain::BicubicSpline>(terrain_->surface());
-  batch_ = has_lanes ? find_batch_step(set, parameters_.drag > 0.0, parameters_.friction > 0.0, parameters_.thrust_max > 0.0)
-                     : BatchStep{};
+  const std::optional<BatchGround> ground = batch_ground(*terrain_, parameters_);
+  const BatchForces forces{parameters_.drag > 0.0, parameters_.friction > 0.0, parameters_.thrust_max > 0.0};
+  batch_ = ground ? find_batch_step(set, *ground, forces) : BatchStep{};
 }
 
 std::size_t World::index_of(LouseId id) const {

@@ -16,9 +16,7 @@ SurfaceSample wavy_pot(double x, double y) {
   const auto [sy, cy] = core::portable_sincos(kTwoPi * y);
   const double slope = kAmplitude * kTwoPi;
   const double curvature = slope * kTwoPi;
-  return {0.5 * (x * x + y * y) + kAmplitude * cx * cy,
-          x - slope * sx * cy,
-          y - slope * cx * sy,
+  return {{0.5 * (x * x + y * y) + kAmplitude * cx * cy, x - slope * sx * cy, y - slope * cx * sy},
           1.0 - curvature * cx * cy,
           curvature * sx * sy,
           1.0 - curvature * cx * cy};
@@ -32,7 +30,7 @@ SurfaceSample volcano(double x, double y) {
   const double hq2 = kHeight * q * q;
   const double ring = 1.0 - 2.0 * hq2;  // zx = x ring
   const double bend = 8.0 * hq2 * q;    // d ring / dx = x bend
-  return {0.5 * r2 + kHeight * q, x * ring,    y * ring,
+  return {{0.5 * r2 + kHeight * q, x * ring, y * ring},
           ring + x * x * bend,    x * y * bend, ring + y * y * bend};
 }
 
@@ -43,9 +41,9 @@ SurfaceSample hills(double x, double y) {
   constexpr double kTwist = 0.1;
   const auto [sa, ca] = core::portable_sincos(kA * x + 0.4);
   const auto [sb, cb] = core::portable_sincos(kB * y - 0.2);
-  return {kAmplitude * sa * cb + kTwist * x * y,
-          kAmplitude * kA * ca * cb + kTwist * y,
-          -kAmplitude * kB * sa * sb + kTwist * x,
+  return {{kAmplitude * sa * cb + kTwist * x * y,
+           kAmplitude * kA * ca * cb + kTwist * y,
+           -kAmplitude * kB * sa * sb + kTwist * x},
           -kAmplitude * kA * kA * sa * cb,
           -kAmplitude * kA * kB * ca * sb + kTwist,
           -kAmplitude * kB * kB * sa * cb};
@@ -59,9 +57,9 @@ SurfaceSample waves(double x, double y) {
   const auto [sy, cy] = core::portable_sincos(kPi * y);
   const auto [s2x, c2x] = core::portable_sincos(kTwoPi * x);
   const auto [s3y, c3y] = core::portable_sincos(3.0 * kPi * y);
-  return {kHeight * cx * cy + kRipple * s2x * s3y,
-          kPi * (2.0 * kRipple * c2x * s3y - kHeight * sx * cy),
-          kPi * (3.0 * kRipple * s2x * c3y - kHeight * cx * sy),
+  return {{kHeight * cx * cy + kRipple * s2x * s3y,
+           kPi * (2.0 * kRipple * c2x * s3y - kHeight * sx * cy),
+           kPi * (3.0 * kRipple * s2x * c3y - kHeight * cx * sy)},
           -kPi * kPi * (kHeight * cx * cy + 4.0 * kRipple * s2x * s3y),
           kPi * kPi * (kHeight * sx * sy + 6.0 * kRipple * c2x * c3y),
           -kPi * kPi * (kHeight * cx * cy + 9.0 * kRipple * s2x * s3y)};
@@ -69,7 +67,7 @@ SurfaceSample waves(double x, double y) {
 
 SurfaceSample unit_sample(FunctionName name, double x, double y) {
   switch (name) {
-    case FunctionName::kParabolicPot: return {0.5 * (x * x + y * y), x, y, 1.0, 0.0, 1.0};
+    case FunctionName::kParabolicPot: return {{0.5 * (x * x + y * y), x, y}, 1.0, 0.0, 1.0};
     case FunctionName::kWavyPot: return wavy_pot(x, y);
     case FunctionName::kVolcano: return volcano(x, y);
     case FunctionName::kHills: return hills(x, y);

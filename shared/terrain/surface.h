@@ -2,7 +2,8 @@
 //
 // The concept every surface meets, so that the equations of motion can be compiled for each without an
 // indirect call:
-//     SurfaceSample sample(double x, double y) const   z, gradient, Hessian at a map-plane point
+//     SurfaceSample sample(double x, double y) const   z, gradient, Hessian at a map-plane point; SlopeSample of a
+//                                                       surface that is flat: whoever uses it leaves out curvature
 //     Rectangle domain() const                          where the surface is defined
 //     double cell() const                               side of its smallest polynomial cell [m]; infinite: none
 // sample() outside the domain continues the edge's polynomial (a step's stages look past a wall by a fraction
@@ -21,19 +22,28 @@
 
 namespace woodlouse::terrain {
 
-/// Height z [m], gradient (zx, zy) [1], Hessian (zxx, zxy, zyy) [1/m] at one point.
-/// T: double, or several at once (core/lanes.h).
+/// Height z [m] and gradient (zx, zy) [1] at one point. T: double, or several at once (core/lanes.h).
 template <typename T>
-struct BasicSurfaceSample {
+struct BasicSlopeSample {
   T z{};
   T zx{};
   T zy{};
+};
+
+/// The same with the Hessian (zxx, zxy, zyy) [1/m].
+template <typename T>
+struct BasicSurfaceSample : BasicSlopeSample<T> {
   T zxx{};
   T zxy{};
   T zyy{};
 };
 
+using SlopeSample = BasicSlopeSample<double>;
 using SurfaceSample = BasicSurfaceSample<double>;
+
+/// A sample of a surface that may be curved.
+template <typename Sample>
+concept Curved = requires(const Sample& s) { s.zxx; };
 
 /// A closed axis-parallel rectangle of the map plane [m].
 struct Rectangle {
@@ -50,7 +60,7 @@ struct Rectangle {
 
 template <typename S>
 concept Surface = requires(const S& s, double x, double y) {
-  { s.sample(x, y) } -> std::same_as<SurfaceSample>;
+  { s.sample(x, y) } -> std::convertible_to<SlopeSample>;
   { s.domain() } -> std::same_as<Rectangle>;
   { s.cell() } -> std::same_as<double>;
 };

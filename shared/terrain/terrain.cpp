@@ -11,7 +11,7 @@ Terrain::Terrain(Alternatives surface)
 
 SurfaceSample Terrain::sample(double x, double y) const {
   assert(domain_.contains(x, y));
-  return std::visit([&](const auto& s) { return s.sample(x, y); }, surface_);
+  return std::visit([&](const auto& s) { return SurfaceSample{s.sample(x, y)}; }, surface_);
 }
 
 HeightGrid sample_grid(const Terrain& terrain, std::size_t columns, std::size_t rows) {

@@ -7,6 +7,7 @@
 #include "shared/terrain/bicubic_spline.h"
 #include "shared/terrain/function_surface.h"
 #include "shared/terrain/height_grid.h"
+#include "shared/terrain/plane_surface.h"
 #include "shared/terrain/surface.h"
 #include "shared/terrain/tiled_bspline.h"
 
@@ -16,7 +17,7 @@ namespace woodlouse::terrain {
 /// its own, and never shows in a sample: tile_store.h.)
 class Terrain {
  public:
-  using Alternatives = std::variant<BicubicSpline, FunctionSurface, TiledGround>;
+  using Alternatives = std::variant<BicubicSpline, FunctionSurface, TiledGround, PlaneSurface>;
 
   explicit Terrain(Alternatives surface);
 

@@ -111,7 +111,7 @@ struct Game {
 
 TEST_CASE(
     "where inputs land as asked the prediction equals the server's world bit for bit, ahead of every ack") {
-  for (const char* name : {"volcano", "hills", "parabolic_pot", "wavy_pot", "torus"}) {
+  for (const char* name : {"volcano", "hills", "parabolic_pot", "wavy_pot", "torus", "arena"}) {
     const auto map = map_of(name);
     Game game(map, 9);
     const auto own = over_the_wire(*map);

@@ -126,6 +126,20 @@ TEST_CASE("defaults are those of the map format") {
   }
 }
 
+TEST_CASE("heights that lie in a plane become that plane, whatever spline is asked for") {
+  const auto flat = parse(R"({"name":"f","terrain":{"heights":[[1,1,1,1],[1,1,1,1],[1,1,1,1],[1,1,1,1]],"spacing":5}})");
+  REQUIRE(std::holds_alternative<terrain::PlaneSurface>(flat->terrain->surface()));
+  CHECK(flat->terrain->domain() == terrain::Rectangle{-7.5, -7.5, 7.5, 7.5});
+  CHECK(flat->terrain->sample(1, 2).z == 1.0);
+  const auto ramp = parse(
+      R"({"name":"r","terrain":{"heights":[[0,0.1,0.2,0.3],[0,0.1,0.2,0.3],[0,0.1,0.2,0.3],[0,0.1,0.2,0.3]],"spacing":1},"surface":"natural_spline"})");
+  REQUIRE(std::holds_alternative<terrain::PlaneSurface>(ramp->terrain->surface()));
+  CHECK(ramp->terrain->sample(0, 0).zx == Approx(0.1));
+  CHECK(ramp->terrain->sample(0, 0).zxx == 0.0);
+  const auto dent = parse(R"({"name":"d","terrain":{"heights":[[1,1,1,1],[1,1,1,1],[1,1,1.001,1],[1,1,1,1]],"spacing":5}})");
+  CHECK(std::holds_alternative<terrain::BicubicSpline>(dent->terrain->surface()));
+}
+
 TEST_CASE("a spline through a function goes through its knots, a function surface is the function") {
   const auto spline = parse(R"({"name":"h","terrain":{"function":"hills","grid":6,"scale":10}})");
   const auto exact =

@@ -44,12 +44,12 @@ bool same_bits(const std::vector<Louse>& a, const std::vector<Louse>& b) {
 
 /// Walls, stops, brakes, pulses, rests, sub-steps, caps and plain rolling, all in one world; each tick of it against the
 /// same tick made louse by louse.
-void check_every_tick(InstructionSet set, FunctionName name, const Parameters& parameters, double rate, double fastest, int ticks) {
-  const auto terrain = std::make_shared<const Terrain>(BicubicSpline(terrain::sample_function(name, 20.0, 10)));
-  const auto& spline = std::get<BicubicSpline>(terrain->surface());
+template <typename Ground>
+void check_every_tick(InstructionSet set, const Ground& ground, const Parameters& parameters, double rate, double fastest, int ticks) {
+  const auto terrain = std::make_shared<const Terrain>(ground);
   World world(terrain, parameters, 1.0 / rate);
   world.use(set);
-  const auto louse_by_louse = make_ground_steps(spline, {parameters, terrain->domain(), 1.0 / rate});
+  const auto louse_by_louse = make_ground_steps(ground, {parameters, terrain->domain(), 1.0 / rate});
   core::Random random(17);
   const auto symmetric = [&] { return 2 * random.uniform() - 1; };
   constexpr LouseId kLice = 83;  // no multiple of any width
@@ -97,27 +97,40 @@ void check_every_tick(InstructionSet set, FunctionName name, const Parameters& p
 
 }  // namespace
 
-TEST_CASE("every instruction set gives the bits of the scalar step, over all forces, functions, rates and speeds") {
-  for (const FunctionName name : terrain::kFunctionNames) {
-    for (unsigned forces = 0; forces < 8; ++forces) {
-      for (const double rate : {20.0, 60.0}) {
-        const Parameters p{.gravity = 9.81,
-                           .drag = forces & 4u ? 0.2 : 0.0,
-                           .friction = forces & 2u ? 0.15 : 0.0,
-                           .thrust_max = forces & 1u ? 4.0 : 0.0};
-        for (const InstructionSet set : available_sets()) {
-          for (const double fastest : {6.0, 3000.0}) {
-            INFO(to_text(set) << ", " << terrain::to_text(name) << ", forces " << forces << ", " << rate << " Hz, " << fastest << " m/s");
-            check_every_tick(set, name, p, rate, fastest, fastest > 100 ? 5 : 100);
-          }
+/// The same with every instruction set, over forces, rates and speeds.
+template <typename Ground>
+void check_on(const Ground& ground) {
+  for (unsigned forces = 0; forces < 8; ++forces) {
+    for (const double rate : {20.0, 60.0}) {
+      const Parameters p{.gravity = 9.81,
+                         .drag = forces & 4u ? 0.2 : 0.0,
+                         .friction = forces & 2u ? 0.15 : 0.0,
+                         .thrust_max = forces & 1u ? 4.0 : 0.0};
+      for (const InstructionSet set : available_sets()) {
+        for (const double fastest : {6.0, 3000.0}) {
+          INFO(to_text(set) << ", forces " << forces << ", " << rate << " Hz, " << fastest << " m/s");
+          check_every_tick(set, ground, p, rate, fastest, fastest > 100 ? 5 : 100);
         }
       }
     }
   }
 }
 
+TEST_CASE("every instruction set gives the bits of the scalar step on the splines of all functions") {
+  for (const FunctionName name : terrain::kFunctionNames) {
+    INFO(terrain::to_text(name));
+    check_on(BicubicSpline(terrain::sample_function(name, 20.0, 10)));
+  }
+}
+
+TEST_CASE("every instruction set gives the bits of the scalar step on planes, level and inclined") {
+  for (const core::Vec2 slope : {core::Vec2{}, core::Vec2{0.12, -0.3}}) {
+    check_on(terrain::PlaneSurface({-20, -20, 20, 20}, 1.0, slope));
+  }
+}
+
 TEST_CASE("the scalar step is always available and the best set is an available one") {
   CHECK(is_available(InstructionSet::kScalar));
   CHECK(is_available(best_instruction_set()));
-  CHECK(find_batch_step(InstructionSet::kScalar, true, true, true).width == 1);
+  CHECK(find_batch_step(InstructionSet::kScalar, BatchGround::kBicubicSpline, {true, true, true}).width == 1);
 }

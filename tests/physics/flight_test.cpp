@@ -73,7 +73,7 @@ TEST_CASE("a landing takes the velocity along the normal and nothing else, and n
   core::Random random(3);
   const auto u = [&] { return 4 * random.uniform() - 2; };
   for (int i = 0; i < 2000; ++i) {
-    const terrain::SurfaceSample s{u(), u(), u(), 0, 0, 0};
+    const terrain::SlopeSample s{u(), u(), u()};
     Flight flight{{{0, 0}, {u(), u()}}, s.z, 0};
     flight.climb = s.zx * flight.over.velocity.x + s.zy * flight.over.velocity.y - std::fabs(u());
     const core::Vec2 v = landed_velocity(s, flight);

@@ -14,7 +14,7 @@ using tests::moving;
 TEST_CASE("an elastic impact keeps the energy, any other loses it, whatever the slope and direction") {
   core::Random random(1);
   for (int i = 0; i < 5000; ++i) {
-    const terrain::SurfaceSample s{0, 4 * random.uniform() - 2, 4 * random.uniform() - 2, 0, 0, 0};
+    const terrain::SlopeSample s{0, 4 * random.uniform() - 2, 4 * random.uniform() - 2};
     const Contact corner{random.uniform() < 0.5 ? -1 : 1, random.uniform() < 0.3 ? 1 : 0};
     const core::Vec2 v{2 * random.uniform() - 1, 2 * random.uniform() - 1};
     const double before = squared_length_in_space(s, v);
@@ -31,7 +31,7 @@ TEST_CASE("an elastic impact keeps the energy, any other loses it, whatever the 
 TEST_CASE("leaning on walls never does work inwards and leaves no outward acceleration") {
   core::Random random(2);
   for (int i = 0; i < 5000; ++i) {
-    const terrain::SurfaceSample s{0, 4 * random.uniform() - 2, 4 * random.uniform() - 2, 0, 0, 0};
+    const terrain::SlopeSample s{0, 4 * random.uniform() - 2, 4 * random.uniform() - 2};
     const Contact corner{random.uniform() < 0.5 ? -1 : 1, random.uniform() < 0.5 ? 1 : -1};
     const core::Vec2 a{2 * random.uniform() - 1, 2 * random.uniform() - 1};
     const core::Vec2 left = supported(s, corner, a);
