@@ -213,7 +213,7 @@ class LaneStepper {
     }
     special = special | too_long;  // at the cap
     if constexpr (F::singular) {
-      L a2 = squared_length_in_space(s, a1);
+      L a2 = squared_length_in_space(s, a1) + context_.rules.stiffness2(batch.drive.along);
       auto turns = SubStepRules::turns_too_far(a2, speed2, h);
       if constexpr (!F::friction) turns = turns & (batch.drive.along != L(0.0));
       turns = turns & ~special;
@@ -227,7 +227,8 @@ class LaneStepper {
           h = select(turns, L(0.5) * h, h);
           turns = turns & SubStepRules::turns_too_far(a2, speed2, h) & (h > L(shortest_));
         }
-        special = special | (turning & ~(speed + h * rate > L(0.0)));
+        const auto unresolved = SubStepRules::turns_too_far(a2, speed2, h);
+        special = special | (turning & (unresolved | ~(speed + h * rate > L(0.0))));
       }
     }
     batch.special = special.lanes();

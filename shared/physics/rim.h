@@ -44,6 +44,8 @@ class Rim {
   [[nodiscard]] bool wraps() const { return edges_ == Edges::kWrap; }
   /// The positions a louse may have.
   [[nodiscard]] const terrain::Rectangle& interior() const { return interior_; }
+  /// How near to a wall is at the wall [m].
+  [[nodiscard]] double tolerance() const { return tolerance_; }
   /// Whether no wall is met on the way to p.
   [[nodiscard]] bool lets_pass(core::Vec2 p) const { return walls_.contains(p.x, p.y); }
   [[nodiscard]] Contact touching(core::Vec2 p) const { return physics::touching(walls_, p); }
@@ -67,19 +69,23 @@ class Rim {
     return p;
   }
 
-  /// The time after which a motion that is at `end` after h, beyond a wall, meets it; `end` becomes the state
-  /// there. again(t) is the motion after t instead: Newton's method inside a bracket repeats the sub-step, so
-  /// that the state is the integrator's own.
+  /// The same for where a louse stops or turns back: within rounding of a wall it has not left it.
+  [[nodiscard]] core::Vec2 stopped(core::Vec2 p) const { return wraps() ? inside(p) : onto(p); }
+
+  /// The time after which a motion that is at `end` after h, beyond a wall, meets it on its way out; `end` becomes the
+  /// state there. again(t) is the motion after t instead: Newton's method inside a bracket repeats the sub-step, so
+  /// that the state is the integrator's own. A wall that the louse slides along, or has just bounced off, is none that
+  /// it meets, near as it is.
   template <typename Again>
   double reach(double h, Motion& end, const Again& again) const {
+    const Contact met = passed(end.position);
     double low = 0.0;
     double high = h;
     double t = h;
     for (int i = 0; i < 60; ++i) {
-      double leaving = 0.0;
-      const double distance = beyond(end, leaving);
-      if (distance >= -tolerance_ && distance <= tolerance_) break;
-      (distance > 0.0 ? high : low) = t;
+      const auto [distance, leaving] = beyond(end, met);
+      if (distance >= -tolerance_ && distance <= tolerance_ && leaving > 0.0) break;
+      (distance > tolerance_ || (distance > 0.0 && leaving > 0.0) ? high : low) = t;
       const double guess = leaving > 0.0 ? t - distance / leaving : low;
       t = guess > low && guess < high ? guess : 0.5 * (low + high);
       end = again(t);
@@ -126,14 +132,27 @@ class Rim {
     return whole;
   }
 
-  /// How far a state lies outside the walls [m] (negative: inside), and how fast it goes on outwards.
-  [[nodiscard]] double beyond(const Motion& s, double& leaving) const {
-    double distance = walls_.x_min - s.position.x;
-    leaving = -s.velocity.x;
-    if (const double d = s.position.x - walls_.x_max; d > distance) distance = d, leaving = s.velocity.x;
-    if (const double d = walls_.y_min - s.position.y; d > distance) distance = d, leaving = -s.velocity.y;
-    if (const double d = s.position.y - walls_.y_max; d > distance) distance = d, leaving = s.velocity.y;
-    return distance;
+  /// The walls that p lies beyond, as touching() tells those it touches.
+  [[nodiscard]] Contact passed(core::Vec2 p) const {
+    return {p.x < walls_.x_min ? -1 : (p.x > walls_.x_max ? 1 : 0), p.y < walls_.y_min ? -1 : (p.y > walls_.y_max ? 1 : 0)};
+  }
+
+  struct Beyond {
+    double distance;  ///< [m]; negative: inside
+    double leaving;   ///< [m/s], outwards
+  };
+
+  /// Where a state is to the wall that it lies the furthest beyond, of those `met` and any that it is clearly beyond.
+  [[nodiscard]] Beyond beyond(const Motion& s, Contact met) const {
+    Beyond most{-std::numeric_limits<double>::infinity(), 0.0};
+    const auto look = [&](bool counts, double distance, double leaving) {
+      if ((counts || distance > tolerance_) && distance > most.distance) most = {distance, leaving};
+    };
+    look(met.x < 0, walls_.x_min - s.position.x, -s.velocity.x);
+    look(met.x > 0, s.position.x - walls_.x_max, s.velocity.x);
+    look(met.y < 0, walls_.y_min - s.position.y, -s.velocity.y);
+    look(met.y > 0, s.position.y - walls_.y_max, s.velocity.y);
+    return most;
   }
 
   /// p, put onto the wall that it lies at but for rounding, or beyond.

@@ -85,15 +85,15 @@ class Stepper {
       const bool capped = kRules && h <= shortest_ && is_too_long(start, h);
       ++counters.sub_steps;
 
-      if (turns_with_v && start.speed2 > 0.0 && turns_too_far(start, h)) {
+      if (turns_with_v && start.speed2 > 0.0 && turns_too_far(start, drive, h)) {
         const double rate = speed_rate(start, speed);
-        h = turn_limited(start, rate, h);
-        const Halt halt = halts(start, speed, rate, h, louse.heading, drive);
+        const bool resolved = limit_turn(start, drive, rate, h);
+        const Halt halt = halts(start, speed, rate, h, resolved, louse.heading, drive);
         if (halt != Halt::kNo) {
-          const double time = -speed / rate;
+          const double time = speed < -rate * remaining ? -speed / rate : remaining;
           louse.distance += 0.5 * time * speed;
           louse.heading = direction(at.velocity);
-          at = {rim_.inside(at.position + (0.5 * time) * at.velocity), {}};
+          at = {rim_.stopped(at.position + (0.5 * time) * at.velocity), {}};
           remaining -= time;
           integrator = I{};
           if (halt == Halt::kTurnsBack) continue;
@@ -159,7 +159,7 @@ class Stepper {
   /// On flat ground the steps themselves are exact where nothing but gravity acts.
   static constexpr bool kKeepsEnergy = E::kExact && I::kKeepsEnergy && kConservative<F> && kCurved;
   static constexpr int kMaxBounces = 8;
-  static constexpr int kMaxPieces = 2048;  // sub-steps, impacts and stops of one tick, whatever happens
+  static constexpr int kMaxPieces = 1024;  // sub-steps, impacts and stops of one tick, whatever happens
 
   enum class Halt { kNo, kRests, kTurnsBack };
 
@@ -183,8 +183,7 @@ class Stepper {
         ++bounces;
         ++counters.bounces;
       }
-      if (v.x != 0.0) start.contact.x = 0;
-      if (v.y != 0.0) start.contact.y = 0;
+      lean_on(start, drive);
     }
     start.speed2 = squared_length_in_space(start.sample, start.at.velocity);
     if (kRules && !(start.speed2 > kStandstill2)) {
@@ -193,6 +192,31 @@ class Stepper {
     }
     start.acceleration = ground_.accelerate(start.sample, start.at.velocity, drive, start.contact);
     return start;
+  }
+
+  /// Of the walls that are touched, leaves those in `contact` that the louse leans on: no velocity along their normals.
+  /// One that it leaves so slowly that it is back within rounding of the wall, it has not left: without that, a louse
+  /// in a corner would bounce off two walls without end.
+  void lean_on(Start& start, const Drive& drive) const {
+    const Contact touched = start.contact;
+    core::Vec2& v = start.at.velocity;
+    start.contact = {v.x != 0.0 ? 0 : touched.x, v.y != 0.0 ? 0 : touched.y};
+    const Contact left{touched.x - start.contact.x, touched.y - start.contact.y};
+    if (!left.any()) return;
+    const core::Vec2 a = ground_.accelerate(start.sample, v, drive, start.contact);
+    const auto falls_back = [&](int side, double leaving, double pull) {
+      return outward(side, pull) && leaving * leaving <= 4.0 * rim_.tolerance() * std::fabs(pull);
+    };
+    const bool x = falls_back(left.x, v.x, a.x);
+    const bool y = falls_back(left.y, v.y, a.y);
+    if (!x && !y) return;
+    const Contact leans{x ? touched.x : start.contact.x, y ? touched.y : start.contact.y};
+    if (leans.x != 0 && leans.y != 0) {
+      v = {0.0, 0.0};
+    } else {
+      v = x ? react_x(start.sample, v, 1.0) : react_y(start.sample, v, 1.0);
+    }
+    start.contact = leans;
   }
 
   [[nodiscard]] static bool is_held(const Start& start, const RestingBalance& b) {
@@ -215,8 +239,9 @@ class Stepper {
     return rules_.too_long(start.sample, start.speed2, h);
   }
 
-  [[nodiscard]] static bool turns_too_far(const Start& start, double h) {
-    return SubStepRules::turns_too_far(squared_length_in_space(start.sample, start.acceleration), start.speed2, h);
+  [[nodiscard]] bool turns_too_far(const Start& start, const Drive& drive, double h) const {
+    const double a2 = squared_length_in_space(start.sample, start.acceleration);
+    return SubStepRules::turns_too_far(a2 + rules_.stiffness2(drive.along), start.speed2, h);
   }
 
   /// d|v|3/dt at the start; REQUIRES speed > 0.
@@ -228,19 +253,22 @@ class Stepper {
     return (dot(v, a) + vz * (s.zx * a.x + s.zy * a.y + curvature_along(s, v))) / speed;
   }
 
-  /// The longest halving of h in which v's direction can be trusted; speeding up, only what acts across v
-  /// swings it.
-  [[nodiscard]] double turn_limited(const Start& start, double rate, double h) const {
-    double a2 = squared_length_in_space(start.sample, start.acceleration);
+  /// Halves h until v's direction can be trusted, or the shortest sub-step is reached (false); speeding up, only what
+  /// acts across v swings it.
+  [[nodiscard]] bool limit_turn(const Start& start, const Drive& drive, double rate, double& h) const {
+    double a2 = squared_length_in_space(start.sample, start.acceleration) + rules_.stiffness2(drive.along);
     if (rate > 0.0) a2 -= rate * rate;
     while (h > shortest_ && SubStepRules::turns_too_far(a2, start.speed2, h)) h *= 0.5;
-    return h;
+    return !SubStepRules::turns_too_far(a2, start.speed2, h);
   }
 
-  [[nodiscard]] Halt halts(const Start& start, double speed, double rate, double h, core::Vec2 heading,
+  /// resolved: as limit_turn says. Slower than that a louse that can be held is at its end.
+  [[nodiscard]] Halt halts(const Start& start, double speed, double rate, double h, bool resolved, core::Vec2 heading,
                            const Drive& drive) const {
-    if (speed + h * rate > 0.0) return Halt::kNo;
+    const bool stops = !(speed + h * rate > 0.0);
+    if (!stops && resolved) return Halt::kNo;
     if (is_held(start, ground_.balance(start, heading, drive))) return Halt::kRests;
+    if (!stops) return Halt::kNo;
     const double a2 = squared_length_in_space(start.sample, start.acceleration);
     return a2 - rate * rate <= 1e-12 * a2 ? Halt::kTurnsBack : Halt::kNo;
   }

@@ -1,7 +1,9 @@
 // When a step is too long, as functions of the state alone. A sub-step h is halved while
 //     h |v| |H|_F > kBend   or   h sqrt(g |H|_F) > kSwing   or   h d > kDecay   or   h |v| > one cell,
 // and, where a force turns with v (friction, a drive along the heading), while h |a| > kTurn |v|: near a stop the
-// direction of v swings. Slope is no limit; curvature times speed, and gravity times curvature, are.
+// direction of v swings. What holds against v, friction and brake of b m/s^2 in all, draws that direction to the pull's
+// at a rate of b / |v|, though |a| may be small: that counts as if |a|^2 were greater by (b kTurn / 2)^2, which keeps
+// h b below 2 |v|. Slope is no limit; curvature times speed, and gravity times curvature, are.
 // The comparisons are between squares and fourth powers: no roots. T is double, or several at once.
 #pragma once
 
@@ -18,7 +20,8 @@ class SubStepRules {
   SubStepRules(const Parameters& p, double cell, double tick)
       : longest_(p.drag > 0.0 && kDecay / p.drag < tick ? kDecay / p.drag : tick),
         inverse_cell2_(1.0 / (cell * cell)),
-        swing_factor_(p.gravity * p.gravity / (kSwing * kSwing * kSwing * kSwing)) {}
+        swing_factor_(p.gravity * p.gravity / (kSwing * kSwing * kSwing * kSwing)),
+        grip_(p.friction * p.gravity) {}
 
   /// Whether curvature, speed, drag or the cells ask for less than h. speed2: |v|3^2.
   template <typename Sample, typename T>
@@ -37,10 +40,16 @@ class SubStepRules {
   /// The same for a force of that stiffness [1/s^2] (central gravity: k / r^3).
   [[nodiscard]] static bool swings_too_far(double stiffness, double h) { return h * h * stiffness > kSwing * kSwing; }
 
-  /// Whether v may turn too far within h; only where some force turns with v.
+  /// Whether v may turn too far within h; only where some force turns with v. acceleration2: with stiffness2() in it.
   template <typename T>
   [[gnu::always_inline, nodiscard]] static inline auto turns_too_far(T acceleration2, T speed2, T h) {
     return h * h * acceleration2 > T(kTurn * kTurn) * speed2;
+  }
+
+  /// What friction and a drive along v add to |a|^2 in turns_too_far. along: of the drive [m/s^2]; negative brakes.
+  template <typename T>
+  [[gnu::always_inline, nodiscard]] inline T stiffness2(T along) const {
+    return squared(T(0.5 * kTurn) * (T(grip_) + core::select(along < T(0.0), -along, T(0.0))));
   }
 
  private:
@@ -52,6 +61,7 @@ class SubStepRules {
   double longest_;
   double inverse_cell2_;
   double swing_factor_;
+  double grip_;  ///< what friction can hold on the level [m/s^2]
 };
 
 }  // namespace woodlouse::physics

@@ -65,6 +65,25 @@ TEST_CASE("a louse is not put to sleep at a pendulum's turning point") {
   CHECK(run.louse.phase == Phase::kResting);
 }
 
+TEST_CASE("no louse creeps where friction can hold it: pushed off anywhere, all of them rest in the end") {
+  for (const FunctionName name : terrain::kFunctionNames) {
+    const FunctionSurface f(name, 20.0);
+    for (const double friction : {0.02, 0.05, 0.3}) {
+      core::Random random(9);
+      const auto symmetric = [&](double size) { return size * (2 * random.uniform() - 1); };
+      const Parameters p{.gravity = 9.81, .drag = 0.2, .friction = friction, .thrust_max = 0.0};
+      for (int i = 0; i < 12; ++i) {
+        const auto run = tests::run<Forces<true, true, false>>(f, p, moving({symmetric(18), symmetric(18)}, {symmetric(3), symmetric(3)}), 60,
+                                                               60 * 240, f.domain(), [](const Louse& l) { return l.phase == Phase::kMoving; });
+        INFO(terrain::to_text(name) << ", friction " << friction << ", louse " << i << ", speed "
+                                    << std::hypot(run.louse.velocity.x, run.louse.velocity.y));
+        CHECK(run.louse.phase == Phase::kResting);
+        CHECK(run.counters.sub_steps < 4 * run.counters.louse_steps + 600);
+      }
+    }
+  }
+}
+
 TEST_CASE("friction and drag never add energy, on any function, at any rate") {
   core::Random random(8);
   for (const FunctionName name : terrain::kFunctionNames) {

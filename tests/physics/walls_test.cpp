@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "shared/core/random.h"
+#include "shared/physics/ground_steps.h"
 #include "shared/terrain/bicubic_spline.h"
 #include "tests/support/motion.h"
 
@@ -126,4 +127,37 @@ TEST_CASE("a bouncing louse on the flat hits where the closed form says") {
   // 0.5 s to the wall, 2 s back at half the speed: it is at the other wall at 2.5 s.
   CHECK(run.louse.position.x == Approx(0.0).margin(1e-12));
   CHECK(run.counters.bounces >= 1);
+}
+
+TEST_CASE("lice that push into walls and corners cost few sub-steps, and none stands there with a speed") {
+  for (const FunctionName name : {FunctionName::kHills, FunctionName::kWaves}) {
+    const terrain::BicubicSpline ground(terrain::sample_function(name, 20.0, 10));
+    for (const Parameters& forces : {Parameters{.drag = 0.0, .friction = 0.0, .thrust_max = 6.0},
+                                     Parameters{.drag = 0.2, .friction = 0.0, .thrust_max = 6.0},
+                                     Parameters{.drag = 0.2, .friction = 0.05, .thrust_max = 6.0}}) {
+      for (const double restitution : {0.0, 0.5, 1.0}) {
+        Parameters p = forces;
+        p.edge_restitution = restitution;
+        const auto steps = make_ground_steps(ground, {p, ground.domain(), 1.0 / 60});
+        core::Random random(12);
+        const auto symmetric = [&](double size) { return size * (2 * random.uniform() - 1); };
+        for (int i = 0; i < 24; ++i) {
+          Louse louse = moving({symmetric(19.9), symmetric(19.9)}, {symmetric(4), symmetric(4)});
+          louse.thrust_kind = ThrustKind::kMapVector;
+          louse.thrust_ticks = kHeld;
+          BatchLists lists;
+          for (int tick = 0; tick < 1200 && louse.phase == Phase::kMoving; ++tick) {
+            if (tick % 400 == 0) louse.thrust = core::Vec2{0.7 * std::cos(i + tick), 0.7 * std::sin(i + tick)};
+            const Louse before = louse;
+            StepCounters counters;
+            const std::uint32_t index = 0;
+            steps->advance({&louse, 1}, {&index, 1}, {}, lists, counters);
+            INFO(terrain::to_text(name) << ", restitution " << restitution << ", louse " << i << ", tick " << tick);
+            REQUIRE(counters.sub_steps < 600);
+            REQUIRE((louse.position != before.position || dot(louse.velocity, louse.velocity) < 1e-6));
+          }
+        }
+      }
+    }
+  }
 }
