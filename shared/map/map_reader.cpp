@@ -70,6 +70,9 @@ physics::Parameters read_physics(const json::Value& value, Problems& problems) {
   result.central_gravity = fields.number_or("central_gravity", kCentralGravity, result.central_gravity) + 0.0;
   read_choice(fields, "contact", result.contact, physics::contact_from_text, "bilateral or unilateral", problems);
   read_choice(fields, "method", result.method, physics::method_from_text, "standard, cheap or precise", problems);
+  if (result.contact == physics::SurfaceContact::kUnilateral && result.central_gravity > 0.0) {
+    problems.add(*fields.find("contact"), "flight knows no pull but gravity's", "leave central_gravity out, or take bilateral");
+  }
   return result;
 }
 

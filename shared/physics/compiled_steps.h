@@ -48,8 +48,7 @@ class CompiledSteps final : public GroundSteps {
                        const BatchStep& batch, BatchLists& lists, StepCounters& counters) const {
     // Whoever leaves the interior takes the scalar step, which knows of walls and seams.
     const terrain::Rectangle interior = Rim(rules_.walls, rules_.parameters.edges).interior();
-    BatchContext context{{}, {}, rules_.parameters, interior, rules_.tick,
-                         SubStepRules(rules_.parameters, ground_.cell(), rules_.tick)};
+    BatchContext context{{}, {}, rules_.parameters, interior, rules_.tick, stepper.rules()};
     if constexpr (std::is_same_v<S, terrain::PlaneSurface>) {
       context.slope = ground_.slope();
     } else {

@@ -52,7 +52,7 @@ template <terrain::Surface S>
 class Flyer {
  public:
   Flyer(const S& surface, const Parameters& parameters, const Rim& rim, double tick)
-      : surface_(surface), parameters_(parameters), rim_(rim), longest_(tick / 32.0) {}
+      : surface_(surface), parameters_(parameters), rim_(rim), longest_(std::isfinite(surface.cell()) ? tick : tick / 32.0) {}
 
   struct Piece {
     double time = 0.0;    ///< [s], > 0

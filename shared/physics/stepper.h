@@ -47,8 +47,10 @@ class Stepper {
         rim_(walls, parameters.edges),
         tick_(tick),
         shortest_(tick / SubStepRules::kMaxSubSteps),
-        rules_(parameters, surface.cell(), tick),
+        rules_(parameters, (kKeepsEnergy ? 0.5 : 1.0) * surface.cell(), tick),
         unilateral_(E::kExact && kCurved && parameters.contact == SurfaceContact::kUnilateral) {}
+
+  [[nodiscard]] const SubStepRules& rules() const { return rules_; }
 
   /// Moves the louse through one tick. Its thrust is not counted down here.
   void advance(Louse& louse, StepCounters& counters) const {

@@ -1,5 +1,6 @@
 // When a step is too long, as functions of the state alone. A sub-step h is halved while
-//     h |v| |H|_F > kBend   or   h sqrt(g |H|_F) > kSwing   or   h d > kDecay   or   h |v| > one cell,
+//     h |v| |H|_F > kBend   or   h sqrt(g |H|_F) > kSwing   or   h sqrt(k / r^3) > kOrbit   or   h d > kDecay   or
+//     h |v| > one cell (where energy is kept: half a cell; two knot lines in a step err beyond what one projection mends),
 // and, where a force turns with v (friction, a drive along the heading), while h |a| > kTurn |v|: near a stop the
 // direction of v swings. What holds against v, friction and brake of b m/s^2 in all, draws that direction to the pull's
 // at a rate of b / |v|, though |a| may be small: that counts as if |a|^2 were greater by (b kTurn / 2)^2, which keeps
@@ -16,10 +17,10 @@ class SubStepRules {
  public:
   static constexpr double kMaxSubSteps = 256.0;  ///< of a tick
 
-  /// cell: side of the surface's smallest cell [m]; drag: whether the map has it.
-  SubStepRules(const Parameters& p, double cell, double tick)
+  /// way: the longest that a sub-step may lead, the side of the surface's smallest cell or a part of it [m].
+  SubStepRules(const Parameters& p, double way, double tick)
       : longest_(p.drag > 0.0 && kDecay / p.drag < tick ? kDecay / p.drag : tick),
-        inverse_cell2_(1.0 / (cell * cell)),
+        inverse_way2_(1.0 / (way * way)),
         swing_factor_(p.gravity * p.gravity / (kSwing * kSwing * kSwing * kSwing)),
         grip_(p.friction * p.gravity) {}
 
@@ -31,14 +32,14 @@ class SubStepRules {
       const T hessian2 = s.zxx * s.zxx + T(2.0) * s.zxy * s.zxy + s.zyy * s.zyy;
       const T way2 = h2 * speed2;
       return (way2 * hessian2 > T(kBend * kBend)) | (h2 * h2 * hessian2 * T(swing_factor_) > T(1.0)) |
-             (way2 * T(inverse_cell2_) > T(1.0)) | (h > T(longest_));
+             (way2 * T(inverse_way2_) > T(1.0)) | (h > T(longest_));
     } else {
       return h > T(longest_);  // flat ground has no cells either
     }
   }
 
-  /// The same for a force of that stiffness [1/s^2] (central gravity: k / r^3).
-  [[nodiscard]] static bool swings_too_far(double stiffness, double h) { return h * h * stiffness > kSwing * kSwing; }
+  /// Whether central gravity asks for less than h; pull: k / r^3 [1/s^2].
+  [[nodiscard]] static bool swings_too_far(double pull, double h) { return h * h * pull > kOrbit * kOrbit; }
 
   /// Whether v may turn too far within h; only where some force turns with v. acceleration2: with stiffness2() in it.
   template <typename T>
@@ -55,11 +56,12 @@ class SubStepRules {
  private:
   static constexpr double kBend = 0.15;
   static constexpr double kSwing = 0.20;
+  static constexpr double kOrbit = 0.05;
   static constexpr double kDecay = 0.25;
   static constexpr double kTurn = 0.10;
 
   double longest_;
-  double inverse_cell2_;
+  double inverse_way2_;
   double swing_factor_;
   double grip_;  ///< what friction can hold on the level [m/s^2]
 };

@@ -212,18 +212,19 @@ std::string flat_map(const std::string& physics, const std::string& spawn = "") 
 
 TEST_CASE("contact, method, central gravity and a spawn's speed are read, kept and refused by name") {
   using namespace woodlouse;
-  const auto map = map::parse_map(
-      flat_map(R"("contact":"unilateral","method":"precise","central_gravity":2.5)", R"(,"speed":3.5)"), "m", {});
-  REQUIRE(map.has_value());
-  const auto& definition = (*map)->definition;
-  CHECK(definition.physics.contact == physics::SurfaceContact::kUnilateral);
-  CHECK(definition.physics.method == physics::Method::kPrecise);
-  CHECK(definition.physics.central_gravity == 2.5);
-  CHECK(definition.spawns.front().speed == 3.5);
-  const auto again = map::parse_map((*map)->canonical, "canonical", {});
-  REQUIRE(again.has_value());
-  CHECK((*again)->canonical == (*map)->canonical);
-  CHECK((*again)->definition.physics == definition.physics);
+  const auto read_twice = [](const std::string& physics) {
+    const auto map = map::parse_map(flat_map(physics, R"(,"speed":3.5)"), "m", {});
+    REQUIRE(map.has_value());
+    const auto again = map::parse_map((*map)->canonical, "canonical", {});
+    REQUIRE(again.has_value());
+    CHECK((*again)->canonical == (*map)->canonical);
+    CHECK((*again)->definition.physics == (*map)->definition.physics);
+    CHECK((*map)->definition.spawns.front().speed == 3.5);
+    return (*map)->definition.physics;
+  };
+  CHECK(read_twice(R"("contact":"unilateral")").contact == physics::SurfaceContact::kUnilateral);
+  CHECK(read_twice(R"("method":"precise")").method == physics::Method::kPrecise);
+  CHECK(read_twice(R"("central_gravity":2.5)").central_gravity == 2.5);
 
   const auto refusal = [](const std::string& physics, const std::string& spawn = "") {
     const auto refused = map::parse_map(flat_map(physics, spawn), "m", {});
@@ -232,6 +233,7 @@ TEST_CASE("contact, method, central gravity and a spawn's speed are read, kept a
   CHECK(refusal(R"("contact":"loose")").find("m:1: physics.contact") == 0);
   CHECK(refusal(R"("contact":"loose")").find("bilateral or unilateral") != std::string::npos);
   CHECK(refusal(R"("method":1)").find("standard, cheap or precise") != std::string::npos);
+  CHECK(refusal(R"("central_gravity":1,"contact":"unilateral")").find("flight knows no pull") != std::string::npos);
   CHECK(refusal(R"("central_gravity":-1)").find("physics.central_gravity") != std::string::npos);
   CHECK(refusal("", R"(,"speed":-1)").find("spawns[0].speed") != std::string::npos);
 }
