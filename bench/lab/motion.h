@@ -1,6 +1,7 @@
 // Lice for measurements, and what is asked of them: samples, energies, no walls.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <variant>
 
@@ -23,6 +24,8 @@ inline terrain::SurfaceSample sample_of(const terrain::AnySurface& surface, core
 inline double energy_of(const terrain::SurfaceSample& s, core::Vec2 velocity, double gravity) {
   return 0.5 * physics::squared_length_in_space(s, velocity) + gravity * s.z;
 }
+
+inline double distance(core::Vec2 a, core::Vec2 b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 inline physics::Louse louse_at(core::Vec2 position, core::Vec2 velocity) {
   physics::Louse louse;

@@ -1,6 +1,7 @@
 // Things chosen by name: an unknown one is answered with the list of those there are.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,6 +40,11 @@ inline core::Expected<physics::Equations> equations_named(std::string_view text)
 }
 inline core::Expected<physics::Integrator> integrator_named(std::string_view text) {
   return chosen("--integrator", text, physics::integrator_from_text(text), names_of(physics::kIntegrators));
+}
+
+inline constexpr std::array kContacts = {physics::SurfaceContact::kBilateral, physics::SurfaceContact::kUnilateral};
+inline core::Expected<physics::SurfaceContact> contact_named(std::string_view text) {
+  return chosen("--contact", text, physics::contact_from_text(text), names_of(kContacts));
 }
 
 }  // namespace woodlouse::lab

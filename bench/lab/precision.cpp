@@ -1,10 +1,15 @@
-// `precision`: run time against error, of the integrators and of the surfaces.
-#include <iostream>
+// `precision`: run time against error, of the integrators, of the surfaces, under central gravity and in flight.
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
 
 #include "bench/lab/job.h"
 #include "bench/lab/names.h"
 #include "bench/lab/output.h"
+#include "bench/lab/precision_flight.h"
 #include "bench/lab/precision_integrators.h"
+#include "bench/lab/precision_kepler.h"
 #include "bench/lab/precision_surfaces.h"
 #include "bench/lab/race.h"
 
@@ -14,14 +19,39 @@ namespace {
 struct PrecisionOptions {
   Output output;
   std::string function = "wavy_pot";
+  std::string only;  ///< empty: all
 };
+
+constexpr std::array<std::string_view, 4> kProblems = {"integrators", "surfaces", "kepler", "flight"};
+
+std::string problem_names() {
+  std::string names;
+  for (const std::string_view problem : kProblems) names += (names.empty() ? "" : " ") + std::string(problem);
+  return names;
+}
 
 core::Expected<void> run(const PrecisionOptions& options) {
   const auto function = function_named(options.function);
   if (!function) return tl::unexpected(function.error());
+  if (!options.only.empty() && std::find(kProblems.begin(), kProblems.end(), options.only) == kProblems.end()) {
+    return core::fail("--only", "there is no \"" + options.only + "\"", "one of: " + problem_names());
+  }
   pin_to_core();
-  if (auto done = measure_integrators(*function, options.output); !done) return done;
-  return measure_surfaces(*function, options.output);
+  const auto wanted = [&](std::string_view problem) { return options.only.empty() || options.only == problem; };
+  if (wanted("integrators")) {
+    if (auto done = measure_integrators(*function, options.output); !done) return done;
+  }
+  if (wanted("surfaces")) {
+    if (auto done = measure_surfaces(*function, options.output); !done) return done;
+  }
+  if (wanted("kepler")) {
+    if (auto done = measure_kepler(options.output); !done) return done;
+  }
+  if (wanted("flight")) {
+    if (auto done = measure_flight(options.output); !done) return done;
+    return measure_flight_cost(options.output);
+  }
+  return {};
 }
 
 }  // namespace
@@ -30,11 +60,15 @@ void add_precision(CLI::App& app, Job& job) {
   CLI::App* command = app.add_subcommand("precision", "Work-precision diagrams: nanoseconds against error.");
   const auto options = std::make_shared<PrecisionOptions>();
   command->add_option("--function", options->function, names_of(terrain::kFunctionNames))->capture_default_str();
+  command->add_option("--only", options->only, problem_names() + "; all of them when left out");
   add_output_options(*command, options->output);
   command->footer(
-      "Writes lab-precision-integrators and lab-precision-surfaces as .csv, .svg and .png.\n"
+      "Writes lab-precision-integrators, -surfaces, -kepler and -flight as .csv, .svg and .png, -flight-cost as .csv.\n"
       "Example:\n  woodlouse-lab precision --quick --out .");
-  command->callback([options, &job] { job = [options] { return run(*options); }; });
+  command->callback([options, &job] {
+    if (!options->only.empty()) options->output.command += " --only " + options->only;
+    job = [options] { return run(*options); };
+  });
 }
 
 }  // namespace woodlouse::lab

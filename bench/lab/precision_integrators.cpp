@@ -4,13 +4,14 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <sstream>
+#include <utility>
 #include <vector>
 
 #include "bench/lab/motion.h"
 #include "bench/lab/progress.h"
 #include "bench/lab/race.h"
 #include "bench/lab/reference_motion.h"
+#include "bench/lab/work_precision.h"
 #include "shared/core/random.h"
 #include "shared/physics/laboratory.h"
 
@@ -56,8 +57,6 @@ physics::Motion reference_end(const terrain::AnySurface& surface, const physics:
   return reference_motion(std::get<terrain::FunctionSurface>(surface), start, kSeconds, h, free_motion());
 }
 
-double distance(core::Vec2 a, core::Vec2 b) { return std::hypot(a.x - b.x, a.y - b.y); }
-
 struct Measured {
   Integrator integrator;
   double rate;
@@ -101,28 +100,20 @@ core::Expected<Contestant> runner(const Ground& ground, const Measured& m, const
 }
 
 std::string picture(const Table& table, const std::vector<Ground>& all) {
-  std::ostringstream script;
-  script << "set logscale xy\nset format x '10^{%L}'\nset format y '10^{%L}'\nset grid\nset key left bottom font ',9'\n"
-         << "set xlabel 'ns per simulated second'\nset ylabel 'position error after 10 s [m]'\nset yrange [1e-14:10]\n"
-         << "set multiplot layout 1," << all.size() << "\nset xrange [1e3:1e7]\n";
+  std::vector<Panel> panels;
   for (const Ground& ground : all) {
-    std::ostringstream plots;
-    std::size_t index = 0;
+    Panel panel{ground.name, "position error after 10 s [m]", {}};
     for (const Integrator integrator : physics::kIntegrators) {
-      const std::string block = "$d" + std::to_string(index);
-      script << block << " << EOD\n";
+      Curve curve{std::string(to_text(integrator)), {}};
       for (const auto& row : table.rows()) {
-        if (std::get<std::string>(row[0]) != ground.name || std::get<std::string>(row[1]) != to_text(integrator)) continue;
-        if (std::get<double>(row[6]) < 10.0) script << std::get<double>(row[4]) << ' ' << std::max(std::get<double>(row[6]), 1e-14) << '\n';
+        if (std::get<std::string>(row[0]) != ground.name || std::get<std::string>(row[1]) != curve.name) continue;
+        curve.points.emplace_back(std::get<double>(row[4]), std::get<double>(row[6]));
       }
-      script << "EOD\n";
-      plots << (index == 0 ? "plot " : ", ") << block << " with linespoints lw 1.5 pt " << index + 4 << " ps 0.6 title '"
-            << to_text(integrator) << "' noenhanced";
-      ++index;
+      panel.curves.push_back(std::move(curve));
     }
-    script << "set title '" << ground.name << "' noenhanced\n" << plots.str() << '\n';
+    panels.push_back(std::move(panel));
   }
-  return script.str() + "unset multiplot\n";
+  return work_precision_picture(panels);
 }
 
 }  // namespace

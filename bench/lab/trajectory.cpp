@@ -25,19 +25,43 @@ struct TrajectoryOptions {
   double gravity = 9.81;
   double drag = 0.0;
   double friction = 0.0;
+  double central_gravity = 0.0;
+  std::string contact = "bilateral";
   std::string thrust = "0,0";
   std::size_t every = 1;
   bool quick = false;
 };
 
-void print_row(double t, const terrain::AnySurface& surface, const physics::Louse& louse, double gravity) {
+void print_row(double t, const terrain::AnySurface& surface, const physics::Louse& louse, const physics::Parameters& parameters) {
+  const core::Vec2 v = louse.velocity;
+  const bool flies = louse.phase == physics::Phase::kFlying;
   const terrain::SurfaceSample s = sample_of(surface, louse.position);
+  const double z = flies ? louse.flight_z : s.z;
+  double energy = flies ? 0.5 * (dot(v, v) + louse.flight_vz * louse.flight_vz) + parameters.gravity * z
+                        : energy_of(s, v, parameters.gravity);
+  if (parameters.central_gravity > 0.0) energy -= parameters.central_gravity / std::hypot(louse.position.x, louse.position.y);
   std::cout << exact_text(t);
-  for (const double value : {louse.position.x, louse.position.y, s.z, louse.velocity.x, louse.velocity.y,
-                             energy_of(s, louse.velocity, gravity)}) {
-    std::cout << ',' << exact_text(value);
-  }
+  for (const double value : {louse.position.x, louse.position.y, z, v.x, v.y, energy}) std::cout << ',' << exact_text(value);
   std::cout << '\n';
+}
+
+/// What only the exact equations have, and what does not go together.
+core::Expected<physics::Parameters> parameters_of(const TrajectoryOptions& options, const physics::Louse& louse,
+                                                  physics::Equations equations) {
+  const auto contact = contact_named(options.contact);
+  if (!contact) return tl::unexpected(contact.error());
+  const double thrust_max = louse.thrust_kind == physics::ThrustKind::kNone ? 0.0 : 1.0;  // without any, energy is kept
+  physics::Parameters parameters{options.gravity, options.drag, options.friction, thrust_max, 1.0};
+  parameters.contact = *contact;
+  parameters.central_gravity = options.central_gravity;
+  const bool flies = *contact == physics::SurfaceContact::kUnilateral;
+  if (equations != physics::Equations::kSurface && (flies || options.central_gravity > 0.0)) {
+    return core::fail("--equations", "the document's have neither flight nor central gravity", "take --equations surface");
+  }
+  if (flies && options.central_gravity > 0.0) {
+    return core::fail("--contact", "a flight's parabola knows no central gravity", "take one of the two");
+  }
+  return parameters;
 }
 
 core::Expected<physics::Louse> start_of(const TrajectoryOptions& options) {
@@ -59,8 +83,9 @@ core::Expected<void> run(const TrajectoryOptions& options) {
   if (!integrator) return tl::unexpected(integrator.error());
   auto louse = start_of(options);
   if (!louse) return tl::unexpected(louse.error());
-  const physics::Parameters parameters{options.gravity, options.drag, options.friction, 1.0, 1.0};
-  const auto stepper = physics::make_stepper(*surface, *equations, *integrator, parameters, kNowhere, 1.0 / options.rate);
+  const auto parameters = parameters_of(options, *louse, *equations);
+  if (!parameters) return tl::unexpected(parameters.error());
+  const auto stepper = physics::make_stepper(*surface, *equations, *integrator, *parameters, kNowhere, 1.0 / options.rate);
   if (!stepper) return tl::unexpected(stepper.error());
 
   const double seconds = options.quick ? std::fmin(options.seconds, 1.0) : options.seconds;
@@ -68,10 +93,10 @@ core::Expected<void> run(const TrajectoryOptions& options) {
   Progress progress("trajectory", ticks);
   physics::StepCounters counters;
   std::cout << "t,x,y,z,vx,vy,energy\n";
-  print_row(0.0, *surface, *louse, options.gravity);
+  print_row(0.0, *surface, *louse, *parameters);
   for (std::size_t tick = 1; tick <= ticks; ++tick) {
     (*stepper)->advance(std::span(&*louse, 1), counters);  // a louse at rest stays where it is
-    if (tick % options.every == 0) print_row(static_cast<double>(tick) / options.rate, *surface, *louse, options.gravity);
+    if (tick % options.every == 0) print_row(static_cast<double>(tick) / options.rate, *surface, *louse, *parameters);
     progress.advance();
   }
   if (!std::cout.flush()) return core::fail("standard output", "can't be written");
@@ -94,14 +119,17 @@ void add_trajectory(CLI::App& app, Job& job) {
   command->add_option("--gravity", o.gravity, "[m/s^2]")->check(any_size)->capture_default_str();
   command->add_option("--drag", o.drag, "viscous [1/s]")->check(any_size)->capture_default_str();
   command->add_option("--mu", o.friction, "Coulomb friction [1]")->check(any_size)->capture_default_str();
+  command->add_option("--central-gravity", o.central_gravity, "pull towards the origin, k / r^2 [m^3/s^2]")->check(any_size)->capture_default_str();
+  command->add_option("--contact", o.contact, names_of(kContacts) + "; unilateral: where it would be pulled to the ground, it flies")->capture_default_str();
   command->add_option("--thrust", o.thrust, "tx,ty [m/s^2], a map vector along the tangent, unclamped")->capture_default_str();
   command->add_option("--every", o.every, "print each N-th step")->check(CLI::Range(1, 1000000000))->capture_default_str();
   command->add_flag("--quick", o.quick, "one second at most");
   command->footer(
       "Prints t,x,y,z,vx,vy,energy with 17 digits; energy is kinetic plus potential, per mass. Once at rest, the rows\n"
-      "go on.\n"
+      "go on. In flight, z is the louse's own height.\n"
       "Example:\n  woodlouse-lab trajectory --surface not_a_knot --function wavy_pot --grid 10 --integrator precise "
-      "--rate 60 --seconds 2 --state 0.8,0,0,1.5 --every 30");
+      "--rate 60 --seconds 2 --state 0.8,0,0,1.5 --every 30\n"
+      "  woodlouse-lab trajectory --surface function --function hills --contact unilateral --state 0.4,0,4,0 --seconds 0.5");
   command->callback([options, &job] { job = [options] { return run(*options); }; });
 }
 

@@ -25,6 +25,18 @@ class Messages(unittest.TestCase):
         self.assertIn("surface local_plane as_printed", self.refused(*start, "--equations", "plane"))
         self.assertIn("explicit_euler false_euler verlet_q verlet_q4 rk4 nystrom4 dopri5 precise", self.refused(*start, "--integrator", "euler"))
 
+    def test_an_unknown_contact_or_problem_lists_the_names(self):
+        self.assertIn("bilateral unilateral", self.refused("trajectory", "--surface", "function", "--contact", "glued"))
+        self.assertIn("integrators surfaces kepler flight", self.refused("precision", "--only", "planets"))
+
+    def test_flight_and_central_gravity_are_refused_where_nothing_computes_them(self):
+        start = ("trajectory", "--surface", "function")
+        pull, flight = ("--central-gravity", "1"), ("--contact", "unilateral")
+        for equations in ("local_plane", "as_printed"):
+            for option in (pull, flight):
+                self.assertIn("--equations surface", self.refused(*start, "--equations", equations, *option))
+        self.assertIn("parabola", self.refused(*start, *pull, *flight))
+
     def test_a_bad_csv_line_is_named_by_its_number(self):
         for line in ("0.5", "0.5,", "0.5,abc", "0.5,0.5,0.5", "nan,0", "1e999,0"):
             self.assertIn("standard input:3:", self.refused("sample", "--surface", "function", *POINTS, text=f"x,y\n0,0\n{line}\n0,0\n"), line)

@@ -66,7 +66,6 @@ TEST_CASE("level ground is that height exactly, wherever one looks") {
 }
 
 TEST_CASE("one knot that lies off the others' plane makes it none") {
-  core::Random random(5);
   const HeightGrid flat = inclined(2.0, 0.4, -0.3);
   REQUIRE(plane_through(flat));
   for (std::size_t knot = 0; knot < flat.heights.size(); ++knot) {
