@@ -74,7 +74,8 @@ inline physics::Motion reference_motion(const terrain::FunctionSurface& surface,
 inline physics::Motion reference_motion(const terrain::BicubicSpline& surface, physics::Motion at, double seconds,
                                         double h, const physics::Parameters& p) {
   using CellIndex = terrain::BicubicSpline::CellIndex;
-  const CellIndex last = surface.cell_at(1e300, 1e300);
+  constexpr double kFarOutside = 1e9;  // metres; a cell's number must fit into an integer
+  const CellIndex last = surface.cell_at(kFarOutside, kFarOutside);
   CellIndex cell = surface.cell_at(at.position.x, at.position.y);
   double remaining = seconds;
   while (remaining > 0.0) {

@@ -27,6 +27,7 @@ struct Seed {
 constexpr Seed kSeeds[] = {
     {"function", R"({"name":"f","terrain":{"function":"wavy_pot","grid":2,"scale":10},"surface":"function"})", 40},
     {"spline", R"({"name":"s","terrain":{"spacing":2,"heights":[[0,1,0,1],[1,0,0,1],[0,0,1,0],[1,0,0,0]]}})", 25},
+    {"plane", R"({"name":"p","terrain":{"spacing":2,"heights":[[0,1,2,3],[1,2,3,4],[2,3,4,5],[3,4,5,6]]}})", 25},
     {"flight",
      R"({"name":"j","terrain":{"function":"hills","scale":20},"surface":"function","physics":{"gravity":2,"contact":"unilateral","method":"cheap"},"spawns":[{"position":[0,0],"speed":30}]})",
      12},
