@@ -67,7 +67,7 @@ template <typename T>
   const T v_share = dot(by_velocity, gradient);
   const T x_share = dot(by_place, gradient);
   const T slope_along = v_share * v_share + x_share * x_share;
-  const Truth along = slope_along > T(0.5) * gradient2 * nearest;  // at most 1.5 times as long
+  const Truth along = slope_along > T(0.5) * gradient2 * nearest;  // at most sqrt(2) times as long
   const T slope = select(along, slope_along, nearest);
   const T scale2 = dot(v, v) + h * h * (T(gravity * gravity) * gradient2);  // what v is, and what gravity makes of it in h
   constexpr double kFar = 1e-3;

@@ -16,7 +16,7 @@
 // Continuity: C2; but the algorithm yields no second derivatives: has_hessian is false. Orders: 4 and 3
 // inside, 2 and 1 at the rim.
 // Outside the domain: the edge cell's polynomial goes on.
-// Memory: 40 bytes a knot. Cost: 0.6 us at 21 x 21 knots, 6.5 us at 201 x 201, 45 us at 1001 x 1001.
+// Memory: 40 bytes a knot. Cost: 0.4 us at 21 x 21 knots, 4.6 us at 201 x 201, 24 to 34 us at 1001 x 1001.
 #pragma once
 
 #include <array>
