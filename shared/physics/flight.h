@@ -77,7 +77,13 @@ class Flyer {
     if (clearance(end) <= 0.0) {
       double low = 0.0;
       double high = time;
-      if (clearance(flight) > 0.0) {  // else it never rose: it touches where the piece ends
+      // Who has just taken off is at the ground: a moment at which it was above it, before this hop's end.
+      bool above = clearance(flight) > 0.0;
+      for (int i = 0; i < 20 && !above; ++i) {
+        low = 0.5 * (i == 0 ? time : low);
+        above = clearance(after(flight, low)) > 0.0;
+      }
+      if (above) {  // else it never rose: it touches where the piece ends
         for (int i = 0; i < 60; ++i) {
           const double middle = 0.5 * (low + high);
           (clearance(after(flight, middle)) > 0.0 ? low : high) = middle;

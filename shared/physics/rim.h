@@ -31,7 +31,7 @@ class Rim {
       : domain_(domain),
         interior_(domain),
         walls_(domain),
-        tolerance_(1e-13 * (domain.x_max - domain.x_min + domain.y_max - domain.y_min)),
+        tolerance_(1e-13 * (finite_extent(domain.x_min, domain.x_max) + finite_extent(domain.y_min, domain.y_max))),
         edges_(edges) {
     if (edges == Edges::kWalls) return;
     constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -104,6 +104,9 @@ class Rim {
   }
 
  private:
+  /// 0 where it has none.
+  static double finite_extent(double low, double high) { return high - low < 1e300 ? high - low : 0.0; }
+
   /// The next smaller number.
   static double before(double x) {
     const auto bits = std::bit_cast<std::uint64_t>(x);

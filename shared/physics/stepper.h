@@ -4,7 +4,8 @@
 // A sub-step is halved at most to 1/256 of the tick; one that wanted to be shorter still is counted, and its
 // energy bounded.
 //
-// Stop: where friction can hold at v = 0 (the stick test) and |v| + h at <= 0, the louse halts after |v|/(-at).
+// Stop: where friction can hold at v = 0 (the stick test) and |v| + h at <= 0, or v is too small for the shortest
+// sub-step to resolve its direction, the louse halts after |v|/(-at).
 // Where it can't hold, it slows, turns and goes on; only when v and a are exactly opposite is v = 0 passed, by
 // splitting the sub-step there.
 //
@@ -264,12 +265,16 @@ class Stepper {
     return !SubStepRules::turns_too_far(a2, start.speed2, h);
   }
 
-  /// resolved: as limit_turn says. Slower than that a louse that can be held is at its end.
+  /// resolved: as limit_turn says. A louse that is slower than that, and can be held, is at its end; a fast one whose
+  /// friction turns with the ground's curvature is not, and friction that holds at v = 0 tells it apart: by itself it
+  /// makes |a| at most twice itself.
   [[nodiscard]] Halt halts(const Start& start, double speed, double rate, double h, bool resolved, core::Vec2 heading,
                            const Drive& drive) const {
     const bool stops = !(speed + h * rate > 0.0);
     if (!stops && resolved) return Halt::kNo;
-    if (is_held(start, ground_.balance(start, heading, drive))) return Halt::kRests;
+    const RestingBalance balance = ground_.balance(start, heading, drive);
+    if (!stops && speed > 20.0 * h * balance.hold) return Halt::kNo;
+    if (is_held(start, balance)) return Halt::kRests;
     if (!stops) return Halt::kNo;
     const double a2 = squared_length_in_space(start.sample, start.acceleration);
     return a2 - rate * rate <= 1e-12 * a2 ? Halt::kTurnsBack : Halt::kNo;

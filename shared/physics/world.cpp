@@ -27,9 +27,9 @@ List list_of(const Louse& louse) {
 /// The lanes' ground for a map, if they can step it: flight, central gravity and the other methods are not in them.
 std::optional<BatchGround> batch_ground(const terrain::Terrain& terrain, const Parameters& p) {
   if (p.central_gravity > 0.0 || p.method == Method::kCheap) return std::nullopt;
-  if (std::holds_alternative<terrain::PlaneSurface>(terrain.surface())) return BatchGround::kPlane;  // where nobody takes off, and nothing is split
-  const bool is_usual = p.contact == SurfaceContact::kBilateral && p.method == Method::kStandard;
-  return is_usual && std::holds_alternative<terrain::BicubicSpline>(terrain.surface()) ? std::optional(BatchGround::kBicubicSpline) : std::nullopt;
+  if (p.contact == SurfaceContact::kUnilateral) return std::nullopt;
+  if (std::holds_alternative<terrain::PlaneSurface>(terrain.surface())) return BatchGround::kPlane;  // nothing to split
+  return p.method == Method::kStandard && std::holds_alternative<terrain::BicubicSpline>(terrain.surface()) ? std::optional(BatchGround::kBicubicSpline) : std::nullopt;
 }
 
 void clear_thrust(Louse& louse) {

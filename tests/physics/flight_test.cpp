@@ -143,3 +143,18 @@ TEST_CASE("falling into the centre stays finite") {
   });
   CHECK(finite);
 }
+
+TEST_CASE("a hop that ends within the first piece of a flight lands where the parabola meets the ground") {
+  const terrain::HeightGrid flat{5, 5, -20.0, -20.0, 10.0, 10.0, std::vector<double>(25, 1.0)};
+  const terrain::BicubicSpline ground(flat);
+  const Parameters p;
+  const Rim rim(ground.domain(), Edges::kWalls);
+  for (const double climb : {1e-4, 0.003, 0.05}) {
+    Flight flight{{{2.0, 3.0}, {5.0, -1.0}}, 1.0, climb};
+    const auto piece = Flyer<terrain::BicubicSpline>(ground, p, rim, 1.0 / 20).fly(flight, 1.0 / 20);
+    CHECK(piece.landed);
+    CHECK(piece.time == Approx(2 * climb / p.gravity).margin(1e-11));  // the height, 1, is rounded to 1e-16
+    CHECK(flight.over.position.x == Approx(2.0 + 5.0 * piece.time).epsilon(1e-12));
+    CHECK(flight.height == Approx(1.0).epsilon(1e-12));
+  }
+}

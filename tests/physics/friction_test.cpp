@@ -84,6 +84,14 @@ TEST_CASE("no louse creeps where friction can hold it: pushed off anywhere, all 
   }
 }
 
+TEST_CASE("a fast louse, whose friction grows with the ground's curvature, is not put to rest") {
+  const FunctionSurface bowl(FunctionName::kParabolicPot, 0.25);  // curvature 4 1/m
+  const Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 1.0, .thrust_max = 0.0};
+  const auto run = tests::run<Forces<false, true, false>>(bowl, p, moving({}, {136.0, 0.0}), 20, 1);
+  CHECK(run.louse.phase == Phase::kMoving);
+  CHECK(run.counters.stops == 0);
+}
+
 TEST_CASE("friction and drag never add energy, on any function, at any rate") {
   core::Random random(8);
   for (const FunctionName name : terrain::kFunctionNames) {
