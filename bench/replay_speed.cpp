@@ -15,8 +15,8 @@
 #include "shared/core/random.h"
 #include "shared/map/map_loader.h"
 #include "shared/replay/inspect.h"
-#include "shared/replay/replay_writer.h"
-#include "shared/replay/replayer.h"
+#include "shared/replay/writer.h"
+#include "shared/replay/verify.h"
 
 namespace {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "server/row_writer.h"
+#include "server/room/row_table.h"
 #include "shared/core/random.h"
 #include "shared/core/stable_hash.h"
-#include "shared/physics/state_hash.h"
+#include "shared/state/state_hash.h"
 #include "shared/physics/world.h"
 #include "shared/terrain/terrain.h"
 

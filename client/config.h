@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
-#include "client/address.h"
-#include "client/key_verifier.h"
-#include "client/look_choice.h"
-#include "client/scene.h"
+#include "client/net/address.h"
+#include "client/play/keyframe_verifier.h"
+#include "client/play/look_choice.h"
+#include "client/drawing/scene.h"
 #include "shared/core/error.h"
 
 namespace woodlouse::client {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "client/address.h"
+#include "client/net/address.h"
 #include "shared/core/error.h"
 
 namespace woodlouse::client {

@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "client/config.h"
-#include "client/outcome.h"
+#include "client/terminal/outcome.h"
 #include "client/startup.h"
 
 int main(int argc, char** argv) {

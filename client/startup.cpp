@@ -12,12 +12,12 @@
 #include <string>
 #include <utility>
 
-#include "client/descriptor.h"
-#include "client/game.h"
+#include "client/terminal/descriptor.h"
+#include "client/play/game.h"
 #include "client/local_server.h"
-#include "client/outcome.h"
-#include "client/session.h"
-#include "client/text_game.h"
+#include "client/terminal/outcome.h"
+#include "client/play/session.h"
+#include "client/play/text_game.h"
 #include "client/watch_recording.h"
 
 namespace woodlouse::client {

@@ -7,9 +7,9 @@
 #include <memory>
 #include <string>
 
-#include "client/descriptor.h"
-#include "client/recording_view.h"
-#include "client/replay_viewer.h"
+#include "client/terminal/descriptor.h"
+#include "client/watch/recording_view.h"
+#include "client/watch/replay_viewer.h"
 
 namespace woodlouse::client {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "client/config.h"
-#include "client/outcome.h"
+#include "client/terminal/outcome.h"
 
 namespace woodlouse::client {
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "server/config_file.h"
-#include "server/version.h"
+#include "server/room/version.h"
 
 namespace woodlouse::server {
 namespace {

@@ -9,8 +9,8 @@
 #include <variant>
 #include <vector>
 
-#include "server/fork.h"
-#include "server/listen_address.h"
+#include "server/commands/fork.h"
+#include "server/net/listen_address.h"
 #include "server/log.h"
 #include "shared/core/error.h"
 #include "shared/replay/inspect.h"

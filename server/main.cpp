@@ -7,7 +7,7 @@
 #include "server/log.h"
 #include "server/server.h"
 #include "shared/map/map_loader.h"
-#include "shared/replay/replayer.h"
+#include "shared/replay/verify.h"
 
 namespace {
 

@@ -12,9 +12,9 @@
 #include <utility>
 #include <variant>
 
-#include "server/fork.h"
-#include "server/recorder.h"
-#include "server/shadow.h"
+#include "server/commands/fork.h"
+#include "server/watchers/recorder.h"
+#include "server/watchers/shadow.h"
 #include "shared/core/stable_hash.h"
 #include "shared/map/map_loader.h"
 #include "shared/protocol/codes.h"

@@ -20,13 +20,13 @@
 #include <string>
 #include <vector>
 
-#include "server/acceptor.h"
+#include "server/net/acceptor.h"
 #include "server/config.h"
-#include "server/lobby.h"
-#include "server/metrics.h"
-#include "server/opening.h"
-#include "server/room.h"
-#include "server/session.h"
+#include "server/room/lobby.h"
+#include "server/room/figures.h"
+#include "server/room/start.h"
+#include "server/room/room.h"
+#include "server/net/session.h"
 #include "shared/core/error.h"
 
 namespace woodlouse::server {

@@ -12,11 +12,11 @@
 #include <variant>
 #include <vector>
 
-#include "bench/lab/motion.h"
-#include "bench/lab/progress.h"
+#include "bench/lab/problems/motion.h"
+#include "bench/lab/report/progress.h"
 #include "shared/core/random.h"
 #include "shared/map/flt_grid.h"
-#include "shared/physics/laboratory.h"
+#include "bench/lab/methods/laboratory.h"
 
 namespace woodlouse::lab {
 namespace {

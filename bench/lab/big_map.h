@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "bench/lab/output.h"
+#include "bench/lab/report/output.h"
 
 namespace woodlouse::lab {
 

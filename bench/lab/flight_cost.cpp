@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "bench/lab/motion.h"
+#include "bench/lab/problems/motion.h"
 #include "bench/lab/precision_flight.h"
-#include "bench/lab/race.h"
+#include "bench/lab/report/race.h"
 #include "shared/core/random.h"
-#include "shared/physics/laboratory.h"
+#include "bench/lab/methods/laboratory.h"
 #include "shared/physics/world.h"
 
 namespace woodlouse::lab {

@@ -5,13 +5,13 @@
 #include <string_view>
 
 #include "bench/lab/job.h"
-#include "bench/lab/names.h"
-#include "bench/lab/output.h"
+#include "bench/lab/problems/names.h"
+#include "bench/lab/report/output.h"
 #include "bench/lab/precision_flight.h"
 #include "bench/lab/precision_integrators.h"
 #include "bench/lab/precision_kepler.h"
 #include "bench/lab/precision_surfaces.h"
-#include "bench/lab/race.h"
+#include "bench/lab/report/race.h"
 
 namespace woodlouse::lab {
 namespace {

@@ -1,7 +1,7 @@
 // Integrators on a unilateral map against a jump in closed form: take-off, landing and the way on; and what flying costs.
 #pragma once
 
-#include "bench/lab/output.h"
+#include "bench/lab/report/output.h"
 #include "shared/core/error.h"
 
 namespace woodlouse::lab {

@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
-#include "bench/lab/motion.h"
-#include "bench/lab/progress.h"
-#include "bench/lab/race.h"
-#include "bench/lab/reference_motion.h"
-#include "bench/lab/work_precision.h"
+#include "bench/lab/problems/motion.h"
+#include "bench/lab/report/progress.h"
+#include "bench/lab/report/race.h"
+#include "bench/lab/problems/reference_motion.h"
+#include "bench/lab/report/work_precision.h"
 #include "shared/core/random.h"
-#include "shared/physics/laboratory.h"
+#include "bench/lab/methods/laboratory.h"
 
 namespace woodlouse::lab {
 namespace {

@@ -1,7 +1,7 @@
 // Every integrator at every rate: ns per simulated second against the position's error.
 #pragma once
 
-#include "bench/lab/output.h"
+#include "bench/lab/report/output.h"
 #include "shared/terrain/function_surface.h"
 
 namespace woodlouse::lab {

@@ -7,12 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "bench/lab/kepler_ellipse.h"
-#include "bench/lab/motion.h"
-#include "bench/lab/progress.h"
-#include "bench/lab/race.h"
-#include "bench/lab/work_precision.h"
-#include "shared/physics/laboratory.h"
+#include "bench/lab/problems/kepler_ellipse.h"
+#include "bench/lab/problems/motion.h"
+#include "bench/lab/report/progress.h"
+#include "bench/lab/report/race.h"
+#include "bench/lab/report/work_precision.h"
+#include "bench/lab/methods/laboratory.h"
 
 namespace woodlouse::lab {
 namespace {

@@ -1,7 +1,7 @@
 // Integrators under central gravity against Kepler's ellipses, position and time.
 #pragma once
 
-#include "bench/lab/output.h"
+#include "bench/lab/report/output.h"
 #include "shared/core/error.h"
 
 namespace woodlouse::lab {

@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "bench/lab/motion.h"
-#include "bench/lab/progress.h"
-#include "bench/lab/race.h"
+#include "bench/lab/problems/motion.h"
+#include "bench/lab/report/progress.h"
+#include "bench/lab/report/race.h"
 #include "shared/core/random.h"
 
 namespace woodlouse::lab {

@@ -2,7 +2,7 @@
 // orders of convergence between one grid and the next.
 #pragma once
 
-#include "bench/lab/output.h"
+#include "bench/lab/report/output.h"
 #include "shared/terrain/function_surface.h"
 
 namespace woodlouse::lab {

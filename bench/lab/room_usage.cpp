@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/lab/progress.h"
+#include "bench/lab/report/progress.h"
 
 namespace woodlouse::lab {
 namespace {

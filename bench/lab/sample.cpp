@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "bench/lab/job.h"
-#include "bench/lab/numbers.h"
-#include "bench/lab/progress.h"
-#include "bench/lab/surface_choice.h"
-#include "bench/lab/table.h"
+#include "bench/lab/report/numbers.h"
+#include "bench/lab/report/progress.h"
+#include "bench/lab/problems/surface_choice.h"
+#include "bench/lab/report/table.h"
 #include "shared/core/vec2.h"
 #include "shared/terrain/outside_policy.h"
 

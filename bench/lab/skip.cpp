@@ -8,8 +8,8 @@
 
 #include "bench/lab/big_map.h"
 #include "bench/lab/job.h"
-#include "bench/lab/output.h"
-#include "bench/lab/race.h"
+#include "bench/lab/report/output.h"
+#include "bench/lab/report/race.h"
 #include "bench/lab/room_usage.h"
 #include "bench/lab/skip_steps.h"
 

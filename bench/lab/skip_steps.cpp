@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "bench/lab/motion.h"
-#include "bench/lab/race.h"
-#include "server/frame_encoder.h"
+#include "bench/lab/problems/motion.h"
+#include "bench/lab/report/race.h"
+#include "server/room/frame_encoder.h"
 #include "shared/core/random.h"
 #include "shared/physics/attitude.h"
 #include "shared/physics/world.h"

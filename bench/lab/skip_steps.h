@@ -1,7 +1,7 @@
 // What steps and frames leave out: forces, resting lice, Hessians, columns, attitude.
 #pragma once
 
-#include "bench/lab/output.h"
+#include "bench/lab/report/output.h"
 
 namespace woodlouse::lab {
 

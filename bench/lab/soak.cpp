@@ -5,8 +5,8 @@
 #include <memory>
 #include <numbers>
 
-#include "bench/lab/motion.h"
-#include "bench/lab/progress.h"
+#include "bench/lab/problems/motion.h"
+#include "bench/lab/report/progress.h"
 #include "shared/core/random.h"
 #include "shared/physics/world.h"
 

@@ -2,7 +2,7 @@
 // whether anything ever became infinite, left the domain, or grew without end.
 #pragma once
 
-#include "bench/lab/output.h"
+#include "bench/lab/report/output.h"
 
 namespace woodlouse::lab {
 

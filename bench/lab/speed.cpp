@@ -1,7 +1,7 @@
 // `speed`: our evaluations and steps beside GSL's, ALGLIB's and the document's, in one run.
 #include "bench/lab/job.h"
-#include "bench/lab/output.h"
-#include "bench/lab/race.h"
+#include "bench/lab/report/output.h"
+#include "bench/lab/report/race.h"
 #include "bench/lab/speed_evaluations.h"
 #include "bench/lab/speed_steps.h"
 

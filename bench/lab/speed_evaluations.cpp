@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "bench/lab/lanes.h"
-#include "bench/lab/race.h"
-#include "bench/lab/rival.h"
+#include "bench/lab/methods/lanes.h"
+#include "bench/lab/report/race.h"
+#include "bench/lab/methods/rival.h"
 #include "shared/core/random.h"
-#include "shared/terrain/surface_catalogue.h"
+#include "shared/document/surface_catalogue.h"
 
 namespace woodlouse::lab {
 namespace {

@@ -1,7 +1,7 @@
 // One evaluation of a surface: ours, other libraries', the document's.
 #pragma once
 
-#include "bench/lab/output.h"
+#include "bench/lab/report/output.h"
 
 namespace woodlouse::lab {
 

@@ -1,7 +1,7 @@
 // One louse through one tick: ours scalar and batched, by every integrator of note, and the document's.
 #pragma once
 
-#include "bench/lab/output.h"
+#include "bench/lab/report/output.h"
 
 namespace woodlouse::lab {
 

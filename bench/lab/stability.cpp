@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "bench/lab/egg_crate.h"
+#include "bench/lab/problems/egg_crate.h"
 #include "bench/lab/job.h"
-#include "bench/lab/motion.h"
-#include "bench/lab/names.h"
-#include "bench/lab/output.h"
-#include "bench/lab/progress.h"
+#include "bench/lab/problems/motion.h"
+#include "bench/lab/problems/names.h"
+#include "bench/lab/report/output.h"
+#include "bench/lab/report/progress.h"
 #include "bench/lab/soak.h"
 
 namespace woodlouse::lab {

@@ -5,12 +5,12 @@
 #include <span>
 
 #include "bench/lab/job.h"
-#include "bench/lab/motion.h"
-#include "bench/lab/names.h"
-#include "bench/lab/numbers.h"
-#include "bench/lab/progress.h"
-#include "bench/lab/surface_choice.h"
-#include "bench/lab/table.h"
+#include "bench/lab/problems/motion.h"
+#include "bench/lab/problems/names.h"
+#include "bench/lab/report/numbers.h"
+#include "bench/lab/report/progress.h"
+#include "bench/lab/problems/surface_choice.h"
+#include "bench/lab/report/table.h"
 
 namespace woodlouse::lab {
 namespace {

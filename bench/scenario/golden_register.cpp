@@ -5,7 +5,7 @@
 
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
-#include "shared/map/whole_file.h"
+#include "shared/core/whole_file.h"
 
 namespace woodlouse::scenario {
 namespace {

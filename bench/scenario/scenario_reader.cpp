@@ -11,9 +11,9 @@
 
 #include "bench/scenario/script_reader.h"
 #include "shared/core/joined.h"
-#include "shared/map/checked_fields.h"
+#include "shared/json/fields.h"
 #include "shared/map/map_loader.h"
-#include "shared/map/whole_file.h"
+#include "shared/core/whole_file.h"
 
 namespace woodlouse::scenario {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "bench/scenario/scenario.h"
 #include "shared/json/document.h"
-#include "shared/map/checked_fields.h"
+#include "shared/json/fields.h"
 
 namespace woodlouse::scenario {
 

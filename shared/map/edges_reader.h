@@ -2,7 +2,7 @@
 #pragma once
 
 #include "shared/json/document.h"
-#include "shared/map/checked_fields.h"
+#include "shared/json/fields.h"
 #include "shared/map/map_definition.h"
 
 namespace woodlouse::map {

@@ -14,7 +14,7 @@
 #include <optional>
 #include <string_view>
 
-#include "shared/map/checked_fields.h"
+#include "shared/json/fields.h"
 #include "shared/terrain/height_grid.h"
 
 namespace woodlouse::map {

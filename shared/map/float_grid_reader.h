@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "shared/json/document.h"
-#include "shared/map/checked_fields.h"
+#include "shared/json/fields.h"
 #include "shared/map/terrain_reader.h"
 
 namespace woodlouse::map {

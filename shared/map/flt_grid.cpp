@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "shared/json/text.h"
-#include "shared/map/whole_file.h"
+#include "shared/core/whole_file.h"
 
 namespace woodlouse::map {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "shared/core/vec2.h"
-#include "shared/physics/parameters.h"
+#include "shared/state/parameters.h"
 #include "shared/terrain/function_surface.h"
 #include "shared/terrain/height_grid.h"
 #include "shared/terrain/height_source.h"

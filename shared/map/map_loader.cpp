@@ -7,9 +7,9 @@
 #include "shared/core/stable_hash.h"
 #include "shared/json/document.h"
 #include "shared/map/canonical_map.h"
-#include "shared/map/checked_fields.h"
+#include "shared/json/fields.h"
 #include "shared/map/map_reader.h"
-#include "shared/map/whole_file.h"
+#include "shared/core/whole_file.h"
 
 namespace woodlouse::map {
 namespace {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "shared/json/document.h"
-#include "shared/map/checked_fields.h"
+#include "shared/json/fields.h"
 #include "shared/map/map_definition.h"
 #include "shared/map/terrain_reader.h"
 

@@ -1,7 +1,7 @@
 // What a terrain's numbers may be, whichever way they come.
 #pragma once
 
-#include "shared/map/checked_fields.h"
+#include "shared/json/fields.h"
 
 namespace woodlouse::map {
 

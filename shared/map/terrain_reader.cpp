@@ -9,7 +9,7 @@
 #include "shared/map/float_grid_reader.h"
 #include "shared/map/map_loader.h"
 #include "shared/map/terrain_ranges.h"
-#include "shared/map/whole_file.h"
+#include "shared/core/whole_file.h"
 
 namespace woodlouse::map {
 namespace {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "shared/physics/louse.h"
+#include "shared/state/louse.h"
 
 namespace woodlouse::match {
 

@@ -20,7 +20,7 @@
 #include "shared/map/map_definition.h"
 #include "shared/match/input_queue.h"
 #include "shared/match/match_state.h"
-#include "shared/physics/state_hash.h"
+#include "shared/state/state_hash.h"
 #include "shared/physics/world.h"
 
 namespace woodlouse::match {

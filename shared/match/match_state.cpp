@@ -6,7 +6,7 @@
 
 #include "shared/core/joined.h"
 #include "shared/match/match.h"
-#include "shared/physics/state_hash.h"
+#include "shared/state/state_hash.h"
 
 namespace woodlouse::match {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "shared/map/map_definition.h"
 #include "shared/match/input_queue.h"
-#include "shared/physics/louse.h"
+#include "shared/state/louse.h"
 
 namespace woodlouse::match {
 

@@ -11,8 +11,8 @@
 #include <span>
 #include <vector>
 
-#include "shared/physics/louse.h"
-#include "shared/physics/parameters.h"
+#include "shared/state/louse.h"
+#include "shared/state/parameters.h"
 #include "shared/physics/step_counters.h"
 #include "shared/physics/sub_step_rules.h"
 #include "shared/terrain/bicubic_spline.h"

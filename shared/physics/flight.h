@@ -15,7 +15,7 @@
 #include <cmath>
 
 #include "shared/physics/nystrom.h"
-#include "shared/physics/parameters.h"
+#include "shared/state/parameters.h"
 #include "shared/physics/rim.h"
 #include "shared/physics/surface_motion.h"
 #include "shared/terrain/surface.h"

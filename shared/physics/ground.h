@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "shared/physics/nystrom.h"
-#include "shared/physics/parameters.h"
+#include "shared/state/parameters.h"
 #include "shared/physics/surface_motion.h"
 #include "shared/physics/walls.h"
 #include "shared/terrain/surface.h"

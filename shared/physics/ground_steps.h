@@ -7,8 +7,8 @@
 #include <span>
 
 #include "shared/physics/batch.h"
-#include "shared/physics/louse.h"
-#include "shared/physics/parameters.h"
+#include "shared/state/louse.h"
+#include "shared/state/parameters.h"
 #include "shared/physics/step_counters.h"
 #include "shared/terrain/terrain.h"
 

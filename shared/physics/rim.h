@@ -12,7 +12,7 @@
 
 #include "shared/core/vec2.h"
 #include "shared/physics/nystrom.h"
-#include "shared/physics/parameters.h"
+#include "shared/state/parameters.h"
 #include "shared/physics/walls.h"
 #include "shared/terrain/surface.h"
 

@@ -8,7 +8,7 @@
 // The comparisons are between squares and fourth powers: no roots. T is double, or several at once.
 #pragma once
 
-#include "shared/physics/parameters.h"
+#include "shared/state/parameters.h"
 #include "shared/physics/surface_motion.h"
 
 namespace woodlouse::physics {

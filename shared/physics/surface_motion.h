@@ -20,8 +20,8 @@
 
 #include "shared/core/lanes.h"
 #include "shared/core/vec2.h"
-#include "shared/physics/louse.h"
-#include "shared/physics/parameters.h"
+#include "shared/state/louse.h"
+#include "shared/state/parameters.h"
 #include "shared/terrain/surface.h"
 
 namespace woodlouse::physics {

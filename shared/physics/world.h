@@ -17,8 +17,8 @@
 
 #include "shared/core/vec2.h"
 #include "shared/physics/batch.h"
-#include "shared/physics/louse.h"
-#include "shared/physics/parameters.h"
+#include "shared/state/louse.h"
+#include "shared/state/parameters.h"
 #include "shared/physics/step_counters.h"
 #include "shared/terrain/terrain.h"
 

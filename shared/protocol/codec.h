@@ -31,7 +31,7 @@ tl::expected<ServerMessage, DecodeError> decode_server(std::string_view line, co
 
 /// One line each, newline included.
 std::string encode(const ClientMessage& message);
-/// REQUIRES no Frame: those are written once for all who see them (server/frame_encoder.h).
+/// REQUIRES no Frame: those are written once for all who see them (server/room/frame_encoder.h).
 std::string encode(const ServerMessage& message);
 /// knots_json: the member `knots`, as JSON; empty: none. REQUIRES none where the message has an overview.
 std::string encode_map(const MapMessage& message, std::string_view knots_json);

@@ -1,5 +1,5 @@
 #include "shared/protocol/codec.h"
-#include "shared/protocol/message_text.h"
+#include "shared/json/object_text.h"
 
 namespace woodlouse::protocol {
 namespace {

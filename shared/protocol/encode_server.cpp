@@ -2,7 +2,7 @@
 
 #include "shared/core/stable_hash.h"
 #include "shared/protocol/codec.h"
-#include "shared/protocol/message_text.h"
+#include "shared/json/object_text.h"
 
 namespace woodlouse::protocol {
 namespace {

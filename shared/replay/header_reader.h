@@ -2,8 +2,8 @@
 #pragma once
 
 #include "shared/json/document.h"
-#include "shared/map/checked_fields.h"
-#include "shared/replay/replay_file.h"
+#include "shared/json/fields.h"
+#include "shared/replay/format.h"
 
 namespace woodlouse::replay {
 

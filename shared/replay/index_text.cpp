@@ -6,9 +6,9 @@
 
 #include "shared/json/document.h"
 #include "shared/json/text.h"
-#include "shared/map/checked_fields.h"
+#include "shared/json/fields.h"
 #include "shared/replay/line_fields.h"
-#include "shared/replay/replay_index.h"
+#include "shared/replay/index.h"
 
 namespace woodlouse::replay {
 namespace {

@@ -4,7 +4,7 @@
 #include <ostream>
 
 #include "shared/core/joined.h"
-#include "shared/replay/line_text.h"
+#include "shared/replay/line_writer.h"
 
 namespace woodlouse::replay {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "shared/core/error.h"
-#include "shared/replay/replay_archive.h"
+#include "shared/replay/archive.h"
 
 namespace woodlouse::replay {
 

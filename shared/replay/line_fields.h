@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "shared/json/document.h"
-#include "shared/map/checked_fields.h"
+#include "shared/json/fields.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::replay {

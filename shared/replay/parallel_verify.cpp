@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "shared/replay/replay_archive.h"
-#include "shared/replay/stretch.h"
+#include "shared/replay/archive.h"
+#include "shared/replay/segment.h"
 
 namespace woodlouse::replay {
 namespace {

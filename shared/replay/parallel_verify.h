@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "shared/core/error.h"
-#include "shared/replay/replay_source.h"
-#include "shared/replay/replayer.h"
+#include "shared/replay/source.h"
+#include "shared/replay/verify.h"
 
 namespace woodlouse::replay {
 

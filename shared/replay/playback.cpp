@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "shared/core/joined.h"
-#include "shared/replay/replay_archive.h"
+#include "shared/replay/archive.h"
 #include "shared/replay/rerun.h"
 
 namespace woodlouse::replay {

@@ -10,7 +10,7 @@
 
 #include "shared/core/error.h"
 #include "shared/match/match.h"
-#include "shared/replay/replay_file.h"
+#include "shared/replay/format.h"
 
 namespace woodlouse::replay {
 

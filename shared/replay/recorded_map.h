@@ -7,7 +7,7 @@
 
 #include "shared/core/error.h"
 #include "shared/map/map_definition.h"
-#include "shared/replay/replay_file.h"
+#include "shared/replay/format.h"
 
 namespace woodlouse::replay {
 

@@ -12,7 +12,7 @@
 
 #include "shared/core/joined.h"
 #include "shared/json/text.h"
-#include "shared/replay/louse_fields.h"
+#include "shared/state/louse_fields.h"
 
 namespace woodlouse::replay {
 namespace {

@@ -11,7 +11,7 @@
 #include "shared/core/error.h"
 #include "shared/map/map_definition.h"
 #include "shared/match/match.h"
-#include "shared/replay/replay_file.h"
+#include "shared/replay/format.h"
 
 namespace woodlouse::replay {
 

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "client/connection.h"
+#include "client/net/connection.h"
 
 using namespace woodlouse::client;
 

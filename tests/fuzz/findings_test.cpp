@@ -10,8 +10,8 @@
 #include "shared/map/flt_grid.h"
 #include "shared/map/map_loader.h"
 #include "shared/protocol/codec.h"
-#include "shared/replay/replay_archive.h"
-#include "shared/replay/replay_writer.h"
+#include "shared/replay/archive.h"
+#include "shared/replay/writer.h"
 #include "tests/fuzz/property.h"
 
 using namespace woodlouse;

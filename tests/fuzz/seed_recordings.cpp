@@ -12,7 +12,7 @@
 
 #include "shared/core/random.h"
 #include "shared/map/map_loader.h"
-#include "shared/replay/replay_writer.h"
+#include "shared/replay/writer.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "shared/core/random.h"
-#include "shared/physics/state_hash.h"
+#include "shared/state/state_hash.h"
 #include "shared/physics/world.h"
 #include "shared/terrain/terrain.h"
 

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "shared/core/random.h"
-#include "shared/physics/state_hash.h"
+#include "shared/state/state_hash.h"
 
 using namespace woodlouse;
 using namespace woodlouse::physics;

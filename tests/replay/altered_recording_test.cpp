@@ -7,7 +7,7 @@
 #include "shared/core/joined.h"
 #include "shared/core/random.h"
 #include "shared/json/text.h"
-#include "shared/replay/louse_fields.h"
+#include "shared/state/louse_fields.h"
 #include "tests/replay/recorded_match.h"
 
 namespace woodlouse::replay {

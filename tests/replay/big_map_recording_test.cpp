@@ -4,7 +4,7 @@
 #include <string>
 
 #include "shared/map/map_loader.h"
-#include "shared/replay/replay_writer.h"
+#include "shared/replay/writer.h"
 #include "tests/replay/recorded_match.h"
 #include "tests/support/big_map_files.h"
 

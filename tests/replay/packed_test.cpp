@@ -6,7 +6,7 @@
 #include <string>
 
 #include "shared/core/random.h"
-#include "shared/replay/replay_writer.h"
+#include "shared/replay/writer.h"
 #include "shared/replay/zstd_input.h"
 #include "tests/replay/recorded_match.h"
 

@@ -8,7 +8,7 @@
 #include "shared/core/joined.h"
 #include "shared/core/random.h"
 #include "shared/map/map_loader.h"
-#include "shared/replay/replay_writer.h"
+#include "shared/replay/writer.h"
 
 namespace woodlouse::replay {
 namespace {

@@ -10,8 +10,8 @@
 #include "shared/core/error.h"
 #include "shared/map/map_definition.h"
 #include "shared/match/match.h"
-#include "shared/replay/replay_archive.h"
-#include "shared/replay/replayer.h"
+#include "shared/replay/archive.h"
+#include "shared/replay/verify.h"
 
 namespace woodlouse::replay {
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "shared/map/map_loader.h"
-#include "shared/replay/replay_writer.h"
-#include "shared/replay/replayer.h"
+#include "shared/replay/writer.h"
+#include "shared/replay/verify.h"
 #include "tests/replay/recorded_match.h"
 
 namespace woodlouse::replay {

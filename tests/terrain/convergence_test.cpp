@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "shared/terrain/surface_catalogue.h"
+#include "shared/document/surface_catalogue.h"
 #include "tests/terrain/grids.h"
 
 using namespace woodlouse;

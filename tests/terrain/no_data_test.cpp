@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 
-#include "shared/terrain/biquadratic.h"
-#include "shared/terrain/blended_biquadratic.h"
+#include "shared/document/biquadratic.h"
+#include "shared/document/blended_biquadratic.h"
 #include "shared/terrain/fill_missing.h"
-#include "shared/terrain/gauss_gradient.h"
+#include "shared/document/gauss_gradient.h"
 #include "shared/terrain/outside_policy.h"
 #include "shared/terrain/tiled_bspline.h"
 #include "tests/terrain/grids.h"

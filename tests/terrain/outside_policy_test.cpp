@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "shared/terrain/surface_catalogue.h"
+#include "shared/document/surface_catalogue.h"
 #include "tests/terrain/grids.h"
 
 using namespace woodlouse;

@@ -1,9 +1,9 @@
-#include "client/cell_buffer.h"
+#include "client/drawing/cell_buffer.h"
 
 #include <catch2/catch.hpp>
 
-#include "client/trail.h"
-#include "client/wrapping.h"
+#include "client/play/trail.h"
+#include "client/drawing/wrapping.h"
 #include "shared/core/random.h"
 
 using namespace woodlouse;

@@ -1,9 +1,9 @@
-#include "client/color.h"
+#include "client/drawing/color.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "client/palette.h"
+#include "client/drawing/palette.h"
 #include "shared/core/random.h"
 
 using namespace woodlouse;

@@ -1,4 +1,4 @@
-#include "client/compose.h"
+#include "client/drawing/compose.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <sstream>
 #include <string>
 
-#include "client/layout.h"
-#include "client/null_screen.h"
+#include "client/drawing/layout.h"
+#include "client/terminal/null_screen.h"
 #include "tests/client/drawing/staged_game.h"
 
 using namespace woodlouse;

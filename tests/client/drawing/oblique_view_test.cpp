@@ -1,13 +1,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "client/badges.h"
-#include "client/layout.h"
-#include "client/louse_shape.h"
-#include "client/oblique_camera.h"
-#include "client/relief.h"
-#include "client/terrain_oblique_view.h"
-#include "client/terrain_top_view.h"
+#include "client/drawing/badges.h"
+#include "client/drawing/layout.h"
+#include "client/drawing/louse_shape.h"
+#include "client/drawing/oblique_camera.h"
+#include "client/drawing/relief.h"
+#include "client/drawing/terrain_oblique_view.h"
+#include "client/drawing/terrain_top_view.h"
 #include "tests/client/drawing/staged_game.h"
 
 using namespace woodlouse;

@@ -1,12 +1,12 @@
-#include "client/replay_bar.h"
+#include "client/drawing/replay_bar.h"
 
 #include <catch2/catch.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "client/compose.h"
-#include "client/null_screen.h"
+#include "client/drawing/compose.h"
+#include "client/terminal/null_screen.h"
 #include "tests/client/drawing/staged_game.h"
 
 using namespace woodlouse;

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "client/scene.h"
-#include "client/trail.h"
+#include "client/drawing/scene.h"
+#include "client/play/trail.h"
 #include "shared/core/random.h"
 #include "shared/physics/attitude.h"
 #include "shared/physics/world.h"

@@ -1,0 +1,50 @@
+// Things chosen by name: an unknown one is answered with the list of those there are.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "shared/core/error.h"
+#include "bench/lab/methods/laboratory.h"
+#include "shared/terrain/function_surface.h"
+#include "shared/document/surface_catalogue.h"
+
+namespace woodlouse::lab {
+
+/// "a b c", of anything that to_text() takes.
+template <typename All>
+std::string names_of(const All& all) {
+  std::string list;
+  for (const auto one : all) {
+    if (!list.empty()) list += ' ';
+    list += to_text(one);
+  }
+  return list;
+}
+
+/// `found`, or an error that lists `names`.
+template <typename E>
+core::Expected<E> chosen(std::string_view option, std::string_view text, const std::optional<E>& found,
+                         const std::string& names) {
+  if (found) return *found;
+  return core::fail(std::string(option), "there is no \"" + std::string(text) + "\"", "one of: " + names);
+}
+
+inline core::Expected<terrain::FunctionName> function_named(std::string_view text) {
+  return chosen("--function", text, terrain::function_from_text(text), names_of(terrain::kFunctionNames));
+}
+inline core::Expected<physics::Equations> equations_named(std::string_view text) {
+  return chosen("--equations", text, physics::equations_from_text(text), names_of(physics::kEquations));
+}
+inline core::Expected<physics::Integrator> integrator_named(std::string_view text) {
+  return chosen("--integrator", text, physics::integrator_from_text(text), names_of(physics::kIntegrators));
+}
+
+inline constexpr std::array kContacts = {physics::SurfaceContact::kBilateral, physics::SurfaceContact::kUnilateral};
+inline core::Expected<physics::SurfaceContact> contact_named(std::string_view text) {
+  return chosen("--contact", text, physics::contact_from_text(text), names_of(kContacts));
+}
+
+}  // namespace woodlouse::lab

@@ -1,0 +1,68 @@
+#include "bench/lab/report/race.h"
+
+#include <sched.h>
+#include <time.h>
+
+#include <algorithm>
+
+#include "bench/lab/report/progress.h"
+
+namespace woodlouse::lab {
+namespace {
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double seconds_of(const Contestant& contestant, std::size_t repeats) {
+  const double begin = processor_seconds();
+  for (std::size_t i = 0; i < repeats; ++i) contestant.run();
+  return processor_seconds() - begin;
+}
+
+}  // namespace
+
+void pin_to_core() {
+  const int core = sched_getcpu();
+  if (core < 0) return;
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  CPU_SET(static_cast<std::size_t>(core), &set);
+  sched_setaffinity(0, sizeof set, &set);  // refused: unpinned, only noisier
+}
+
+std::vector<Timing> race(const std::vector<Contestant>& contestants, Effort effort, const std::string& what) {
+  const double block = effort == Effort::kQuick ? 0.0005 : 0.003;  // [s]
+  const std::size_t rounds = effort == Effort::kQuick ? 5 : 41;
+  Progress progress(what, (rounds + 1) * contestants.size());
+  std::vector<std::size_t> repeats;
+  for (const Contestant& c : contestants) {
+    c.run();  // warms the caches
+    std::size_t n = 1;
+    double seconds = seconds_of(c, n);
+    while (seconds < block && n < (1u << 24)) {
+      n = std::max(n * 2, static_cast<std::size_t>(static_cast<double>(n) * std::min(100.0, block / std::max(seconds, 1e-9))));
+      seconds = seconds_of(c, n);
+    }
+    repeats.push_back(n);
+    progress.advance();
+  }
+  std::vector<std::vector<double>> times(contestants.size());
+  for (std::size_t round = 0; round < rounds; ++round) {
+    for (std::size_t i = 0; i < contestants.size(); ++i) {
+      const double per_run = seconds_of(contestants[i], repeats[i]) / static_cast<double>(repeats[i]);
+      times[i].push_back(1e9 * per_run / contestants[i].count);
+      progress.advance();
+    }
+  }
+  std::vector<Timing> result;
+  for (std::vector<double>& t : times) {
+    std::sort(t.begin(), t.end());
+    result.push_back({t[t.size() / 2], t.front()});
+  }
+  return result;
+}
+
+}  // namespace woodlouse::lab

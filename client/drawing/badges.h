@@ -1,0 +1,66 @@
+// By which letter and colour a louse is known, on the map and in the lists alike.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "client/drawing/palette.h"
+#include "client/drawing/scene.h"
+
+namespace woodlouse::client {
+
+struct Badge {
+  char letter = '?';  ///< '@' is you, a..z the others
+  Rgb color;
+};
+
+/// Letters go by id, so that a louse keeps its own while others come and go; among more than 26 lice they
+/// repeat.
+class Badges {
+ public:
+  explicit Badges(const Scene& scene) : mode_(scene.look.color) {
+    for (const LouseMark& louse : scene.lice) add(louse.id, louse.is_you);
+    for (const ScoreRow& row : scene.scores) add(row.id, row.is_you);
+  }
+
+  [[nodiscard]] Badge of(std::uint32_t id) const {
+    const auto found = badges_.find(id);
+    return found == badges_.end() ? Badge{} : found->second;
+  }
+
+ private:
+  void add(std::uint32_t id, bool is_you) {
+    if (badges_.contains(id)) return;
+    std::uint32_t letter = (id + 25) % 26;  // ids begin at 1
+    if (!is_you && used_ != kAllUsed) {
+      while ((used_ >> letter & 1u) != 0) letter = (letter + 1) % 26;
+      used_ |= 1u << letter;
+    }
+    badges_[id] = {is_you ? '@' : static_cast<char>('a' + letter),
+                   louse_color(id, is_you ? Owner::kYou : Owner::kOther, mode_)};
+  }
+
+  static constexpr std::uint32_t kAllUsed = (1u << 26) - 1;
+  ColorMode mode_;
+  std::map<std::uint32_t, Badge> badges_;
+  std::uint32_t used_ = 0;
+};
+
+/// The lice as they are to be painted one over the other: yours last. Those that are nowhere near the map are
+/// left out.
+inline std::vector<const LouseMark*> in_drawing_order(const Scene& scene) {
+  std::vector<const LouseMark*> order;
+  if (scene.terrain == nullptr) return order;
+  const terrain::Rectangle& d = scene.terrain->domain();
+  const double beyond = (d.x_max - d.x_min) + (d.y_max - d.y_min);
+  const terrain::Rectangle near{d.x_min - beyond, d.y_min - beyond, d.x_max + beyond, d.y_max + beyond};
+  order.reserve(scene.lice.size());
+  for (const LouseMark& louse : scene.lice)
+    if (near.contains(louse.position.x, louse.position.y)) order.push_back(&louse);
+  std::stable_partition(order.begin(), order.end(), [](const LouseMark* louse) { return !louse->is_you; });
+  return order;
+}
+
+}  // namespace woodlouse::client

@@ -1,0 +1,102 @@
+// A grid of terminal cells: what a frame looks like before anyone knows how to write it.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "client/drawing/color.h"
+
+namespace woodlouse::client {
+
+/// Columns and rows of cells.
+struct Size {
+  int columns = 0;
+  int rows = 0;
+  friend constexpr bool operator==(Size, Size) = default;
+};
+
+/// Attributes are bits: kBold | kReverse.
+using Attributes = std::uint8_t;
+inline constexpr Attributes kPlain = 0;
+inline constexpr Attributes kBold = 1;
+inline constexpr Attributes kReverse = 2;
+
+/// How a text is drawn.
+struct Style {
+  Color foreground;
+  Color background;
+  Attributes attributes = kPlain;
+  friend constexpr bool operator==(const Style&, const Style&) = default;
+};
+
+/// One character cell. `glyph` is a printable code point exactly one column wide.
+struct Cell {
+  char32_t glyph = U' ';
+  Style style;
+  friend constexpr bool operator==(const Cell&, const Cell&) = default;
+};
+
+/// Which characters may be drawn.
+enum class GlyphSet : std::uint8_t {
+  kAscii,       ///< U+0020..U+007E only
+  kHalfBlocks,  ///< U+2580 and letters of the alphabets one column wide
+};
+
+/// The code points of a UTF-8 text, each of them printable and one column wide: everything else (control and
+/// combining characters, wide ones, bad bytes; all but ASCII for kAscii) becomes '?', so that columns stay
+/// aligned and nothing a stranger typed reaches the terminal as a command.
+std::u32string printable(std::string_view utf8, GlyphSet glyphs);
+
+/// Appends a code point's UTF-8 bytes.
+void append_utf8(char32_t code_point, std::string& out);
+
+class CellBuffer {
+ public:
+  CellBuffer() = default;
+  explicit CellBuffer(Size size) { resize(size); }
+
+  /// Sets the size; every cell becomes blank. Sizes below zero count as zero.
+  void resize(Size size);
+  /// Every cell becomes a space of this style.
+  void clear(const Style& style = {});
+
+  [[nodiscard]] Size size() const { return size_; }
+  [[nodiscard]] bool contains(int column, int row) const {
+    return column >= 0 && row >= 0 && column < size_.columns && row < size_.rows;
+  }
+  /// REQUIRES contains(column, row).
+  [[nodiscard]] const Cell& at(int column, int row) const { return cells_[index(column, row)]; }
+  [[nodiscard]] Cell& at(int column, int row) { return cells_[index(column, row)]; }
+  [[nodiscard]] std::span<const Cell> row(int row) const {
+    return std::span<const Cell>(cells_).subspan(index(0, row), static_cast<std::size_t>(size_.columns));
+  }
+
+  /// Sets a cell; outside the grid nothing happens.
+  void put(int column, int row, char32_t glyph, const Style& style);
+  /// Writes code points from (column, row) to the right, at most `width` of them, clipped to the grid.
+  /// Returns the column after the last one.
+  int text(int column, int row, std::u32string_view code_points, const Style& style, int width = 1 << 20);
+  /// The same for ASCII text; other bytes become '?'.
+  int text(int column, int row, std::string_view ascii, const Style& style, int width = 1 << 20);
+  /// Makes a rectangle blank, clipped to the grid.
+  void fill(int column, int row, Size size, const Style& style);
+
+  friend bool operator==(const CellBuffer&, const CellBuffer&) = default;
+
+ private:
+  [[nodiscard]] std::size_t index(int column, int row) const {
+    assert(contains(column, row));
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(size_.columns) +
+           static_cast<std::size_t>(column);
+  }
+
+  Size size_;
+  std::vector<Cell> cells_;
+};
+
+}  // namespace woodlouse::client

@@ -1,0 +1,32 @@
+// From a Scene to cells: the one entry of the drawing side.
+#pragma once
+
+#include <memory>
+
+#include "client/drawing/cell_buffer.h"
+#include "client/drawing/scene.h"
+
+namespace woodlouse::client {
+
+/// The view that suits a terminal best before anyone has chosen: oblique where there is colour, half-blocks
+/// and 100x30 cells or more, else the map.
+View default_view(const Look& look, Size size);
+
+/// Draws scenes. Keeps what does not move (the terrain as seen by the camera) between frames, so use one for
+/// a whole run. Single thread.
+class Composer {
+ public:
+  Composer();
+  ~Composer();
+  Composer(const Composer&) = delete;
+  Composer& operator=(const Composer&) = delete;
+
+  /// Fills every cell of `cells`, whose size is the terminal's. Any size is drawable.
+  void draw(const Scene& scene, CellBuffer& cells);
+
+ private:
+  struct Layers;
+  std::unique_ptr<Layers> layers_;
+};
+
+}  // namespace woodlouse::client

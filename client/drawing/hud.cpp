@@ -1,0 +1,217 @@
+#include "client/drawing/hud.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "client/drawing/formatted.h"
+#include "client/drawing/frame_box.h"
+#include "client/drawing/labels.h"
+#include "client/drawing/palette.h"
+#include "client/drawing/replay_bar.h"
+#include "client/drawing/wrapping.h"
+#include "shared/core/stable_hash.h"
+
+namespace woodlouse::client {
+namespace {
+
+std::string thrust_text(const HudNumbers& hud) {
+  const int strength = static_cast<int>(std::lround(3.0 * std::min(1.0, std::abs(hud.thrust))));
+  const std::string signs(static_cast<std::size_t>(strength), hud.thrust < 0.0 ? '-' : '+');
+  std::string text = formatted("push   %-3s", signs.c_str());
+  if (strength == 0 && !hud.cruise) return "push   none";
+  if (hud.cruise) return text + " cruise";
+  if (hud.thrust < 0.0) text += " brake ";
+  return hud.push_seconds > 0.0 ? text + formatted(" %.1f s", hud.push_seconds) : text;
+}
+
+std::string slope_text(double degrees) {
+  const char* way = degrees > 1.0 ? "uphill" : degrees < -1.0 ? "downhill" : "level";
+  return formatted("slope  %+d deg %s", static_cast<int>(std::lround(degrees)), way);
+}
+
+void draw_players(const Scene& scene, const Badges& badges, const Styles& styles, PanelWriter& out,
+                  int rows) {
+  const int width = out.width();
+  // rank, letter, name, metres
+  const int name_width = std::max(4, width - 3 - 2 - 9);
+  int rank = 0;
+  for (const ScoreRow& row : scene.scores) {
+    if (rank++ == rows) break;
+    const Badge badge = badges.of(row.id);
+    Style style = row.is_you ? styles.strong : styles.text;
+    if (scene.look.color != ColorMode::kMono && scene.look.color != ColorMode::k16)
+      style.foreground = Color::of(badge.color);
+    const std::u32string name = shown_name(row.name, row.kind, row.is_you, scene.look.glyphs, name_width);
+    out.begin_row();
+    out.text(0, formatted("%2d ", rank), styles.dim);
+    out.text(3, std::string(1, badge.letter), style);
+    out.text(5, name, style);
+    out.text(width - 8, formatted("%6.0f m", row.distance), row.is_you ? styles.strong : styles.text);
+  }
+}
+
+void draw_you(const Scene& scene, const Styles& styles, PanelWriter& out) {
+  const HudNumbers& hud = scene.hud;
+  constexpr double kFullBar = 12.0;  ///< [m/s]
+  const int bar = std::max(0, out.width() - 19);
+  const int full = static_cast<int>(std::lround(std::clamp(hud.speed / kFullBar, 0.0, 1.0) * bar));
+  out.line(formatted("speed %5.2f m/s", hud.speed), styles.text);
+  if (bar >= 4) {
+    out.text(16, "[", styles.dim);
+    out.text(17, std::string(static_cast<std::size_t>(full), '#'), styles.strong);
+    out.text(17 + full, std::string(static_cast<std::size_t>(bar - full), '-'), styles.dim);
+    out.text(17 + bar, "]", styles.dim);
+  }
+  out.line(slope_text(hud.slope_degrees), styles.text);
+  out.line(thrust_text(hud), styles.text);
+  out.line(formatted("way   %6.1f m", hud.distance), styles.text);
+  out.line(formatted("height %5.1f m", hud.height), styles.text);
+}
+
+void draw_room(const Scene& scene, const Styles& styles, PanelWriter& out) {
+  out.line(formatted("lice   %d", scene.hud.players), styles.text);
+  out.line(formatted("bots   %d", scene.hud.bots), styles.text);
+  out.line("you are watching", styles.dim);
+}
+
+/// Whose numbers a recording shows: "a ada".
+std::string followed_text(const Scene& scene, const Badges& badges) {
+  const auto louse = std::find_if(scene.lice.begin(), scene.lice.end(),
+                                  [&](const LouseMark& mark) { return mark.id == scene.follow_id; });
+  if (louse == scene.lice.end()) return "NOBODY IS THERE";
+  std::string text{badges.of(louse->id).letter, ' '};
+  for (const char32_t c : printable(louse->name, GlyphSet::kAscii)) text += static_cast<char>(c);
+  if (louse->kind == LouseKind::kBot) text += '*';
+  return text;
+}
+
+void draw_chat(const Scene& scene, const Styles& styles, PanelWriter& out, int rows) {
+  struct Line {
+    std::u32string text;
+    bool is_notice;
+  };
+  std::vector<Line> lines;
+  for (const ChatLine& chat : scene.chat) {
+    const bool is_notice = chat.from.empty();
+    const std::string whole = is_notice ? "* " + chat.text : "<" + chat.from + "> " + chat.text;
+    for (std::u32string& part : wrapped(printable(whole, scene.look.glyphs), out.width()))
+      lines.push_back({std::move(part), is_notice});
+  }
+  const std::size_t shown = std::min(lines.size(), static_cast<std::size_t>(std::max(0, rows)));
+  for (const Line& line : std::span(lines).last(shown)) {
+    out.begin_row();
+    out.text(0, line.text, line.is_notice ? styles.dim : styles.text);
+  }
+}
+
+std::string_view view_text(const Scene& scene) {
+  switch (scene.view) {
+    case View::kMap:
+      return "map";
+    case View::kOblique:
+      return paints_pixels(scene.look) ? "oblique" : "map";
+    case View::kFollow:
+      return "follow";
+    case View::kSlope:
+      return "slope";
+  }
+  return "";
+}
+
+const char* keys_text(const Scene& scene, int columns) {
+  if (scene.spectating)
+    return columns < 80 ? " TAB scores T chat V view N next ? help Q quit"
+                        : " watching   N next louse  +/- zoom  TAB scores  T chat  V view  ? help  Q quit";
+  return columns < 80 ? " W push S brake A/D turn SPC cruise T chat ? help Q quit"
+                      : " W push S brake A/D turn  SPC cruise  TAB scores  T chat  V view  ? help  Q quit";
+}
+
+}  // namespace
+
+std::string proof_text(const StateProof& proof) {
+  if (proof.differs) return "state DIFFERS at tick " + std::to_string(*proof.differs);
+  if (!proof.total) return "state ok " + std::to_string(proof.verified);
+  return "state ok " + core::to_hex(proof.hash).substr(12) + " " + std::to_string(proof.verified) + "/" +
+         std::to_string(*proof.total);
+}
+
+void draw_status_line(const Scene& scene, CellBuffer& cells) {
+  if (scene.replay) return draw_replay_status_line(scene, cells);
+  const Styles styles = styles_for(scene.look);
+  const int columns = cells.size().columns;
+  const HudNumbers& hud = scene.hud;
+  cells.fill(0, 0, {columns, 1}, styles.bar);
+  Style title = styles.bar;
+  title.attributes = kBold;
+  int at = cells.text(1, 0, "WOODLOUSE", title);
+  at = cells.text(at + 2, 0, printable(scene.map_name, scene.look.glyphs), styles.bar, 24);
+  if (columns >= 80) at = cells.text(at + 2, 0, view_text(scene), styles.dim_bar);
+  std::string middle = scene.spectating ? "watching"
+                       : hud.rank > 0   ? formatted("#%d of %d", hud.rank, hud.players)
+                                        : "";
+  at = cells.text(at + 3, 0, middle, styles.bar);
+  if (scene.proof)
+    at = cells.text(at + 2, 0, proof_text(*scene.proof), scene.proof->differs ? styles.warning : styles.bar);
+  std::string right = hud.rtt_ms ? formatted("rtt %.0f ms", *hud.rtt_ms) : "rtt --";
+  right += formatted("  srv %.0f  fps %.0f", hud.tick_hz, hud.fps);
+  cells.text(std::max(at + 2, columns - 1 - static_cast<int>(right.size())), 0, right, styles.bar);
+}
+
+void draw_key_line(const Scene& scene, const Layout& layout, CellBuffer& cells) {
+  const Styles styles = styles_for(scene.look);
+  const int columns = cells.size().columns;
+  if (layout.rule_row >= 0 && !scene.replay)
+    cells.text(0, layout.rule_row, std::string(static_cast<std::size_t>(columns), '-'), styles.dim);
+  cells.fill(0, layout.key_row, {columns, 1}, styles.bar);
+  if (scene.mode == Mode::kChatEntry) {
+    const int at = cells.text(0, layout.key_row, " say: ", styles.bar);
+    const std::string hint = "  (Enter sends, Esc cancels)";
+    const int room = columns - at - 1 - static_cast<int>(hint.size());
+    std::u32string typed = printable(scene.chat_entry, scene.look.glyphs);
+    if (static_cast<int>(typed.size()) > room) typed.erase(0, typed.size() - static_cast<std::size_t>(room));
+    const int caret = cells.text(at, layout.key_row, typed, styles.bar);
+    Style block = styles.bar;
+    block.attributes = kReverse;
+    cells.put(caret, layout.key_row, U' ', block);
+    cells.text(columns - static_cast<int>(hint.size()), layout.key_row, hint, styles.bar);
+  } else if (scene.replay) {
+    draw_scrubber(scene, layout, cells);
+    draw_replay_key_line(scene, layout, cells);
+  } else {
+    cells.text(0, layout.key_row, keys_text(scene, columns), styles.bar);
+  }
+  if (scene.notice.empty()) return;
+  const std::u32string notice = printable(scene.notice, scene.look.glyphs);
+  const int row = layout.map.row + layout.map.size.rows - 1;
+  cells.put(0, row, U' ', styles.warning);
+  const int end = cells.text(1, row, notice, styles.warning, layout.map.size.columns - 2);
+  cells.put(end, row, U' ', styles.warning);
+}
+
+void draw_panel(const Scene& scene, const Badges& badges, const Viewport& panel, CellBuffer& cells) {
+  const Styles styles = styles_for(scene.look);
+  PanelWriter out(panel, scene.look, styles, cells);
+  const bool shows_room = scene.spectating && !scene.replay;
+  const int you_rows = shows_room ? 3 : 5;
+  constexpr int kFrames = 4;  // three titles and the foot
+  constexpr int kLeastChat = 3;
+  const int most = std::max(1, panel.size.rows - kFrames - you_rows - kLeastChat);
+  const int players = std::clamp(static_cast<int>(scene.scores.size()), 1, std::min(most, 16));
+  out.title(formatted("PLAYERS %d (%d %s)", scene.hud.players, scene.hud.bots,
+                      scene.hud.bots == 1 ? "bot" : "bots"));
+  draw_players(scene, badges, styles, out, players);
+  out.skip_to(1 + players);
+  out.title(shows_room ? "THE ROOM" : scene.replay ? followed_text(scene, badges) : "YOU");
+  shows_room ? draw_room(scene, styles, out) : draw_you(scene, styles, out);
+  out.title(scene.replay ? "CHAT" : "CHAT  (T to talk)");
+  draw_chat(scene, styles, out, panel.size.rows - out.rows_used() - 1);
+  out.finish();
+}
+
+}  // namespace woodlouse::client

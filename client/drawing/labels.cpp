@@ -1,0 +1,28 @@
+#include "client/drawing/labels.h"
+
+#include <cstddef>
+
+#include "client/drawing/pixels.h"
+
+namespace woodlouse::client {
+
+std::u32string shown_name(const std::string& name, LouseKind kind, bool is_you, GlyphSet glyphs, int width) {
+  std::u32string shown = is_you ? U"you" : printable(name, glyphs);
+  const std::size_t room =
+      static_cast<std::size_t>(std::max(0, width)) - (kind == LouseKind::kBot && width > 0 ? 1 : 0);
+  if (shown.size() > room) shown.resize(room);
+  if (kind == LouseKind::kBot && width > 0) shown.push_back(U'*');
+  return shown;
+}
+
+void draw_label(const LouseMark& louse, const Badge& badge, int column, int row, Size reach, const Look& look,
+                const Viewport& viewport, LabelPlacer& labels, CellBuffer& cells) {
+  constexpr int kLongest = 12;
+  const std::u32string name = shown_name(louse.name, louse.kind, louse.is_you, look.glyphs, kLongest);
+  const auto place = labels.place(column, row, static_cast<int>(name.size()), reach);
+  if (!place) return;
+  int at = place->column;
+  for (const char32_t c : name) put_over(cells, viewport, at++, place->row, c, Color::of(badge.color));
+}
+
+}  // namespace woodlouse::client

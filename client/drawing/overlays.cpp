@@ -1,0 +1,174 @@
+#include "client/drawing/overlays.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <string_view>
+
+#include "client/drawing/formatted.h"
+#include "client/drawing/frame_box.h"
+#include "client/drawing/labels.h"
+#include "client/drawing/palette.h"
+
+namespace woodlouse::client {
+namespace {
+
+Viewport centred(Size wanted, Size screen) {
+  const Size size{std::min(wanted.columns, screen.columns), std::min(wanted.rows, screen.rows)};
+  return {(screen.columns - size.columns) / 2, (screen.rows - size.rows) / 2, size};
+}
+
+std::string_view color_text(ColorMode mode) {
+  switch (mode) {
+    case ColorMode::kMono:
+      return "mono";
+    case ColorMode::k16:
+      return "16";
+    case ColorMode::k256:
+      return "256";
+    case ColorMode::kTruecolor:
+      return "truecolor";
+  }
+  return "";
+}
+
+/// A line of the help: a head in the margin, and what it says.
+struct HelpLine {
+  std::string_view head;
+  std::string_view text;
+};
+
+constexpr std::array<HelpLine, 13> kGameHelp = {
+    {{"DRIVE", "W / Up     push along your heading: 0.4 s a press"},
+     {"", "S / Down   brake"},
+     {"", "A D / left right   turn 22.5 degrees"},
+     {"", "Space      cruise: the push stays on    R respawn"},
+     {"SEE", "V view: map / oblique / follow / slope  +/- zoom"},
+     {"", "L labels   P trails   N next louse (watching)"},
+     {"TALK", "T chat   Enter sends   Esc cancels"},
+     {"", "Tab scoreboard: distance travelled"},
+     {"QUIT", "Q (asks)   Ctrl-C (now; restores the terminal)"},
+     {"MAP", "Close lines are steep. You roll downhill for free,"},
+     {"", "hills eat speed. @ is you, a-z others, * marks a"},
+     {"", "bot, the glyph beside a letter is its heading."},
+     {"", "In colour low is blue, and a white head leads."}}};
+
+constexpr std::array<HelpLine, 13> kReplayHelp = {
+    {{"TIME", "Space      play, pause; at the end: once more"},
+     {"", "< >        5 s back, forth    also left and right"},
+     {"", ", .        one tick back, forth"},
+     {"", "[ ]        slower, faster: x0.25 to x16"},
+     {"", "0-9        jump by tenths     Home End"},
+     {"", "N Shift-N  next, previous event: + joined, x left,"},
+     {"", "           o began again, ! chat"},
+     {"SEE", "F Shift-F  follow the next, the previous louse"},
+     {"", "V view: map / oblique / follow / slope  +/- zoom"},
+     {"", "L labels   P trails   Tab scoreboard"},
+     {"QUIT", "Q          Ctrl-C (restores the terminal, too)"},
+     {"PROOF", "state ok: the ticks that were re-run here, all of"},
+     {"", "them with the very hash that was recorded."}}};
+
+void draw_help(const Scene& scene, const Styles& styles, CellBuffer& cells) {
+  const std::array<HelpLine, 13>& lines = scene.replay ? kReplayHelp : kGameHelp;
+  const Viewport box = centred({60, static_cast<int>(lines.size()) + 5}, cells.size());
+  draw_box(box, "HELP (any key closes)", scene.look, styles, cells);
+  const int left = box.column + 2;
+  constexpr int kMargin = 6;
+  int row = box.row + 1;
+  for (const HelpLine& line : lines) {
+    cells.text(left, row, line.head, styles.strong);
+    cells.text(left + kMargin, row++, line.text, styles.text, box.size.columns - kMargin - 4);
+  }
+  const std::string keys = scene.key_up_known ? "hold and release" : "no key-up seen: a press is a pulse";
+  const std::string glyphs = scene.look.glyphs == GlyphSet::kAscii ? "ascii" : "half-blocks";
+  if (!scene.replay) cells.text(left, ++row, "keys: " + keys, styles.dim, box.size.columns - 4);
+  cells.text(left, ++row, "color: " + std::string(color_text(scene.look.color)) + "   glyphs: " + glyphs,
+             styles.dim, box.size.columns - 4);
+}
+
+void draw_scoreboard(const Scene& scene, const Badges& badges, const Styles& styles, CellBuffer& cells) {
+  const int most = std::max(1, cells.size().rows - 8);
+  const int rows = std::clamp(static_cast<int>(scene.scores.size()), 1, most);
+  const Viewport box = centred({56, rows + 4}, cells.size());
+  draw_box(box, "SCORES  distance travelled", scene.look, styles, cells);
+  const int left = box.column + 2;
+  constexpr int kKind = 29;
+  constexpr int kSpeed = 34;
+  constexpr int kDistance = 44;
+  cells.text(left, box.row + 1, " #  louse", styles.dim);
+  cells.text(left + kKind - 1, box.row + 1, "kind", styles.dim);
+  cells.text(left + kSpeed + 5, box.row + 1, "speed", styles.dim);
+  cells.text(left + kDistance + 3, box.row + 1, "metres", styles.dim);
+  for (int i = 0; i < std::min(rows, static_cast<int>(scene.scores.size())); ++i) {
+    const ScoreRow& row = scene.scores[static_cast<std::size_t>(i)];
+    const int y = box.row + 2 + i;
+    const Style style = row.is_you ? styles.strong : styles.text;
+    Style colored = style;
+    if (scene.look.color != ColorMode::kMono) colored.foreground = Color::of(badges.of(row.id).color);
+    cells.text(left, y, formatted("%2d", i + 1), styles.dim);
+    cells.text(left + 4, y, std::string(1, badges.of(row.id).letter), colored);
+    cells.text(left + 6, y, shown_name(row.name, row.kind, row.is_you, scene.look.glyphs, 21), colored);
+    cells.text(left + kKind - 1, y, row.kind == LouseKind::kBot ? "bot" : "human", style);
+    cells.text(left + kSpeed, y, formatted("%6.2f m/s", row.speed), style);
+    cells.text(left + kDistance, y, formatted("%9.1f", row.distance), style);
+  }
+  const int hidden = static_cast<int>(scene.scores.size()) - rows;
+  if (hidden > 0) cells.text(left, box.row + rows + 2, formatted("and %d more", hidden), styles.dim);
+}
+
+void draw_quit_question(const Scene& scene, const Styles& styles, CellBuffer& cells) {
+  const Viewport box = centred({40, 5}, cells.size());
+  draw_box(box, "LEAVE?", scene.look, styles, cells);
+  cells.text(box.column + 3, box.row + 1,
+             scene.spectating ? "Stop watching?" : "Your louse leaves the hill with you.", styles.text);
+  cells.text(box.column + 3, box.row + 3, "Y leave     any other key: stay", styles.strong);
+}
+
+void draw_connection_lost(const Scene& scene, const Styles& styles, CellBuffer& cells) {
+  const Viewport box = centred({56, 7}, cells.size());
+  draw_box(box, "CONNECTION LOST", scene.look, styles, cells);
+  const int left = box.column + 3;
+  const int width = box.size.columns - 6;
+  cells.text(left, box.row + 2, printable(scene.lost.reason, scene.look.glyphs), styles.text, width);
+  const std::string when = scene.lost.retry_seconds > 0.0
+                               ? formatted("trying again in %.0f s", std::ceil(scene.lost.retry_seconds))
+                               : std::string("trying now ...");
+  cells.text(left, box.row + 3, when + formatted("   (attempt %d)", scene.lost.attempt), styles.warning,
+             width);
+  cells.text(left, box.row + 5, "Q leaves", styles.dim, width);
+}
+
+}  // namespace
+
+void draw_overlay(const Scene& scene, const Badges& badges, CellBuffer& cells) {
+  const Styles styles = styles_for(scene.look);
+  switch (scene.mode) {
+    case Mode::kHelp:
+      return draw_help(scene, styles, cells);
+    case Mode::kScoreboard:
+      return draw_scoreboard(scene, badges, styles, cells);
+    case Mode::kQuitQuestion:
+      return draw_quit_question(scene, styles, cells);
+    case Mode::kConnectionLost:
+      return draw_connection_lost(scene, styles, cells);
+    case Mode::kPlay:
+    case Mode::kChatEntry:
+      return;
+  }
+}
+
+void draw_too_small(const Scene& scene, CellBuffer& cells) {
+  const Size size = cells.size();
+  const std::string needs = formatted("WOODLOUSE needs %d x %d, this terminal is %d x %d.",
+                                      kSmallestSize.columns, kSmallestSize.rows, size.columns, size.rows);
+  const int left = std::clamp(size.columns - static_cast<int>(needs.size()), 0, 5);
+  int row = size.rows >= 6 ? 1 : 0;
+  cells.text(left, row, needs, {});
+  cells.text(left, ++row, "Enlarge it, or zoom out (Ctrl and -).", {});
+  if (size.rows >= 6) ++row;
+  if (!scene.replay) cells.text(left, ++row, "The game goes on: your louse keeps rolling.", {});
+  cells.text(left, ++row, "Q leaves.", {});
+}
+
+}  // namespace woodlouse::client

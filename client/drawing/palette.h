@@ -1,0 +1,49 @@
+// The game's colours: the terrain's ramps, the lice's, the panel's.
+#pragma once
+
+#include <cstdint>
+
+#include "client/drawing/cell_buffer.h"
+#include "client/drawing/color.h"
+#include "client/drawing/scene.h"
+
+namespace woodlouse::client {
+
+/// The terrain at a tone (0 lowest .. 1 highest) and brightness (0 black .. 1 fully lit). At 256 colours from
+/// 16-step ramps of palette entries, else RGB.
+Color terrain_color(double tone, double brightness, ColorMode mode);
+
+/// The same hue, bright enough for thin lines on a dark ground.
+Color contour_color(double tone);
+
+/// Steepness 0 (level) .. 1 (the steepest), dark blue over magenta and orange to pale yellow.
+Color slope_color(double steepness, ColorMode mode);
+
+/// The sky behind an oblique view at a height 0 (top) .. 1 (bottom).
+Color sky_color(double height, ColorMode mode);
+
+/// The earth under the map's edge.
+Color edge_color(double brightness, ColorMode mode);
+
+enum class Owner : std::uint8_t { kYou, kOther };
+
+/// A louse's own colour: yours is red, the others' go by their id.
+Rgb louse_color(std::uint32_t id, Owner owner, ColorMode mode);
+
+/// A trail has two brightnesses, so that while it grows a frame changes at its two ends and in the middle
+/// only.
+enum class TrailAge : std::uint8_t { kRecent, kOld };
+Color trail_color(Rgb louse, TrailAge age, ColorMode mode);
+
+/// The panel's and the lines' styles for a look.
+struct Styles {
+  Style text;
+  Style dim;      ///< frames, column heads
+  Style strong;   ///< your own row, titles
+  Style bar;      ///< status line and key line
+  Style dim_bar;  ///< what matters less there
+  Style warning;
+};
+Styles styles_for(const Look& look);
+
+}  // namespace woodlouse::client

@@ -1,0 +1,31 @@
+// The map in half-block pixels, from above: elevation colours, light and shadow, thin contours; or the length
+// of the gradient, which shows at a glance whether normals are continuous.
+#pragma once
+
+#include <vector>
+
+#include "client/drawing/badges.h"
+#include "client/drawing/cell_buffer.h"
+#include "client/drawing/layout.h"
+#include "client/drawing/map_camera.h"
+#include "client/drawing/relief.h"
+#include "client/drawing/scene.h"
+
+namespace woodlouse::client {
+
+enum class Paint { kElevation, kSteepness };
+
+/// What `camera` sees in `size` cells, row by row.
+std::vector<Cell> top_layer(const Relief& relief, const MapCamera& camera, Size size, ColorMode mode,
+                            Paint paint);
+
+/// Trails as pixels, lice as a letter on their colour with a heading glyph beside, names where there is room.
+void draw_lice_on_map(const Scene& scene, const Badges& badges, const MapCamera& camera,
+                      const Viewport& viewport, CellBuffer& cells);
+
+/// How much darker a contour line is, given the rise across one pixel: 1 where there is none. Lines nearer
+/// than 3 pixels are thinned to every second, fourth, ... one; on nearly level ground there are twice as
+/// many. `z` here, `z_right` and `z_below` one pixel on.
+double contour_shade(double z, double z_right, double z_below, double interval);
+
+}  // namespace woodlouse::client

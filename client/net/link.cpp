@@ -1,0 +1,149 @@
+#include "client/net/link.h"
+
+#include <boost/asio/connect.hpp>
+#include <boost/asio/write.hpp>
+#include <utility>
+#include <variant>
+
+#include "shared/protocol/codec.h"
+
+namespace woodlouse::client {
+
+using boost::system::error_code;
+
+namespace {
+
+std::string in_words(error_code error) {
+  namespace asio = boost::asio;
+  if (error == asio::error::eof) return "the server closed the connection";
+  if (error == asio::error::connection_refused) return "connection refused";
+  if (error == asio::error::host_not_found || error == asio::error::host_not_found_try_again)
+    return "host not found";
+  return error.message();
+}
+
+}  // namespace
+
+Link::Link(boost::asio::io_context& context, protocol::Join join, LinkListener& listener)
+    : join_(std::move(join)),
+      listener_(&listener),
+      resolver_(context),
+      socket_(context),
+      watchdog_(context) {}
+
+void Link::open(const Address& address) {
+  watch(kHandshake, "no answer within " + std::to_string(kHandshake.count()) + " s");
+  resolver_.async_resolve(
+      address.host, std::to_string(address.port),
+      [self = shared_from_this()](error_code error, const Tcp::resolver::results_type& endpoints) {
+        if (error) return self->end(in_words(error));
+        self->on_resolved(endpoints);
+      });
+}
+
+void Link::on_resolved(const Tcp::resolver::results_type& endpoints) {
+  if (listener_ == nullptr) return;
+  boost::asio::async_connect(socket_, endpoints,
+                             [self = shared_from_this()](error_code error, const Tcp::endpoint&) {
+                               if (self->listener_ == nullptr) return;
+                               if (error) return self->end(in_words(error));
+                               error_code ignored_where_unsupported;  // without it inputs are only later
+                               self->socket_.set_option(Tcp::no_delay(true), ignored_where_unsupported);
+                               self->read();
+                             });
+}
+
+void Link::read() {
+  socket_.async_read_some(boost::asio::buffer(incoming_),
+                          [self = shared_from_this()](error_code error, std::size_t size) {
+                            if (self->listener_ == nullptr) return;
+                            self->framer_.append({self->incoming_.data(), size});
+                            self->take_lines();
+                            if (self->listener_ == nullptr) return;
+                            if (error)
+                              return self->end(self->farewell_.empty() ? in_words(error) : self->farewell_);
+                            if (self->joined_) self->watch(kSilence, "the server has fallen silent");
+                            self->read();
+                          });
+}
+
+void Link::take_lines() {
+  while (listener_ != nullptr) {
+    const auto line = framer_.next();
+    if (!line) return;
+    if (line->oversize)
+      return end("the server sent a line of more than " + std::to_string(kMaxLineBytes) + " bytes");
+    const auto message = protocol::decode_server(line->text, welcome_.fields, welcome_.format);
+    if (message) {
+      take(*message);
+    } else if (message.error().code != "unknown_type") {  // a newer server may say things we need not know
+      end("no woodlouse server answers there: " + message.error().text);
+    }
+  }
+}
+
+void Link::take(const protocol::ServerMessage& message) {
+  if (const auto* hello = std::get_if<protocol::Hello>(&message)) {
+    if (hello->protocol != protocol::kProtocolVersion) {
+      return end("the server speaks protocol " + std::to_string(hello->protocol) + ", this client " +
+                 std::to_string(protocol::kProtocolVersion));
+    }
+    write(protocol::encode(protocol::ClientMessage(join_)));
+  } else if (const auto* welcome = std::get_if<protocol::Welcome>(&message)) {
+    welcome_ = *welcome;
+    joined_ = true;
+  } else if (const auto* error = std::get_if<protocol::ErrorMessage>(&message);
+             error != nullptr && (error->fatal || !joined_)) {
+    farewell_ = error->text;
+    if (!joined_) return end(farewell_);
+  } else if (const auto* bye = std::get_if<protocol::Bye>(&message)) {
+    if (farewell_.empty()) farewell_ = bye->text;
+  }
+  if (listener_ != nullptr) listener_->on_message(message, std::chrono::steady_clock::now());
+}
+
+void Link::send(const protocol::ClientMessage& message) {
+  if (joined_) write(protocol::encode(message));
+}
+
+void Link::write(const std::string& line) {
+  if (listener_ == nullptr) return;
+  if (unsent_.size() + line.size() > kMaxUnsentBytes) return end("the server takes nothing any more");
+  unsent_ += line;
+  if (sending_.empty()) flush();
+}
+
+void Link::flush() {
+  std::swap(sending_, unsent_);
+  boost::asio::async_write(socket_, boost::asio::buffer(sending_),
+                           [self = shared_from_this()](error_code error, std::size_t) {
+                             self->sending_.clear();
+                             if (self->listener_ == nullptr) return;
+                             // A failing write: the read that is under way brings the reason, the server's
+                             // bye before it.
+                             if (!error && !self->unsent_.empty()) self->flush();
+                           });
+}
+
+void Link::watch(std::chrono::seconds patience, std::string reason) {
+  watchdog_.expires_after(patience);
+  watchdog_.async_wait([self = shared_from_this(), reason = std::move(reason)](error_code error) {
+    if (!error) self->end(reason);
+  });
+}
+
+void Link::end(const std::string& reason) {
+  LinkListener* const listener = listener_;
+  close();
+  if (listener != nullptr) listener->on_closed(reason);
+}
+
+void Link::close() {
+  listener_ = nullptr;
+  resolver_.cancel();
+  watchdog_.cancel();
+  error_code nothing_to_do_about_it;
+  socket_.close(nothing_to_do_about_it);
+}
+
+}  // namespace woodlouse::client

@@ -1,0 +1,148 @@
+#include "client/play/game.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <utility>
+#include <variant>
+
+namespace woodlouse::client {
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kServerCheck{500};
+
+}  // namespace
+
+Game::Game(boost::asio::io_context& context, Session& session, TerminalGuard& guard, int keys,
+           TerminalScreen& screen, const GameSettings& settings, std::function<bool()> server_alive)
+    : session_(session),
+      guard_(guard),
+      screen_(screen),
+      settings_(settings),
+      server_alive_(std::move(server_alive)),
+      loop_(context, guard, keys, screen, settings.fps, *this) {}
+
+Outcome Game::run() {
+  interface_.view = settings_.view.value_or(default_view(settings_.look, terminal_size(STDOUT_FILENO)));
+  interface_.overlay = settings_.first;
+  return loop_.run();
+}
+
+void Game::on_input(const TerminalInput& input) {
+  if (const Key* key = std::get_if<Key>(&input)) return on_key(*key);
+  if (const Paste* paste = std::get_if<Paste>(&input); paste != nullptr && interface_.chatting) {
+    chat_.paste(paste->text);
+    loop_.hurry();
+  }
+  if (const Focus* focus = std::get_if<Focus>(&input); focus != nullptr && *focus == Focus::kLost) {
+    if (Pilot* pilot = session_.room().pilot()) pilot->steering().release_all();
+  }
+}
+
+void Game::on_key(const Key& key) {
+  if (interface_.chatting && !control_action(key)) {
+    bindings_.observe(key);
+    // A push begun before the chat was opened still ends with its key.
+    if (key.action == KeyAction::kRelease) {
+      if (const auto action = bindings_.on_key(key, interface_.overlay)) perform(*action);
+    } else {
+      close_chat(chat_.type(key));
+    }
+    return loop_.hurry();
+  }
+  if (const auto action = bindings_.on_key(key, interface_.overlay)) {
+    perform(*action);
+    loop_.hurry();
+  }
+}
+
+void Game::close_chat(ChatEntry::Outcome outcome) {
+  if (outcome == ChatEntry::Outcome::kTyping) return;
+  if (outcome == ChatEntry::Outcome::kSend) session_.room().say(chat_.text());
+  interface_.chatting = false;
+  chat_.clear();
+}
+
+void Game::perform(Action action) {
+  if (drive(action) || interface_.apply(action)) return;
+  switch (action) {
+    case Action::kRespawn:
+      session_.room().respawn();
+      break;
+    case Action::kNextLouse:
+      interface_.follow_id = next_louse(
+          session_.room().sight(), followed(session_.room().sight(), interface_.follow_id));
+      break;
+    case Action::kConfirm:
+      loop_.finish({});
+      break;
+    case Action::kQuitNow:
+      loop_.finish({kExitInterrupted, ""});
+      break;
+    case Action::kSuspend:
+      guard_.suspend();
+      break;
+    case Action::kRedraw:
+      screen_.invalidate();
+      break;
+    default:
+      break;
+  }
+}
+
+bool Game::drive(Action action) {
+  Pilot* const pilot = session_.room().pilot();
+  const TimePoint now = steady_clock::now();
+  switch (action) {
+    case Action::kPushPulse:
+      if (pilot != nullptr) pilot->steering().push(now);
+      return true;
+    case Action::kPushHold:
+      if (pilot != nullptr) pilot->steering().hold_push();
+      return true;
+    case Action::kPushRelease:
+      if (pilot != nullptr) pilot->steering().release_push();
+      return true;
+    case Action::kBrakePulse:
+      if (pilot != nullptr) pilot->steering().brake(now);
+      return true;
+    case Action::kBrakeHold:
+      if (pilot != nullptr) pilot->steering().hold_brake();
+      return true;
+    case Action::kBrakeRelease:
+      if (pilot != nullptr) pilot->steering().release_brake();
+      return true;
+    case Action::kTurnLeft:
+      if (pilot != nullptr) pilot->steering().turn(Turn::kLeft);
+      return true;
+    case Action::kTurnRight:
+      if (pilot != nullptr) pilot->steering().turn(Turn::kRight);
+      return true;
+    case Action::kCruise:
+      if (pilot != nullptr) pilot->steering().toggle_cruise();
+      return true;
+    default:
+      return false;
+  }
+}
+
+Scene Game::scene(TimePoint now, double fps) {
+  session_.update(now);
+  check_server(now);
+  return build_scene(session_, interface_, chat_, {settings_.look, fps, bindings_.release_seen(), now});
+}
+
+void Game::check_server(TimePoint now) {
+  if (session_.failure()) {
+    const core::Error& error = *session_.failure();
+    loop_.finish(
+        {kExitUnreachable, "woodlouse: " + error.where + ": " + error.what + "\n      " + error.hint + "\n"});
+  } else if (server_alive_ && now - server_seen_ >= kServerCheck) {
+    server_seen_ = now;
+    if (!server_alive_()) loop_.finish({kExitUnreachable, "woodlouse: the server started here has ended\n"});
+  }
+}
+
+}  // namespace woodlouse::client

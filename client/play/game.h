@@ -1,0 +1,58 @@
+// The game on a terminal: keys become steering and chat, the session runs on and is seen frame by frame.
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <functional>
+#include <optional>
+
+#include "client/play/chat_entry.h"
+#include "client/play/interface.h"
+#include "client/play/key_bindings.h"
+#include "client/terminal/outcome.h"
+#include "client/play/scene_builder.h"
+#include "client/play/session.h"
+#include "client/terminal/terminal_guard.h"
+#include "client/terminal/terminal_loop.h"
+#include "client/terminal/terminal_screen.h"
+
+namespace woodlouse::client {
+
+struct GameSettings {
+  Look look;
+  std::optional<View> view;  ///< none: what suits the terminal
+  int fps = 30;
+  Overlay first = Overlay::kNone;  ///< what lies over the first frame
+};
+
+class Game final : private Performance {
+ public:
+  /// keys: the terminal to read, taken over. screen: where frames go. All but keys outlive the game.
+  /// server_alive: whether the server we started ourselves still runs; empty when it is somebody else's.
+  Game(boost::asio::io_context& context, Session& session, TerminalGuard& guard, int keys,
+       TerminalScreen& screen, const GameSettings& settings, std::function<bool()> server_alive);
+
+  /// Until the player leaves or something ends it.
+  Outcome run();
+
+ private:
+  void on_input(const TerminalInput& input) override;
+  Scene scene(TimePoint now, double fps) override;
+  void on_key(const Key& key);
+  void perform(Action action);
+  bool drive(Action action);
+  void close_chat(ChatEntry::Outcome outcome);
+  void check_server(TimePoint now);
+
+  Session& session_;
+  TerminalGuard& guard_;
+  TerminalScreen& screen_;
+  GameSettings settings_;
+  std::function<bool()> server_alive_;
+  KeyBindings bindings_;
+  Interface interface_;
+  ChatEntry chat_;
+  TimePoint server_seen_{};  ///< when server_alive_ was last asked
+  TerminalLoop loop_;
+};
+
+}  // namespace woodlouse::client

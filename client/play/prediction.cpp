@@ -1,0 +1,97 @@
+#include "client/play/prediction.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace woodlouse::client {
+namespace {
+
+physics::Louse louse_of(const protocol::ExactState& state) {
+  physics::Louse louse;
+  louse.id = state.id;
+  louse.phase = static_cast<physics::Phase>(state.phase);
+  louse.flight_z = state.flight_z;
+  louse.flight_vz = state.flight_vz;
+  louse.position = state.position;
+  louse.velocity = state.velocity;
+  louse.heading = state.heading;
+  louse.thrust = state.thrust;
+  louse.distance = state.distance;
+  louse.thrust_kind = static_cast<physics::ThrustKind>(state.thrust_kind);
+  louse.thrust_ticks = state.thrust_ticks;
+  return louse;
+}
+
+}  // namespace
+
+Prediction::Prediction(std::shared_ptr<const terrain::Terrain> terrain, const physics::Parameters& parameters,
+                       std::uint32_t tick_hz)
+    : ways_(terrain->domain(), parameters.edges), world_(std::move(terrain), parameters, 1.0 / tick_hz) {}
+
+void Prediction::sent(std::uint32_t seq, std::uint64_t tick, const ThrustOrder& order) {
+  assert(pending_.empty() || (pending_.back().seq < seq && pending_.back().tick < tick));
+  if (pending_.size() == kMaxPending) pending_.pop_front();
+  pending_.push_back({seq, tick, order});
+}
+
+void Prediction::acknowledge(const protocol::Ack& ack) {
+  while (!pending_.empty() && pending_.front().seq <= ack.seq) pending_.pop_front();
+  if (!ack.you) return;
+  const bool was_known = louse() != nullptr;
+  const core::Vec2 believed = was_known ? louse()->position : ack.you->position;
+  const std::uint64_t target = std::max(tick_, ack.you->tick);
+  if (id_) world_.erase(*id_);
+  world_.insert(louse_of(*ack.you));
+  id_ = ack.you->id;
+  tick_ = ack.you->tick;
+  while (!history_.empty() && history_.back().tick >= tick_) history_.pop_back();
+  if (!history_.empty() && history_.back().tick + 1 != tick_) history_.clear();
+  history_.push_back({tick_, louse()->position});
+  // One that asked for a step already answered for came too late; a later step will take it: the next is the
+  // best guess.
+  for (const Pending& input : pending_) {
+    if (input.tick < tick_) world_.set_thrust(*id_, input.order.thrust, input.order.ticks);
+  }
+  if (target - tick_ <= kMaxAheadTicks) advance(target);
+  if (was_known && tick_ == target) correction_ += ways_.way(louse()->position, believed);
+}
+
+void Prediction::advance(std::uint64_t tick) {
+  if (!id_) return;
+  if (tick > tick_ &&
+      tick - tick_ > kMaxAheadTicks) {  // a suspended client: what it believed is worth nothing
+    forget();
+    return;
+  }
+  while (tick_ < tick) step();
+}
+
+void Prediction::step() {
+  for (const Pending& input : pending_) {
+    if (input.tick == tick_) world_.set_thrust(*id_, input.order.thrust, input.order.ticks);
+  }
+  world_.step();
+  ++tick_;
+  history_.push_back({tick_, louse()->position});
+  if (history_.size() > kHistory) history_.pop_front();
+}
+
+void Prediction::forget() {
+  if (id_) world_.erase(*id_);
+  id_.reset();
+  pending_.clear();
+  history_.clear();
+  correction_ = {};
+}
+
+const physics::Louse* Prediction::louse() const { return id_ ? world_.find(*id_) : nullptr; }
+
+std::optional<core::Vec2> Prediction::position_at(std::uint64_t tick) const {
+  if (history_.empty() || tick < history_.front().tick || tick > history_.back().tick) return std::nullopt;
+  return history_[static_cast<std::size_t>(tick - history_.front().tick)].position;
+}
+
+core::Vec2 Prediction::take_correction() { return std::exchange(correction_, core::Vec2{}); }
+
+}  // namespace woodlouse::client

@@ -1,0 +1,227 @@
+#include "client/play/room_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "shared/core/stable_hash.h"
+#include "shared/map/map_loader.h"
+
+namespace woodlouse::client {
+namespace {
+
+constexpr double kTrailSpacings = 200.0;  // a trail's points are this part of the map's width apart
+
+template <typename... Cases>
+struct Overloaded : Cases... {
+  using Cases::operator()...;
+};
+template <typename... Cases>
+Overloaded(Cases...) -> Overloaded<Cases...>;
+
+std::int64_t microseconds(TimePoint time) {
+  return std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch()).count();
+}
+
+terrain::HeightGrid grid_of(const protocol::Overview& overview) {
+  return {overview.columns,   overview.rows,      overview.origin.x, overview.origin.y,
+          overview.spacing.x, overview.spacing.y, overview.heights};
+}
+
+}  // namespace
+
+protocol::Join make_join(protocol::Role role, const std::string& name, const std::string& room, Hashes hashes) {
+  protocol::Join join;
+  join.role = role;
+  join.name = name;
+  join.room = room;
+  join.fields = wanted_columns();
+  if (hashes == Hashes::kVerified) {
+    join.fields = protocol::all_columns();
+    join.format = protocol::Format::kExact;
+  }
+  return join;
+}
+
+core::Expected<void> RoomView::on_message(const protocol::ServerMessage& message, TimePoint now) {
+  return std::visit(
+      Overloaded{
+          [&](const protocol::Welcome& m) -> core::Expected<void> { return take(m), core::Expected<void>(); },
+          [&](const protocol::MapMessage& m) -> core::Expected<void> { return take(m); },
+          [&](const protocol::Frame& m) -> core::Expected<void> {
+            return take(m, now), core::Expected<void>();
+          },
+          [&](const protocol::Event& m) -> core::Expected<void> { return take(m), core::Expected<void>(); },
+          [&](const protocol::Pong& m) -> core::Expected<void> {
+            return take(m, now), core::Expected<void>();
+          },
+          [&](const protocol::Ack& m) -> core::Expected<void> {
+            if (pilot_) pilot_->acknowledge(m);
+            return {};
+          },
+          [&](const protocol::Ping& m) -> core::Expected<void> {
+            outgoing_.emplace_back(protocol::Pong{m.t});
+            return {};
+          },
+          [&](const protocol::Notice& m) -> core::Expected<void> {
+            return roster_.note(m.text), core::Expected<void>();
+          },
+          [&](const protocol::ErrorMessage& m) -> core::Expected<void> {
+            return notice(m.text, now), core::Expected<void>();
+          },
+          [](const auto&) -> core::Expected<void> { return {}; },  // hello, bye, rooms: the connection's
+      },
+      message);
+}
+
+void RoomView::take(const protocol::Welcome& welcome) {
+  welcome_ = welcome;
+  roster_.welcome(welcome);
+  clock_.emplace(welcome.tick_hz);
+  view_.emplace(welcome.tick_hz, welcome.fields);
+  pilot_.reset();
+  rate_time_.reset();
+  if (map_ && map_->hash == welcome.map_hash) {
+    begin_piloting();
+  } else {
+    map_.reset();
+    trails_.clear();
+    outgoing_.emplace_back(protocol::GetMap{});
+  }
+}
+
+core::Expected<void> RoomView::take(const protocol::MapMessage& message) {
+  auto parsed = message.overview ? map::parse_overview(message.definition, "the server's map", grid_of(*message.overview))
+                                 : map::parse_map(message.definition, "the server's map", {});
+  if (!parsed) return tl::unexpected(parsed.error());
+  if (welcome_ && (*parsed)->hash != welcome_->map_hash) {
+    return core::fail("the server's map",
+                      "its hash is " + core::to_hex((*parsed)->hash) + ", the server says " +
+                          core::to_hex(welcome_->map_hash),
+                      "use a client of the server's version");
+  }
+  map_ = std::move(*parsed);
+  begin_piloting();
+  return {};
+}
+
+void RoomView::begin_piloting() {
+  if (welcome_->id == 0) return;
+  // An overview is not the ground that is played on.
+  const auto ground = map_->detail == map::Detail::kExact ? map_->terrain : nullptr;
+  pilot_.emplace(ground, map_->definition.physics, welcome_->tick_hz, welcome_->id);
+}
+
+void RoomView::take(const protocol::Frame& frame, TimePoint now) {
+  if (!view_) return;
+  verifier_.take(frame);
+  clock_->observe(frame.tick, now);
+  measure_rate(frame.tick, now);
+  switch (view_->merge(frame)) {
+    case ViewState::Merge::kMissingBase:
+      if (resync_asked_ && now - *resync_asked_ < kResyncEvery) return;
+      resync_asked_ = now;
+      outgoing_.emplace_back(protocol::Resync{});
+      return;
+    case ViewState::Merge::kUnreadable:
+      notice("the server's rows have other columns than asked for", now);
+      return;
+    case ViewState::Merge::kStale:
+      return;
+    case ViewState::Merge::kTaken:
+      break;
+  }
+  if (!pilot_) return;
+  const auto row = view_->newest()->lice.find(pilot_->id());
+  if (row != view_->newest()->lice.end()) pilot_->compare(frame.tick, row->second);
+}
+
+void RoomView::measure_rate(std::uint64_t tick, TimePoint now) {
+  if (!rate_time_ || tick < rate_tick_) {
+    rate_time_ = now;
+    rate_tick_ = tick;
+    return;
+  }
+  const double seconds = std::chrono::duration<double>(now - *rate_time_).count();
+  if (seconds < 2.0) return;
+  measured_tick_hz_ = static_cast<double>(tick - rate_tick_) / seconds;
+  rate_time_ = now;
+  rate_tick_ = tick;
+}
+
+void RoomView::take(const protocol::Event& event) {
+  roster_.event(event);
+  if (event.kind == protocol::EventKind::kLeft) trails_.erase(event.id);
+  if (event.kind == protocol::EventKind::kRespawned && pilot_ && event.id == pilot_->id())
+    pilot_->respawned();
+}
+
+void RoomView::take(const protocol::Pong& pong, TimePoint now) {
+  const double seconds = static_cast<double>(microseconds(now) - pong.t) * 1e-6;
+  if (!(seconds >= 0.0 && seconds < 60.0)) return;  // not an answer to a ping of this run
+  round_trips_.push_back(seconds);
+  if (round_trips_.size() > kRoundTrips) round_trips_.pop_front();
+}
+
+std::optional<double> RoomView::rtt_seconds() const {
+  if (round_trips_.empty()) return std::nullopt;
+  return *std::min_element(round_trips_.begin(), round_trips_.end());
+}
+
+void RoomView::notice(std::string text, TimePoint now) {
+  notice_ = std::move(text);
+  notice_until_ = now + kNoticeFor;
+}
+
+void RoomView::on_lost() {
+  welcome_.reset();
+  clock_.reset();
+  view_.reset();
+  pilot_.reset();
+  round_trips_.clear();
+  pinged_.reset();
+  resync_asked_.reset();
+  outgoing_.clear();
+}
+
+void RoomView::update(TimePoint now) {
+  if (!notice_.empty() && now >= notice_until_) notice_.clear();
+  if (!welcome_) return;
+  if (!pinged_ || now - *pinged_ >= kPingEvery) {
+    pinged_ = now;
+    outgoing_.emplace_back(protocol::Ping{microseconds(now)});
+  }
+  if (pilot_) {
+    if (const auto input = pilot_->update(now, *clock_, rtt_seconds().value_or(0.0)))
+      outgoing_.emplace_back(*input);
+  }
+  draw_lice(now);
+}
+
+void RoomView::draw_lice(TimePoint now) {
+  lice_.clear();
+  if (!clock_->running()) return;
+  const double frame_gap = 2.0 / std::max(1u, welcome_->state_hz);
+  const double delay = std::max(std::chrono::duration<double>(kDelay).count(), frame_gap);
+  const Ways ways = map_ ? Ways(map_->terrain->domain(), map_->definition.physics.edges) : Ways();
+  for (const auto& [id, sample] : view_->at(clock_->tick(now) - delay * clock_->tick_hz(), ways)) {
+    lice_[id].sample = sample;
+  }
+  if (pilot_) {
+    if (const auto own = pilot_->sample()) lice_[pilot_->id()].sample = *own;
+  }
+  const double width = welcome_->extent[2] - welcome_->extent[0];
+  for (auto& [id, louse] : lice_) {
+    const Resident* resident = roster_.find(id);
+    louse.name = resident != nullptr ? resident->name : "#" + std::to_string(id);
+    louse.is_bot = resident != nullptr && resident->role == protocol::Role::kBot;
+    louse.is_you = id == welcome_->id;
+    trails_.try_emplace(id, std::max(width, 1.0) / kTrailSpacings).first->second.add(louse.sample.position);
+  }
+  std::erase_if(trails_, [this](const auto& entry) { return !lice_.contains(entry.first); });
+}
+
+std::vector<protocol::ClientMessage> RoomView::take_outgoing() { return std::exchange(outgoing_, {}); }
+
+}  // namespace woodlouse::client

@@ -1,0 +1,99 @@
+// Everything this client knows of the room it is in: what the server said, merged and timed. Messages in,
+// messages out; no socket, no terminal, and time is an argument.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/play/keyframe_verifier.h"
+#include "client/play/pilot.h"
+#include "client/play/roster.h"
+#include "client/net/server_clock.h"
+#include "client/play/visible_lice.h"
+#include "client/play/trail.h"
+#include "client/play/view_state.h"
+#include "shared/core/error.h"
+#include "shared/map/map_definition.h"
+#include "shared/protocol/messages.h"
+
+namespace woodlouse::client {
+
+class RoomView {
+ public:
+  static constexpr std::chrono::milliseconds kDelay{100};  ///< how far behind the others are drawn
+  static constexpr std::chrono::milliseconds kPingEvery{1000};
+  static constexpr std::size_t kRoundTrips = 8;
+  static constexpr std::chrono::milliseconds kResyncEvery{1000};  ///< asked for at most so often
+  static constexpr std::chrono::milliseconds kNoticeFor{4000};
+
+  /// One message of the server. Error: the server can't be played with (its map is unreadable); leave.
+  core::Expected<void> on_message(const protocol::ServerMessage& message, TimePoint now);
+  /// The line is cut: keeps the chat and the map, forgets the session.
+  void on_lost();
+  /// Runs on to now: prediction, trails, pings. What is to be sent is in take_outgoing().
+  void update(TimePoint now);
+  [[nodiscard]] std::vector<protocol::ClientMessage> take_outgoing();
+
+  void say(std::string text) { outgoing_.emplace_back(protocol::Chat{std::move(text)}); }
+  void respawn() { outgoing_.emplace_back(protocol::Respawn{}); }
+  /// A line over the key line for kNoticeFor.
+  void notice(std::string text, TimePoint now);
+
+  [[nodiscard]] const protocol::Welcome* welcome() const { return welcome_ ? &*welcome_ : nullptr; }
+  [[nodiscard]] const map::Map* map() const { return map_.get(); }
+  [[nodiscard]] const Roster& roster() const { return roster_; }
+  /// Null for a spectator and until the map is here.
+  [[nodiscard]] Pilot* pilot() { return pilot_ ? &*pilot_ : nullptr; }
+  [[nodiscard]] const Pilot* pilot() const { return pilot_ ? &*pilot_ : nullptr; }
+  /// Every louse as of the last update, by id.
+  [[nodiscard]] const std::map<std::uint32_t, Present>& lice() const { return lice_; }
+  [[nodiscard]] Sight sight() const { return {map_.get(), lice_, trails_, pilot()}; }
+  /// The smallest of the last kRoundTrips: the others waited for something besides the network.
+  [[nodiscard]] std::optional<double> rtt_seconds() const;
+  /// The server's tick rate as its frames show it [Hz]; 0 before it can be known.
+  [[nodiscard]] double measured_tick_hz() const { return measured_tick_hz_; }
+  [[nodiscard]] const std::string& notice_line() const { return notice_; }
+  /// What came of the keys' hashes, over all sessions; nothing verified unless asked for (make_join).
+  [[nodiscard]] const KeyVerifier& verifier() const { return verifier_; }
+
+ private:
+  void take(const protocol::Welcome& welcome);
+  core::Expected<void> take(const protocol::MapMessage& message);
+  void take(const protocol::Frame& frame, TimePoint now);
+  void take(const protocol::Event& event);
+  void take(const protocol::Pong& pong, TimePoint now);
+  void measure_rate(std::uint64_t tick, TimePoint now);
+  void begin_piloting();
+  void draw_lice(TimePoint now);
+
+  std::optional<protocol::Welcome> welcome_;
+  std::shared_ptr<const map::Map> map_;
+  std::optional<ServerClock> clock_;
+  std::optional<ViewState> view_;
+  KeyVerifier verifier_;
+  std::optional<Pilot> pilot_;
+  Roster roster_;
+  std::map<std::uint32_t, Present> lice_;
+  std::map<std::uint32_t, Trail> trails_;
+  std::vector<protocol::ClientMessage> outgoing_;
+  std::deque<double> round_trips_;  ///< [s], the newest last
+  std::optional<TimePoint> pinged_;
+  std::optional<TimePoint> resync_asked_;
+  std::uint64_t rate_tick_ = 0;  ///< where the measured rate's window begins
+  std::optional<TimePoint> rate_time_;
+  double measured_tick_hz_ = 0.0;
+  std::string notice_;
+  TimePoint notice_until_{};
+};
+
+/// The join of our client: its columns, its format.
+protocol::Join make_join(protocol::Role role, const std::string& name, const std::string& room,
+                         Hashes hashes = Hashes::kIgnored);
+
+}  // namespace woodlouse::client

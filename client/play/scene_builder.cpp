@@ -1,0 +1,194 @@
+#include "client/play/scene_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <utility>
+
+namespace woodlouse::client {
+namespace {
+
+constexpr std::size_t kShortTrail = 30;  // points
+constexpr double kStill = 0.05;          // [m/s] below it a louse's body points along its heading
+
+terrain::SurfaceSample ground_under(const Sight& sight, core::Vec2 position) {
+  if (sight.map == nullptr) return {};
+  const terrain::Rectangle& domain = sight.map->terrain->domain();
+  return sight.map->terrain->sample(std::clamp(position.x, domain.x_min, domain.x_max),
+                                    std::clamp(position.y, domain.y_min, domain.y_max));
+}
+
+core::Vec2 direction_of_travel(const LouseSample& louse) {
+  const double speed = std::hypot(louse.velocity.x, louse.velocity.y);
+  return speed > kStill ? (1.0 / speed) * louse.velocity : louse.heading;
+}
+
+std::vector<core::Vec2> trail_of(const Sight& sight, std::uint32_t id, TrailLength length) {
+  const auto trail = sight.trails.find(id);
+  if (trail == sight.trails.end() || length == TrailLength::kOff) return {};
+  const auto& points = trail->second.points();
+  const std::size_t skip =
+      length == TrailLength::kShort && points.size() > kShortTrail ? points.size() - kShortTrail : 0;
+  return {points.begin() + static_cast<std::ptrdiff_t>(skip), points.end()};
+}
+
+LouseMark mark(const Sight& sight, std::uint32_t id, const Present& louse, TrailLength trails) {
+  const terrain::SurfaceSample ground = ground_under(sight, louse.sample.position);
+  LouseMark result;
+  result.id = id;
+  result.name = louse.name;
+  result.kind = louse.is_bot ? LouseKind::kBot : LouseKind::kPlayer;
+  result.is_you = louse.is_you;
+  result.position = louse.sample.position;
+  const core::Vec2 travel = direction_of_travel(louse.sample);
+  result.heading = louse.is_you && sight.pilot != nullptr ? sight.pilot->steering().heading() : travel;
+  result.attitude = physics::attitude(travel, {ground.zx, ground.zy});
+  result.speed = speed_in_space(ground, louse.sample.velocity);
+  result.trail = trail_of(sight, id, trails);
+  return result;
+}
+
+int rank_of(const std::vector<ScoreRow>& scores, std::uint32_t id) {
+  const auto row = std::find_if(scores.begin(), scores.end(), [id](const ScoreRow& r) { return r.id == id; });
+  return row == scores.end() ? 0 : static_cast<int>(row - scores.begin()) + 1;
+}
+
+void fill_steering_numbers(const Steering& steering, TimePoint now, HudNumbers& hud) {
+  hud.thrust = steering.braking(now) ? -1.0 : steering.pushing(now) ? 1.0 : 0.0;
+  hud.push_seconds = steering.seconds_left(now);
+  hud.cruise = steering.cruising();
+}
+
+void fill_connection_numbers(const RoomView& room, HudNumbers& hud) {
+  if (const auto rtt = room.rtt_seconds()) hud.rtt_ms = *rtt * 1e3;
+  hud.tick_hz = room.measured_tick_hz();
+  if (hud.tick_hz == 0.0 && room.welcome() != nullptr) hud.tick_hz = room.welcome()->tick_hz;
+}
+
+std::optional<StateProof> proof_of(const KeyVerifier& verifier) {
+  if (verifier.verified() == 0 && !verifier.difference()) return std::nullopt;
+  StateProof proof;
+  proof.verified = verifier.verified();
+  proof.hash = verifier.hash();
+  if (verifier.difference()) proof.differs = verifier.difference()->tick;
+  return proof;
+}
+
+Mode mode_of(const Session& session, const Interface& interface) {
+  if (interface.overlay == Overlay::kQuitQuestion) return Mode::kQuitQuestion;
+  if (session.connection().phase() != Connection::Phase::kJoined) return Mode::kConnectionLost;
+  if (interface.chatting) return Mode::kChatEntry;
+  switch (interface.overlay) {
+    case Overlay::kHelp:
+      return Mode::kHelp;
+    case Overlay::kScoreboard:
+      return Mode::kScoreboard;
+    default:
+      return Mode::kPlay;
+  }
+}
+
+}  // namespace
+
+double slope_degrees(const terrain::SurfaceSample& ground, core::Vec2 direction) {
+  return std::atan(ground.zx * direction.x + ground.zy * direction.y) * (180.0 / std::numbers::pi);
+}
+
+double speed_in_space(const terrain::SurfaceSample& ground, core::Vec2 v) {
+  return std::hypot(v.x, v.y, ground.zx * v.x + ground.zy * v.y);
+}
+
+std::vector<ScoreRow> score_rows(const Sight& sight) {
+  std::vector<ScoreRow> rows;
+  for (const auto& [id, louse] : sight.lice) {
+    const double speed = speed_in_space(ground_under(sight, louse.sample.position), louse.sample.velocity);
+    rows.push_back({id, louse.name, louse.is_bot ? LouseKind::kBot : LouseKind::kPlayer, louse.is_you,
+                    louse.sample.distance, speed});
+  }
+  std::stable_sort(rows.begin(), rows.end(),
+                   [](const ScoreRow& a, const ScoreRow& b) { return a.distance > b.distance; });
+  return rows;
+}
+
+std::uint32_t followed(const Sight& sight, std::uint32_t chosen) {
+  if (chosen != 0 && sight.lice.contains(chosen)) return chosen;
+  const auto leader = std::max_element(
+      sight.lice.begin(), sight.lice.end(),
+      [](const auto& a, const auto& b) { return a.second.sample.distance < b.second.sample.distance; });
+  return leader == sight.lice.end() ? 0 : leader->first;
+}
+
+std::uint32_t next_louse(const Sight& sight, std::uint32_t id) {
+  if (sight.lice.empty()) return 0;
+  const auto next = sight.lice.upper_bound(id);
+  return next == sight.lice.end() ? sight.lice.begin()->first : next->first;
+}
+
+std::uint32_t previous_louse(const Sight& sight, std::uint32_t id) {
+  if (sight.lice.empty()) return 0;
+  const auto at = sight.lice.lower_bound(id);
+  return at == sight.lice.begin() ? sight.lice.rbegin()->first : std::prev(at)->first;
+}
+
+void fill_louse_numbers(const Sight& sight, std::uint32_t id, Scene& scene) {
+  const auto louse = sight.lice.find(id);
+  if (louse == sight.lice.end()) return;
+  const LouseSample& sample = louse->second.sample;
+  const terrain::SurfaceSample ground = ground_under(sight, sample.position);
+  scene.hud.speed = speed_in_space(ground, sample.velocity);
+  scene.hud.slope_degrees = slope_degrees(ground, direction_of_travel(sample));
+  scene.hud.distance = sample.distance;
+  scene.hud.height = ground.z;
+  scene.hud.rank = rank_of(scene.scores, id);
+}
+
+Scene picture(const Sight& sight, const Interface& interface, const FrameFacts& facts) {
+  Scene scene;
+  scene.look = facts.look;
+  scene.view = interface.view;
+  scene.zoom = interface.zoom;
+  scene.labels = interface.labels;
+  scene.key_up_known = facts.key_up_known;
+  scene.follow_id = followed(sight, interface.follow_id);
+  if (sight.map != nullptr) {
+    scene.map_name = sight.map->definition.name;
+    scene.terrain = sight.map->terrain;
+  }
+  for (const auto& [id, louse] : sight.lice) scene.lice.push_back(mark(sight, id, louse, interface.trails));
+  scene.scores = score_rows(sight);
+  scene.hud.fps = facts.fps;
+  scene.hud.players = static_cast<int>(scene.scores.size());
+  scene.hud.bots = static_cast<int>(std::count_if(scene.scores.begin(), scene.scores.end(),
+                                                  [](const ScoreRow& r) { return r.kind == LouseKind::kBot; }));
+  return scene;
+}
+
+Scene build_scene(const Session& session, const Interface& interface, const ChatEntry& entry,
+                  const FrameFacts& facts) {
+  const RoomView& room = session.room();
+  Scene scene = picture(room.sight(), interface, facts);
+  scene.mode = mode_of(session, interface);
+  const auto own =
+      std::find_if(room.lice().begin(), room.lice().end(), [](const auto& l) { return l.second.is_you; });
+  const std::uint32_t own_id = room.welcome() != nullptr  ? room.welcome()->id
+                               : own != room.lice().end() ? own->first
+                                                          : 0;
+  scene.spectating = own_id == 0;
+  if (room.welcome() != nullptr) scene.room = room.welcome()->room;
+  fill_louse_numbers(room.sight(), scene.spectating ? scene.follow_id : own_id, scene);
+  if (room.pilot() != nullptr) fill_steering_numbers(room.pilot()->steering(), facts.now, scene.hud);
+  fill_connection_numbers(room, scene.hud);
+  for (const Utterance& line : room.roster().chat()) scene.chat.push_back({line.from, line.text});
+  scene.chat_entry = entry.text();
+  scene.notice = room.notice_line();
+  scene.proof = proof_of(room.verifier());
+  if (room.verifier().difference()) scene.notice = to_text(*room.verifier().difference());
+  if (scene.mode == Mode::kConnectionLost) {
+    scene.lost = {session.connection().reason(), session.connection().retry_seconds(facts.now),
+                  session.connection().attempts()};
+  }
+  return scene;
+}
+
+}  // namespace woodlouse::client

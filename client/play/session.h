@@ -1,0 +1,43 @@
+// The room view and its line to the server, wired together.
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <chrono>
+#include <optional>
+
+#include "client/net/connection.h"
+#include "client/play/room_view.h"
+#include "shared/core/error.h"
+
+namespace woodlouse::client {
+
+class Session final : private ConnectionListener {
+ public:
+  Session(boost::asio::io_context& context, const Address& address, protocol::Join join);
+
+  /// Runs the io_context until the server has welcomed us. Error: why it did not; the reason in `what`.
+  core::Expected<void> join();
+  /// Runs the room on to now and sends what it has to say.
+  void update(TimePoint now);
+  /// Says good-bye to the server and ends the line, waiting at most 200 ms for the words to go out.
+  void leave();
+
+  [[nodiscard]] RoomView& room() { return room_; }
+  [[nodiscard]] const RoomView& room() const { return room_; }
+  [[nodiscard]] const Connection& connection() const { return connection_; }
+  /// Why this server can't be played with; empty while it can.
+  [[nodiscard]] const std::optional<core::Error>& failure() const { return failure_; }
+  [[nodiscard]] std::chrono::milliseconds join_time() const { return join_time_; }
+
+ private:
+  void on_message(const protocol::ServerMessage& message, TimePoint arrival) override;
+  void on_lost() override;
+
+  boost::asio::io_context& context_;
+  RoomView room_;
+  Connection connection_;
+  std::optional<core::Error> failure_;
+  std::chrono::milliseconds join_time_{0};
+};
+
+}  // namespace woodlouse::client

@@ -1,0 +1,82 @@
+// From pushes, turns and brakes to the thrust the wire carries. The heading lives here, in the client: the
+// wire gets a map vector along it, with the ticks it is to act; a brake is the number -1.
+//
+// A press without a known release is a pulse of kPulse; repeats extend it. Held and latched pushes go out as
+// pulses too, renewed before they end, so that a client that dies or loses its line does not push for ever.
+// Time is an argument; poll() says what to send, at most once a tick.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "client/terminal/keyboard.h"
+#include "shared/core/vec2.h"
+#include "shared/state/louse.h"
+
+namespace woodlouse::client {
+
+enum class Turn : std::uint8_t { kLeft, kRight };
+
+/// What one input message asks for.
+struct ThrustOrder {
+  physics::Thrust thrust;
+  std::uint32_t ticks = 0;  ///< how long it acts, >= 1
+  friend bool operator==(const ThrustOrder&, const ThrustOrder&) = default;
+};
+
+class Steering {
+ public:
+  static constexpr std::chrono::milliseconds kPulse{400};
+  static constexpr std::chrono::milliseconds kRenewBefore{
+      200};                             ///< what is left of a held pulse when it is renewed
+  static constexpr int kHeadings = 16;  ///< a turn is a 16th of the circle, 22.5 degrees
+
+  explicit Steering(std::uint32_t tick_hz) : tick_hz_(tick_hz) {}
+
+  /// Points along a unit vector, as after a spawn; what is pushed goes on.
+  void point(core::Vec2 heading);
+  /// Ends every push, the latched one too; the server has forgotten them as well.
+  void reset();
+  void turn(Turn direction);
+
+  void push(TimePoint now);
+  void brake(TimePoint now);  ///< also ends cruise
+  void hold_push() { push_held_ = true; }
+  void hold_brake();  ///< also ends cruise
+  void release_push();
+  void release_brake();
+  void toggle_cruise();
+  void release_all();  ///< the terminal lost focus: releases will not be seen
+
+  /// The order to send now, or nothing while the last one still says it.
+  std::optional<ThrustOrder> poll(TimePoint now);
+
+  [[nodiscard]] core::Vec2 heading() const;
+  [[nodiscard]] bool cruising() const { return cruise_; }
+  [[nodiscard]] bool pushing(TimePoint now) const;
+  [[nodiscard]] bool braking(TimePoint now) const { return brake_held_ || now < brake_until_; }
+  /// How long the present push or brake still lasts by itself [s]; a held or latched one counts as a pulse.
+  [[nodiscard]] double seconds_left(TimePoint now) const;
+
+ private:
+  [[nodiscard]] physics::Thrust wanted(TimePoint now) const;
+  [[nodiscard]] TimePoint wanted_until(TimePoint now) const;
+
+  std::uint32_t tick_hz_;
+  double base_angle_ = 0.0;  ///< [rad], of the heading before any turn
+  int turns_ = 0;            ///< of 22.5 degrees, counter-clockwise
+  bool cruise_ = false;
+  bool push_held_ = false;
+  bool brake_held_ = false;
+  TimePoint push_until_{};
+  TimePoint brake_until_{};
+  physics::Thrust sent_;  ///< what the server was last told
+  TimePoint sent_until_{};
+};
+
+/// A unit vector as the wire can carry it: multiples of 1/128, rounded towards zero so that its length stays
+/// at most 1 and the server changes nothing.
+core::Vec2 wire_vector(core::Vec2 unit);
+
+}  // namespace woodlouse::client

@@ -1,0 +1,250 @@
+#include "client/play/text_game.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <utility>
+#include <variant>
+
+#include "client/play/scene_builder.h"
+
+namespace woodlouse::client {
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr std::size_t kMostLice = 20;  // read out at once; your own always
+
+std::string number(double value, int decimals) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return text.data();
+}
+
+std::string offset(double value, const char* positive, const char* negative) {
+  return number(std::abs(value), 1) + " m " + (value < 0.0 ? negative : positive);
+}
+
+}  // namespace
+
+namespace words {
+
+std::string compass(core::Vec2 direction) {
+  static constexpr std::array kNames = {"east", "north-east", "north", "north-west",
+                                        "west", "south-west", "south", "south-east"};
+  const double eighths = std::atan2(direction.y, direction.x) * (4.0 / std::numbers::pi);
+  return kNames[static_cast<std::size_t>(std::lround(eighths) + 8) % kNames.size()];
+}
+
+std::string louse(const RoomView& room, const Present& louse) {
+  const LouseSample& sample = louse.sample;
+  std::string line = (louse.is_you ? "you" : louse.name) + ": " + offset(sample.position.x, "east", "west") +
+                     ", " + offset(sample.position.y, "north", "south");
+  double speed = std::hypot(sample.velocity.x, sample.velocity.y);
+  if (room.map() != nullptr) {
+    const terrain::SurfaceSample ground = room.map()->terrain->sample(sample.position.x, sample.position.y);
+    const bool moves = speed > 0.05;
+    const core::Vec2 direction = moves ? (1.0 / speed) * sample.velocity : sample.heading;
+    speed = speed_in_space(ground, sample.velocity);
+    line += ", height " + number(ground.z, 1) + " m, " + number(speed, 1) + " m/s " + compass(direction) +
+            ", slope " + number(slope_degrees(ground, direction), 0) + " degrees";
+  }
+  return line + ", travelled " + number(sample.distance, 0) + " m";
+}
+
+std::vector<std::string> room(const RoomView& view) {
+  std::vector<std::string> lines;
+  const std::vector<ScoreRow> rows = score_rows(view.sight());
+  std::size_t rank = 0;
+  for (const ScoreRow& row : rows) {
+    if (rank >= kMostLice && !row.is_you) {
+      ++rank;
+      continue;
+    }
+    std::string line = "number " + std::to_string(++rank) + ", " + louse(view, view.lice().at(row.id));
+    if (row.is_you)
+      lines.insert(lines.begin(), std::move(line));
+    else
+      lines.push_back(std::move(line));
+  }
+  if (rows.size() > kMostLice) lines.push_back("and " + std::to_string(rows.size() - kMostLice) + " more");
+  return lines;
+}
+
+}  // namespace words
+
+TextGame::TextGame(boost::asio::io_context& context, Session& session, int keys, Write write,
+                   std::function<bool()> server_alive)
+    : context_(context),
+      session_(session),
+      write_(std::move(write)),
+      server_alive_(std::move(server_alive)),
+      timer_(context) {
+  if (keys < 0) return;
+  keys_.emplace(
+      context, keys,
+      [this](const TerminalInput& input) {
+        if (const Key* key = std::get_if<Key>(&input)) on_key(*key);
+        if (const Paste* paste = std::get_if<Paste>(&input); paste != nullptr && chatting_)
+          chat_.paste(paste->text);
+      },
+      [this] {
+        finish({kExitIo, "woodlouse: the terminal is gone\n"});
+      });
+}
+
+Outcome TextGame::run() {
+  if (keys_) {
+    keys_->start();
+    say("keys: W push, S brake, A and D turn, Space cruise, Tab where everyone is, T chat, R respawn, Q "
+        "quit");
+  }
+  state_told_ = steady_clock::now();
+  update();
+  context_.restart();
+  while (!outcome_) context_.run_one();
+  if (keys_) keys_->stop();
+  timer_.cancel();
+  context_.poll();  // what was already on its way here, while there still is a here
+  return *outcome_;
+}
+
+void TextGame::finish(Outcome outcome) {
+  if (!outcome_) outcome_ = std::move(outcome);
+}
+
+void TextGame::say(const std::string& line) {
+  if (!outcome_ && !write_(line)) finish({kExitIo, "woodlouse: nobody reads the output any more\n"});
+}
+
+void TextGame::update() {
+  if (outcome_) return;
+  const TimePoint now = steady_clock::now();
+  session_.update(now);
+  tell_connection();
+  tell_news();
+  tell_proof();
+  if (now - state_told_ >= kStateEvery && session_.connection().phase() == Connection::Phase::kJoined) {
+    state_told_ = now;
+    const auto lines = words::room(session_.room());
+    const bool only_own =
+        session_.room().pilot() != nullptr && keys_;  // the others on Tab: a reader reads slowly
+    for (std::size_t i = 0; i < lines.size() && !(only_own && i == 1); ++i) say(lines[i]);
+    if (const std::uint64_t keys = session_.room().verifier().verified(); keys > 0)
+      say("state ok, " + std::to_string(keys) + (keys == 1 ? " key" : " keys") + " verified");
+  }
+  if (outcome_) return;
+  timer_.expires_after(kUpdate);
+  timer_.async_wait([this](boost::system::error_code error) {
+    if (!error) update();
+  });
+}
+
+void TextGame::tell_connection() {
+  const Connection& connection = session_.connection();
+  if (session_.failure()) {
+    finish({kExitUnreachable, "woodlouse: " + session_.failure()->text() + "\n"});
+  } else if (connection.phase() != phase_told_) {
+    phase_told_ = connection.phase();
+    if (phase_told_ == Connection::Phase::kWaiting)
+      say("connection lost: " + connection.reason() + "; trying again");
+    if (phase_told_ == Connection::Phase::kJoined) say("connected again");
+    if (server_alive_ && !server_alive_())
+      finish({kExitUnreachable, "woodlouse: the server started here has ended\n"});
+    if (connection.attempts() >= kMostAttempts) {
+      finish({kExitUnreachable, "woodlouse: cannot connect to " + connection.address().text() + ": " +
+                                    connection.reason() + "\n      tried " + std::to_string(kMostAttempts) +
+                                    " times; is the server up?\n"});
+    }
+  }
+}
+
+void TextGame::tell_news() {
+  const Roster& roster = session_.room().roster();
+  const std::size_t fresh = std::min(roster.lines_said() - lines_told_, roster.chat().size());
+  for (std::size_t i = roster.chat().size() - fresh; i < roster.chat().size(); ++i) {
+    const Utterance& line = roster.chat()[i];
+    say(line.from.empty() ? line.text : line.from + " says: " + line.text);
+  }
+  lines_told_ = roster.lines_said();
+  const std::string& notice = session_.room().notice_line();
+  if (notice != notice_told_ && !notice.empty()) say(notice);
+  notice_told_ = notice;
+}
+
+void TextGame::tell_proof() {
+  const auto& difference = session_.room().verifier().difference();
+  if (!difference) return;
+  say(to_text(*difference));
+  finish({});
+}
+
+void TextGame::on_key(const Key& key) {
+  if (chatting_ && !control_action(key)) {
+    const ChatEntry::Outcome outcome = chat_.type(key);
+    if (outcome == ChatEntry::Outcome::kTyping) return;
+    if (outcome == ChatEntry::Outcome::kSend)
+      session_.room().say(chat_.text());
+    else
+      say("chat cancelled");
+    chatting_ = false;
+    chat_.clear();
+  } else if (const auto action = bindings_.on_key(key, asked_ ? Overlay::kQuitQuestion : Overlay::kNone)) {
+    perform(*action);
+  }
+}
+
+void TextGame::perform(Action action) {
+  Pilot* const pilot = session_.room().pilot();
+  const TimePoint now = steady_clock::now();
+  switch (action) {
+    case Action::kPushPulse:
+    case Action::kPushHold:
+      if (pilot != nullptr) pilot->steering().push(now);
+      break;
+    case Action::kBrakePulse:
+    case Action::kBrakeHold:
+      if (pilot != nullptr) pilot->steering().brake(now);
+      break;
+    case Action::kTurnLeft:
+    case Action::kTurnRight:
+      if (pilot == nullptr) break;
+      pilot->steering().turn(action == Action::kTurnLeft ? Turn::kLeft : Turn::kRight);
+      say("heading " + words::compass(pilot->steering().heading()));
+      break;
+    case Action::kCruise:
+      if (pilot == nullptr) break;
+      pilot->steering().toggle_cruise();
+      say(pilot->steering().cruising() ? "cruise on" : "cruise off");
+      break;
+    case Action::kRespawn:
+      session_.room().respawn();
+      break;
+    case Action::kScoreboard:
+      for (const std::string& line : words::room(session_.room())) say(line);
+      break;
+    case Action::kChat:
+      chatting_ = true;
+      say("chat: type, Enter sends, Escape cancels");
+      break;
+    case Action::kAskQuit:
+      asked_ = true;
+      say("quit? Y or Q leaves, any other key stays");
+      break;
+    case Action::kConfirm:
+      finish({});
+      break;
+    case Action::kClose:
+      asked_ = false;
+      say("staying");
+      break;
+    case Action::kQuitNow:
+      finish({kExitInterrupted, ""});
+      break;
+    default:
+      break;
+  }
+}
+
+}  // namespace woodlouse::client

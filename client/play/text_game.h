@@ -1,0 +1,71 @@
+// The game as lines of text, for a screen reader or a pipe: events as they come, states at intervals. Plays
+// with the same keys where there is a terminal to read them from; watches without one.
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "client/play/chat_entry.h"
+#include "client/play/key_bindings.h"
+#include "client/terminal/key_input.h"
+#include "client/terminal/outcome.h"
+#include "client/play/session.h"
+
+namespace woodlouse::client {
+
+/// What is read out.
+namespace words {
+/// "north-east" of a direction.
+std::string compass(core::Vec2 direction);
+/// One louse: "ada: 3.1 m east, 4.0 m north, 2.3 m/s south-west, slope -12 degrees, travelled 41 m".
+std::string louse(const RoomView& room, const Present& louse);
+/// The room, lice by distance: one line each, your own first.
+std::vector<std::string> room(const RoomView& room);
+}  // namespace words
+
+class TextGame {
+ public:
+  using Write = std::function<bool(const std::string& line)>;  ///< false: nobody reads any more
+
+  /// keys: a terminal to read, taken over; -1: none.
+  TextGame(boost::asio::io_context& context, Session& session, int keys, Write write,
+           std::function<bool()> server_alive);
+
+  Outcome run();
+
+ private:
+  static constexpr std::chrono::milliseconds kUpdate{50};
+  static constexpr std::chrono::seconds kStateEvery{2};
+  static constexpr int kMostAttempts = 10;  ///< at joining again; a pipe has nobody to press Q
+
+  void update();
+  void on_key(const Key& key);
+  void perform(Action action);
+  void tell_news();
+  void tell_connection();
+  void tell_proof();
+  void say(const std::string& line);
+  void finish(Outcome outcome);
+
+  boost::asio::io_context& context_;
+  Session& session_;
+  Write write_;
+  std::function<bool()> server_alive_;
+  std::optional<KeyInput> keys_;
+  boost::asio::steady_timer timer_;
+  KeyBindings bindings_;
+  ChatEntry chat_;
+  bool chatting_ = false;
+  bool asked_ = false;          ///< Q was pressed and is to be confirmed
+  std::size_t lines_told_ = 0;  ///< of the roster's
+  std::string notice_told_;
+  Connection::Phase phase_told_ = Connection::Phase::kJoined;
+  TimePoint state_told_{};
+  std::optional<Outcome> outcome_;
+};
+
+}  // namespace woodlouse::client

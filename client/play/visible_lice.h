@@ -1,0 +1,31 @@
+// The lice on their map at one moment, wherever they come from: what scenes and words are made of.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "client/play/pilot.h"
+#include "client/play/trail.h"
+#include "client/play/view_state.h"
+#include "shared/map/map_definition.h"
+
+namespace woodlouse::client {
+
+/// A louse as it is drawn, and whose it is.
+struct Present {
+  LouseSample sample;
+  std::string name;
+  bool is_bot = false;
+  bool is_you = false;
+};
+
+/// Refers to what a room view or a recording's view holds; valid until that runs on.
+struct Sight {
+  const map::Map* map = nullptr;               ///< null until it has come
+  const std::map<std::uint32_t, Present>& lice;  ///< by id
+  const std::map<std::uint32_t, Trail>& trails;
+  const Pilot* pilot = nullptr;                ///< of your own louse; null without one
+};
+
+}  // namespace woodlouse::client

@@ -1,0 +1,76 @@
+#include "server/commands/fork.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "shared/core/joined.h"
+#include "shared/protocol/text_cleaning.h"
+#include "shared/replay/recorded_map.h"
+#include "shared/replay/archive.h"
+
+namespace woodlouse::server {
+namespace {
+
+using core::joined;
+using replay::ReplayArchive;
+
+core::Error without_tick(const ReplayArchive& archive, const ForkPoint& point) {
+  const std::string last = std::to_string(archive.last_tick());
+  return {point.recording.string(),
+          joined({"has no tick ", std::to_string(point.tick), ", only ", std::to_string(archive.first_tick()), " to ",
+                  last}),
+          joined({"try:  woodlouse-server fork ", point.recording.string(), " --tick ", last})};
+}
+
+/// By louse. A louse that nobody named can't be asked for.
+std::vector<Orphan> orphans_of(const ReplayArchive& archive, const match::Match& match) {
+  std::vector<Orphan> orphans;
+  for (const match::PlayerSeq& player : match.state().players) {
+    if (!match.contains(player.player)) continue;
+    const auto& spans = archive.players();
+    const auto span =
+        std::lower_bound(spans.begin(), spans.end(), player.player,
+                         [](const replay::PlayerSpan& p, match::PlayerId id) { return p.player < id; });
+    if (span == spans.end() || span->player != player.player) continue;
+    std::string name = protocol::clean_text(span->label.name, protocol::kMaxNameBytes);
+    if (name.empty()) continue;
+    orphans.push_back({player.player, std::move(name), span->label.role, player.last_seq ? *player.last_seq + 1 : 0});
+  }
+  return orphans;
+}
+
+core::Error with_advice(core::Error error, const ForkPoint& point) {
+  if (error.hint.empty())
+    error.hint = joined({"is it whole?   try:  woodlouse-server verify ", point.recording.string()});
+  return error;
+}
+
+}  // namespace
+
+core::Expected<Opening> open_fork(const ForkPoint& point) {
+  const auto archive = ReplayArchive::open(point.recording);
+  if (!archive) return tl::unexpected(with_advice(archive.error(), point));
+  if (point.tick < (*archive)->first_tick() || point.tick > (*archive)->last_tick())
+    return tl::unexpected(without_tick(**archive, point));
+  const auto playback = (*archive)->play(point.tick);
+  if (!playback) return tl::unexpected(with_advice(playback.error(), point));
+  if (const auto difference = (*playback)->first_difference())
+    return core::fail(point.recording.string(),
+                      joined({"differs at tick ", std::to_string(*difference), ": what follows was never played"}),
+                      joined({"take a tick before it, or ask:  woodlouse-server verify ", point.recording.string()}));
+  const match::MatchState state = (*playback)->match().state();
+  if (!state.roster.empty())
+    return core::fail(point.recording.string(),
+                      joined({"at tick ", std::to_string(point.tick), " somebody is about to join or leave"}),
+                      "take the tick after it");
+  Opening opening;
+  opening.map = (*archive)->map();
+  opening.match = match::Match::restore(opening.map, (*playback)->match().settings(), state);
+  opening.map_file = replay::map_file_of((*archive)->header(), (*archive)->source().folder).string();
+  opening.orphans = orphans_of(**archive, *opening.match);
+  opening.parent = replay::Parent{point.recording.string(), state.tick, state.hash};
+  return opening;
+}
+
+}  // namespace woodlouse::server

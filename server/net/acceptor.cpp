@@ -1,0 +1,140 @@
+#include "server/net/acceptor.h"
+
+#include <boost/asio/bind_executor.hpp>
+#include <boost/asio/post.hpp>
+
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
+#include <utility>
+
+#include "shared/protocol/codes.h"
+
+namespace woodlouse::server {
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using boost::system::error_code;
+
+constexpr Duration kPause = std::chrono::milliseconds(100);  // after accepting failed
+
+// What the kernel may hold unsent for one client. Small, so that a client that reads slowly shows soon and
+// what it is sent is fresh; bytes on their way do not count, so that distance costs no speed.
+using NotSentLowWater = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
+constexpr int kUnsentBytes = 64 * 1024;
+
+core::Error cannot_listen(const std::string& where, const error_code& error) {
+  core::Error failure{"cannot listen on " + where, error.message(), {}};
+  if (error == asio::error::address_in_use) {
+    failure.what = "address already in use";
+    failure.hint = "another woodlouse server?   try:  woodlouse-server --listen :0   (pick a free port)";
+  } else if (error == asio::error::access_denied) {
+    failure.hint = "ports below 1024 are reserved   try:  woodlouse-server --listen :7777";
+  } else {
+    failure.hint = "try:  woodlouse-server --listen 127.0.0.1:7777";
+  }
+  return failure;
+}
+
+}  // namespace
+
+Acceptor::Acceptor(asio::io_context& io, const SessionEnvironment& environment)
+    : io_(io),
+      environment_(environment),
+      strand_(asio::make_strand(io)),
+      acceptor_(strand_),
+      pause_(strand_),
+      addresses_(environment.limits.per_address) {}
+
+core::Expected<tcp::endpoint> Acceptor::open(const ListenAddress& address) {
+  error_code error;
+  tcp::resolver resolver(io_);
+  const auto found =
+      resolver.resolve(address.host, std::to_string(address.port), tcp::resolver::passive, error);
+  if (error) return tl::unexpected(cannot_listen(to_text(address), error));
+  const tcp::endpoint endpoint = found.begin()->endpoint();
+  acceptor_.open(endpoint.protocol(), error);
+  if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
+  if (!error) acceptor_.bind(endpoint, error);
+  if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+  const tcp::endpoint bound = error ? endpoint : acceptor_.local_endpoint(error);
+  if (error) return tl::unexpected(cannot_listen(to_text(address), error));
+  return bound;
+}
+
+void Acceptor::start() {
+  asio::post(strand_, [this] { accept(); });
+}
+
+void Acceptor::accept() {
+  acceptor_.async_accept(asio::make_strand(io_), [this](const error_code& error, tcp::socket socket) {
+    on_accept(error, std::move(socket));
+  });
+}
+
+void Acceptor::on_accept(const error_code& error, tcp::socket socket) {
+  if (!acceptor_.is_open()) return;
+  if (error) {
+    // Out of descriptors or memory, or the client has gone already: nothing that stops the server.
+    if (!std::exchange(starved_, true))
+      environment_.log->error("cannot accept a connection: {}", error.message());
+    return pause();
+  }
+  starved_ = false;
+  open_session(std::move(socket));
+  accept();
+}
+
+void Acceptor::pause() {
+  pause_.expires_after(kPause);
+  pause_.async_wait([this](const error_code& error) {
+    if (!error && acceptor_.is_open()) accept();
+  });
+}
+
+void Acceptor::open_session(tcp::socket socket) {
+  error_code error;
+  const tcp::endpoint remote = socket.remote_endpoint(error);
+  if (error) return;  // gone before it was seen
+  const std::string address = AddressBook::key(remote.address());
+  const AddressBook::Admission admission = addresses_.admit(address);
+  if (admission == AddressBook::Admission::kDrop) return;
+  socket.set_option(tcp::no_delay(true), error);
+  if (!error) socket.set_option(NotSentLowWater(kUnsentBytes), error);
+  if (error) environment_.log->warn("socket options of {}: {}", to_text(remote), error.message());
+
+  const SessionId id = next_id_++;
+  auto session = std::make_shared<Session>(id, std::move(socket), environment_);
+  sessions_.emplace(id, session);
+  auto closed = [this, id, address] { asio::post(strand_, [this, id, address] { on_closed(id, address); }); };
+  environment_.log->debug("session {:016x}: from {}", id, to_text(remote));
+  if (admission == AddressBook::Admission::kWelcome) return session->start(std::move(closed));
+  session->start_refused({std::string(protocol::code::kTooManyConnections),
+                          "your address has " + std::to_string(environment_.limits.per_address) +
+                              " connections already; close one first",
+                          true,
+                          {}},
+                         std::move(closed));
+}
+
+void Acceptor::on_closed(SessionId id, const std::string& address) {
+  addresses_.release(address);
+  sessions_.erase(id);
+  if (stopped_ && sessions_.empty()) std::exchange(stopped_, nullptr)();
+}
+
+void Acceptor::stop(protocol::Bye bye, std::function<void()> stopped) {
+  asio::post(strand_, [this, bye = std::move(bye), stopped = std::move(stopped)]() mutable {
+    error_code error;
+    acceptor_.close(error);
+    if (error) environment_.log->warn("closing the port: {}", error.message());
+    pause_.cancel();
+    for (auto& [id, session] : sessions_) session->end(bye);
+    stopped_ = std::move(stopped);
+    if (sessions_.empty()) std::exchange(stopped_, nullptr)();
+  });
+}
+
+}  // namespace woodlouse::server

@@ -1,0 +1,58 @@
+#include "server/net/listen_address.h"
+
+#include <charconv>
+
+namespace woodlouse::server {
+namespace {
+
+core::Expected<std::uint16_t> parse_port(std::string_view text, std::string_view whole) {
+  unsigned value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || error != std::errc{} || end != text.data() + text.size() || value > 65535)
+    return core::fail("--listen " + std::string(whole), "\"" + std::string(text) + "\" is no port",
+                      "a number from 0 (any free one) to 65535");
+  return static_cast<std::uint16_t>(value);
+}
+
+}  // namespace
+
+core::Expected<ListenAddress> parse_listen_address(std::string_view text) {
+  ListenAddress address;
+  std::string_view host = text;
+  std::string_view port;
+  bool has_port = false;
+  if (text.starts_with('[')) {
+    const std::size_t end = text.find(']');
+    const std::string_view rest = end == std::string_view::npos ? "?" : text.substr(end + 1);
+    if (!rest.empty() && !rest.starts_with(':'))
+      return core::fail("--listen " + std::string(text), "is no [IPV6]:PORT", "for example [::1]:7777");
+    host = text.substr(1, end - 1);
+    has_port = !rest.empty();
+    port = rest.substr(has_port ? 1 : 0);
+  } else if (const std::size_t colon = text.rfind(':'); colon != std::string_view::npos) {
+    if (text.find(':') != colon)
+      return core::fail("--listen " + std::string(text), "an IPv6 address needs brackets",
+                        "for example [::1]:7777");
+    host = text.substr(0, colon);
+    port = text.substr(colon + 1);
+    has_port = true;
+  }
+  if (has_port) {
+    const auto number = parse_port(port, text);
+    if (!number) return tl::unexpected(number.error());
+    address.port = *number;
+  }
+  address.host = host.empty() ? "0.0.0.0" : std::string(host);
+  return address;
+}
+
+std::string to_text(const ListenAddress& address) {
+  const bool is_v6 = address.host.find(':') != std::string::npos;
+  return (is_v6 ? '[' + address.host + ']' : address.host) + ':' + std::to_string(address.port);
+}
+
+std::string to_text(const boost::asio::ip::tcp::endpoint& endpoint) {
+  return to_text(ListenAddress{endpoint.address().to_string(), endpoint.port()});
+}
+
+}  // namespace woodlouse::server

@@ -1,0 +1,49 @@
+#include "server/net/outbox.h"
+
+#include <utility>
+
+namespace woodlouse::server {
+
+Outbox::Push Outbox::push(Line line) {
+  if (closed_) return Push::kQueued;
+  if (bytes() + line->size() > limit_) return Push::kOverflow;
+  waiting_bytes_ += line->size();
+  lines_.push_back(std::move(line));
+  return Push::kQueued;
+}
+
+void Outbox::push_last(Line line) {
+  waiting_bytes_ += line->size();
+  lines_.push_back(std::move(line));
+  map_.reset();
+  frames_.clear();
+  closed_ = true;
+}
+
+Outbox::PushMap Outbox::push_map(Line line) {
+  if (map_) return PushMap::kAlreadyWaiting;
+  if (!closed_) map_ = std::move(line);
+  return PushMap::kQueued;
+}
+
+FrameSlots::Outcome Outbox::offer(Frame frame) {
+  return closed_ ? FrameSlots::Outcome::kStale : frames_.put(std::move(frame));
+}
+
+Outbox::Batch Outbox::take() {
+  Batch batch;
+  batch.lines.reserve(lines_.size() + 3);
+  for (Line& line : lines_) batch.lines.push_back(std::move(line));
+  lines_.clear();
+  if (map_) batch.lines.push_back(std::exchange(map_, nullptr));
+  while (auto frame = frames_.take()) {
+    batch.lines.push_back(std::move(frame->text));
+    ++batch.frames;
+  }
+  flying_bytes_ = std::exchange(waiting_bytes_, 0);
+  return batch;
+}
+
+void Outbox::written() { flying_bytes_ = 0; }
+
+}  // namespace woodlouse::server

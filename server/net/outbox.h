@@ -1,0 +1,57 @@
+// What waits to be written to one client. State is replaceable, events and answers are not.
+//
+//   lines   events and answers, in order; more than `limit` bytes of them end the connection (overflow)
+//   map     one answer to get_map: shared, of any length, so it has a place of its own
+//   frames  one key and one delta at most; a stale one is replaced (frame_slots.h)
+// Pure: no socket. One owner, no locking.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <vector>
+
+#include "server/net/frame_slots.h"
+
+namespace woodlouse::server {
+
+class Outbox {
+ public:
+  /// limit: bytes of lines that may wait or be in flight (hello's outbox_bytes).
+  explicit Outbox(std::size_t limit) : limit_(limit) {}
+
+  enum class Push { kQueued, kOverflow };
+  /// An event or answer. kOverflow: not queued, the client must be told `slow` and go.
+  Push push(Line line);
+  /// The last line: passes over the limit and over everything replaceable, which is dropped.
+  void push_last(Line line);
+
+  enum class PushMap { kQueued, kAlreadyWaiting };
+  PushMap push_map(Line line);
+
+  /// A key or a delta. kStale also after the last line.
+  FrameSlots::Outcome offer(Frame frame);
+
+  /// What one write sends; lines first, then the map, then frames.
+  struct Batch {
+    std::vector<Line> lines;
+    std::size_t frames = 0;  ///< how many of them are keys and deltas
+    [[nodiscard]] bool empty() const { return lines.empty(); }
+  };
+  /// Everything that waits. REQUIRES that the batch before was written().
+  Batch take();
+  /// The batch taken last has left.
+  void written();
+
+  [[nodiscard]] std::size_t bytes() const { return waiting_bytes_ + flying_bytes_; }
+
+ private:
+  std::size_t limit_;
+  std::deque<Line> lines_;
+  std::size_t waiting_bytes_ = 0;
+  std::size_t flying_bytes_ = 0;
+  Line map_;
+  FrameSlots frames_;
+  bool closed_ = false;  ///< the last line is queued
+};
+
+}  // namespace woodlouse::server

@@ -1,0 +1,265 @@
+#include "server/net/session.h"
+
+#include <boost/asio/bind_executor.hpp>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/dispatch.hpp>
+#include <boost/asio/write.hpp>
+
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "server/room/version.h"
+#include "shared/core/stable_hash.h"
+#include "shared/match/match.h"
+#include "shared/protocol/codec.h"
+#include "shared/protocol/codes.h"
+
+namespace woodlouse::server {
+namespace {
+
+namespace asio = boost::asio;
+namespace code = protocol::code;
+using boost::system::error_code;
+
+double cost_of(const protocol::ClientMessage& message) {
+  const bool is_costly =
+      std::holds_alternative<protocol::Chat>(message) || std::holds_alternative<protocol::Respawn>(message) ||
+      std::holds_alternative<protocol::GetMap>(message) || std::holds_alternative<protocol::Resync>(message);
+  return is_costly ? Session::kBroadcastCost : 1.0;
+}
+
+Line as_line(const protocol::ServerMessage& message) {
+  return std::make_shared<const std::string>(protocol::encode(message));
+}
+
+}  // namespace
+
+Session::Session(SessionId id, Socket socket, const SessionEnvironment& environment)
+    : id_(id),
+      socket_(std::move(socket)),
+      environment_(environment),
+      framer_(environment.limits.line),
+      limiter_(environment.limits.messages_per_s, environment.limits.burst, Clock::now()),
+      outbox_(environment.limits.outbox_bytes),
+      pace_(Clock::now()),
+      watch_(socket_.get_executor()),
+      handshake_until_(Clock::now() + std::chrono::seconds(environment.limits.handshake_s)),
+      active_(Clock::now()) {}
+
+void Session::start(std::function<void()> closed) {
+  asio::dispatch(socket_.get_executor(), [self = shared_from_this(), closed = std::move(closed)]() mutable {
+    self->closed_ = std::move(closed);
+    protocol::Hello hello;
+    hello.behavior = match::kBehavior;
+    hello.server = kServerName;
+    hello.session = core::to_hex(self->id_);
+    hello.rooms = self->environment_.lobby.names();
+    hello.features = {"quantized", "exact", "fields", "delta", "get_map"};
+    hello.limits = self->environment_.limits;
+    self->say(hello);
+    self->on_watch();
+    self->read();
+  });
+}
+
+void Session::start_refused(protocol::ErrorMessage why, std::function<void()> closed) {
+  asio::dispatch(socket_.get_executor(),
+                 [self = shared_from_this(), why = std::move(why), closed = std::move(closed)]() mutable {
+                   self->closed_ = std::move(closed);
+                   self->read();
+                   self->fail(why);
+                 });
+}
+
+// ---- reading -------------------------------------------------------------------------------------------
+
+void Session::read() {
+  socket_.async_read_some(
+      asio::buffer(incoming_),
+      [self = shared_from_this()](const error_code& error, std::size_t size) { self->on_read(error, size); });
+}
+
+void Session::on_read(const error_code& error, std::size_t size) {
+  if (state_ == State::kClosed) return;
+  if (error) return close();  // the client has gone, in whatever way
+  if (state_ == State::kOpen) {
+    const Time now = Clock::now();
+    framer_.append({incoming_.data(), size});
+    while (state_ == State::kOpen) {
+      const auto line = framer_.next();
+      if (!line) break;
+      on_line(*line, now);
+    }
+  }
+  if (state_ != State::kClosed) read();
+}
+
+bool Session::admit_line(Time now, double cost) {
+  switch (limiter_.take(now, cost)) {
+    case RateLimiter::Verdict::kPass:
+      return true;
+    case RateLimiter::Verdict::kRefuse:
+      say(protocol::ErrorMessage{std::string(code::kRateLimited),
+                                 "more than " + std::to_string(environment_.limits.messages_per_s) +
+                                     " messages a second: this one was dropped",
+                                 false, limiter_.retry_after_ms(cost)});
+      return false;
+    case RateLimiter::Verdict::kFlood:
+      fail(code::kFlood, "messages kept coming long after rate_limited");
+      return false;
+  }
+  return false;
+}
+
+void Session::on_line(const protocol::LineFramer::Line& line, Time now) {
+  active_ = now;
+  environment_.traffic.lines_received.fetch_add(1, std::memory_order_relaxed);
+  if (!admit_line(now, 1.0)) return;
+  if (line.oversize)
+    return fail(code::kLineTooLong,
+                "a line is longer than " + std::to_string(environment_.limits.line) + " bytes");
+  auto decoded = protocol::decode_client(line.text);
+  if (decoded) return on_message(std::move(*decoded), now);
+  const protocol::ErrorMessage error = handshake_.judge(decoded.error());
+  if (error.fatal) return fail(error);
+  say(error);
+}
+
+void Session::on_message(protocol::ClientMessage message, Time now) {
+  if (const double cost = cost_of(message); cost > 1.0 && !admit_line(now, cost - 1.0)) return;
+  if (const auto refusal = handshake_.judge(message)) return say(*refusal);
+  if (const auto* ping = std::get_if<protocol::Ping>(&message)) return say(protocol::Pong{ping->t});
+  if (std::holds_alternative<protocol::Pong>(message)) return;
+  if (std::holds_alternative<protocol::List>(message)) return say(environment_.lobby.list());
+  if (std::holds_alternative<protocol::Leave>(message))
+    return say_bye({}, {std::string(code::kLeft), "goodbye", false}, kLinger);
+  if (auto* join = std::get_if<protocol::Join>(&message)) {
+    room_ = environment_.lobby.find(join->room);
+    if (room_) return room_->join(id_, shared_from_this(), std::move(*join));
+    handshake_.refused();
+    std::string names;
+    for (const std::string& name : environment_.lobby.names()) names += ' ' + name;
+    return say(protocol::ErrorMessage{std::string(code::kUnknownRoom),
+                                      "join.room: no room \"" + join->room + "\"; there are:" + names,
+                                      false,
+                                      {}});
+  }
+  room_->submit(id_, std::move(message), now);
+}
+
+// ---- writing -------------------------------------------------------------------------------------------
+
+void Session::say(const protocol::ServerMessage& message) { push(as_line(message)); }
+
+void Session::push(Line line) {
+  if (state_ != State::kOpen) return;
+  if (outbox_.push(std::move(line)) == Outbox::Push::kOverflow)
+    return fail(code::kSlow, "more than " + std::to_string(environment_.limits.outbox_bytes) +
+                                 " bytes of events and answers wait for you");
+  write();
+}
+
+void Session::write() {
+  if (!writing_.empty() || state_ == State::kDraining || state_ == State::kClosed) return;
+  writing_ = outbox_.take();
+  if (writing_.empty()) {
+    if (state_ != State::kSayingBye) return;
+    state_ = State::kDraining;
+    error_code ignored_if_the_client_went_first;
+    socket_.shutdown(Socket::shutdown_send, ignored_if_the_client_went_first);
+    if (ignored_if_the_client_went_first) close();
+    return;
+  }
+  std::vector<asio::const_buffer> buffers;
+  buffers.reserve(writing_.lines.size());
+  for (const Line& line : writing_.lines) buffers.push_back(asio::buffer(*line));
+  asio::async_write(
+      socket_, std::move(buffers),
+      [self = shared_from_this(), frames = writing_.frames](const error_code& error, std::size_t size) {
+        self->on_written(error, size, frames);
+      });
+}
+
+void Session::on_written(const error_code& error, std::size_t size, std::size_t frames) {
+  writing_.lines.clear();
+  outbox_.written();
+  if (state_ == State::kClosed) return;
+  if (error) return close();
+  active_ = Clock::now();
+  environment_.traffic.frames_sent.fetch_add(frames, std::memory_order_relaxed);
+  environment_.traffic.bytes_sent.fetch_add(size, std::memory_order_relaxed);
+  write();
+}
+
+// ---- the end -------------------------------------------------------------------------------------------
+
+void Session::fail(std::string_view code, std::string text) {
+  fail(protocol::ErrorMessage{std::string(code), std::move(text), true, {}});
+}
+
+void Session::fail(const protocol::ErrorMessage& error) {
+  environment_.log->info("session {:016x}: ended: {}: {}", id_, error.code, error.text);
+  protocol::ErrorMessage fatal = error;
+  fatal.fatal = true;
+  say_bye(fatal, {error.code, error.text, false}, kLinger);
+}
+
+void Session::say_bye(const std::optional<protocol::ErrorMessage>& error, const protocol::Bye& bye,
+                      Duration linger) {
+  if (state_ == State::kClosed) return;
+  linger_until_ =
+      state_ == State::kOpen ? Clock::now() + linger : std::min(linger_until_, Clock::now() + linger);
+  watch(linger_until_);
+  if (state_ != State::kOpen) return;
+  leave_room();
+  std::string text = error ? protocol::encode(*error) : std::string{};
+  text += protocol::encode(bye);
+  outbox_.push_last(std::make_shared<const std::string>(std::move(text)));
+  state_ = State::kSayingBye;
+  write();
+}
+
+void Session::leave_room() {
+  if (room_) std::exchange(room_, nullptr)->leave(id_);
+}
+
+void Session::close() {
+  if (state_ == State::kClosed) return;
+  leave_room();
+  state_ = State::kClosed;
+  watch_.cancel();
+  error_code error;
+  socket_.close(error);
+  if (error) environment_.log->warn("session {:016x}: close: {}", id_, error.message());
+  std::exchange(closed_, nullptr)();
+}
+
+// ---- timeouts ------------------------------------------------------------------------------------------
+
+void Session::watch(Time until) {
+  watch_.expires_at(until);
+  watch_.async_wait([self = shared_from_this()](const error_code& error) {
+    if (!error) self->on_watch();
+  });
+}
+
+void Session::on_watch() {
+  if (state_ == State::kClosed) return;
+  if (state_ != State::kOpen) {
+    if (Clock::now() >= linger_until_) return close();
+    return watch(linger_until_);
+  }
+  const bool has_joined = handshake_.state() != Handshake::State::kGreeting;
+  const Time idle_until = active_ + std::chrono::seconds(environment_.limits.idle_s);
+  const Time until = has_joined ? idle_until : std::min(idle_until, handshake_until_);
+  if (Clock::now() < until) return watch(until);
+  if (!has_joined && until == handshake_until_)
+    return fail(code::kHandshakeTimeout,
+                "no join within " + std::to_string(environment_.limits.handshake_s) + " s");
+  fail(code::kIdle,
+       "nothing read and nothing written for " + std::to_string(environment_.limits.idle_s) + " s");
+}
+
+}  // namespace woodlouse::server

@@ -1,0 +1,122 @@
+// One client's connection: its socket and nothing of the game. Reads lines, judges them by the handshake's
+// rules and the rate limiter, passes them to the room; writes what the outbox holds, one write in flight.
+//
+// How it ends: a fatal error, `leave`, a timeout, a slow client or the room's bye put a last line into the
+// outbox; when that is written the sending side is shut, and what still comes in is read and thrown away
+// until the client closes or the linger time is over (closing with unread bytes would reset the connection
+// and take the bye with it).
+#pragma once
+
+#include <spdlog/logger.h>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/strand.hpp>
+#include <boost/system/error_code.hpp>
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "server/net/handshake.h"
+#include "server/room/lobby.h"
+#include "server/room/figures.h"
+#include "server/net/outbox.h"
+#include "server/net/send_rate.h"
+#include "server/net/rate_limiter.h"
+#include "server/room/subscriber.h"
+#include "shared/protocol/framing.h"
+#include "shared/protocol/messages.h"
+
+namespace woodlouse::server {
+
+/// What all sessions share; outlives them.
+struct SessionEnvironment {
+  const Lobby& lobby;
+  const protocol::Limits& limits;
+  TrafficMetrics& traffic;
+  std::shared_ptr<spdlog::logger> log;
+};
+
+class Session final : public Subscriber, public std::enable_shared_from_this<Session> {
+ public:
+  using Socket = boost::asio::ip::tcp::socket;
+
+  /// What a line weighs against the rate that goes out to a whole room, or brings a long answer.
+  static constexpr double kBroadcastCost = 10.0;
+  static constexpr Duration kLinger = std::chrono::seconds(1);
+  static constexpr Duration kShutdownLinger = std::chrono::milliseconds(300);
+
+  /// The socket's executor is a strand, the session's own.
+  Session(SessionId id, Socket socket, const SessionEnvironment& environment);
+
+  /// Says hello and begins to read. closed: called once, on the session's strand, when the socket is closed.
+  void start(std::function<void()> closed);
+  /// Instead of start(): an error and a bye, no hello.
+  void start_refused(protocol::ErrorMessage why, std::function<void()> closed);
+
+  // Subscriber: any thread.
+  void deliver(Line line) override;
+  void answer(protocol::ServerMessage message) override;
+  void show(const Frame& frame) override;
+  void show_again(const Frame& frame) override;
+  void deliver_map(Line line) override;
+  void refuse_join(protocol::ErrorMessage error) override;
+  void welcome(protocol::Welcome welcome, std::uint32_t divisor) override;
+  void end(protocol::Bye bye) override;
+
+ private:
+  enum class State {
+    kOpen,
+    kSayingBye,  ///< the last line waits in the outbox or is being written
+    kDraining,   ///< our side is shut; waiting for the client's
+    kClosed,
+  };
+
+  void read();
+  void on_read(const boost::system::error_code& error, std::size_t size);
+  void on_line(const protocol::LineFramer::Line& line, Time now);
+  void on_message(protocol::ClientMessage message, Time now);
+  bool admit_line(Time now, double cost);
+
+  void say(const protocol::ServerMessage& message);
+  void push(Line line);
+  void write();
+  void on_written(const boost::system::error_code& error, std::size_t size, std::size_t frames);
+  void tell_pace(PaceKeeper::Change change);
+
+  void fail(std::string_view code, std::string text);
+  void fail(const protocol::ErrorMessage& error);
+  void say_bye(const std::optional<protocol::ErrorMessage>& error, const protocol::Bye& bye, Duration linger);
+  void leave_room();
+  void close();
+
+  void watch(Time until);
+  void on_watch();
+
+  SessionId id_;
+  Socket socket_;
+  const SessionEnvironment& environment_;
+  std::function<void()> closed_;
+
+  State state_ = State::kOpen;
+  Handshake handshake_;
+  Room* room_ = nullptr;  ///< null before the join
+  std::array<char, 16384> incoming_{};
+  protocol::LineFramer framer_;
+  RateLimiter limiter_;
+
+  Outbox outbox_;
+  Outbox::Batch writing_;  ///< in flight; empty: none
+  PaceKeeper pace_;
+  std::uint32_t divisor_ = 1;
+
+  boost::asio::steady_timer watch_;
+  Time handshake_until_;
+  Time active_;  ///< the last line read or write finished
+  Time linger_until_{};
+};
+
+}  // namespace woodlouse::server

@@ -1,0 +1,73 @@
+// Hands a room's frames and events to its members, on a strand of its own, a slice at a time: a big broadcast
+// delays neither the tick nor other rooms.
+//
+// Events wait in their order; of frames at most the newest key and the newest delta wait (state is
+// replaceable). backlog() tells the room when events come faster than they go out, so that it refuses what
+// would make more of them.
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/strand.hpp>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "server/room/channels.h"
+#include "server/room/subscriber.h"
+
+namespace woodlouse::server {
+
+class Broadcaster {
+ public:
+  static constexpr std::size_t kSlice = 64;         ///< members served before others may run
+  static constexpr std::size_t kMaxBacklog = 1024;  ///< events waiting, past which the room makes no more
+
+  explicit Broadcaster(boost::asio::io_context& io) : strand_(boost::asio::make_strand(io)) {}
+
+  struct Member {
+    SessionId session = 0;
+    std::shared_ptr<Subscriber> subscriber;
+    ChannelId channel = 0;
+    std::uint64_t first_event = 0;  ///< events numbered below came before it joined
+  };
+
+  // Any thread; in the order called.
+  void add(Member member);
+  void remove(SessionId session);
+  void event(std::uint64_t number, Line line);
+  void frames(FrameKind kind, std::vector<ChannelFrame> frames);
+  /// Events not yet handed out.
+  [[nodiscard]] std::size_t backlog() const { return backlog_.load(std::memory_order_relaxed); }
+
+ private:
+  struct EventJob {
+    std::uint64_t number = 0;
+    Line line;
+  };
+  using FrameJob = std::vector<ChannelFrame>;
+
+  void wake();
+  void hand_out_slice();
+  bool begin_job();
+  void end_job();
+  void serve(const Member& member) const;
+
+  boost::asio::strand<boost::asio::io_context::executor_type> strand_;
+  std::atomic<std::size_t> backlog_{0};
+  // The strand's:
+  std::vector<Member> members_;  ///< subscriber null: removed during a job
+  std::deque<EventJob> events_;
+  std::optional<FrameJob> key_;
+  std::optional<FrameJob> delta_;
+  std::optional<EventJob> event_job_;  ///< the job being handed out, one of the two
+  std::optional<FrameJob> frame_job_;
+  std::size_t next_member_ = 0;  ///< of that job
+  bool awake_ = false;           ///< a slice is posted
+};
+
+}  // namespace woodlouse::server

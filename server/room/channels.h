@@ -1,0 +1,54 @@
+// The row layouts in use in a room, each with its encoder: one frame per layout and tick, whoever many want
+// it. Pure. The room's strand owns it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "server/room/frame_encoder.h"
+
+namespace woodlouse::server {
+
+using ChannelId = std::uint32_t;
+
+struct ChannelFrame {
+  ChannelId channel = 0;
+  Frame frame;
+};
+
+class FrameChannels {
+ public:
+  static constexpr std::size_t kMaxLayouts = 32;  ///< in a room at a time; bounds the encoding of a tick
+
+  /// One more client of that layout; nothing when the room serves kMaxLayouts others.
+  std::optional<ChannelId> acquire(const RowLayout& layout);
+  /// One client less.
+  void release(ChannelId channel);
+
+  /// The last key, and the last delta on it: where a newcomer or a resync begins. Encodes a key if there is
+  /// none.
+  std::vector<Frame> newest(ChannelId channel, const Scene& scene);
+  /// The frame of every layout for this scene; a layout without a key gets one.
+  std::vector<ChannelFrame> encode(const Scene& scene, FrameKind kind);
+
+  [[nodiscard]] bool empty() const { return channels_.empty(); }
+  /// Frames encoded so far.
+  [[nodiscard]] std::uint64_t encoded() const { return encoded_; }
+
+ private:
+  struct Channel {
+    FrameEncoder encoder;
+    std::size_t users = 0;
+    std::optional<Frame> key;
+    std::optional<Frame> delta;
+  };
+  const Frame& encode(Channel& channel, const Scene& scene, FrameKind kind);
+
+  std::map<ChannelId, Channel> channels_;
+  ChannelId next_id_ = 1;
+  std::uint64_t encoded_ = 0;
+};
+
+}  // namespace woodlouse::server

@@ -1,0 +1,65 @@
+#include "server/room/figures.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace woodlouse::server {
+namespace {
+
+double milliseconds(Duration d) { return std::chrono::duration<double, std::milli>(d).count(); }
+
+}  // namespace
+
+std::size_t DurationHistogram::bucket(std::uint64_t us) {
+  if (us < kSteps) return us;
+  // Values in [2^k, 2^(k+1)), k >= 5, share kSteps buckets of equal width.
+  const auto octave = static_cast<std::uint32_t>(std::bit_width(us)) - 6;
+  if (octave >= kOctaves) return kSteps * (kOctaves + 1) - 1;
+  return kSteps * (octave + 1) + static_cast<std::size_t>((us >> octave) - kSteps);
+}
+
+std::uint64_t DurationHistogram::upper_limit(std::size_t bucket) {
+  if (bucket < kSteps) return bucket;
+  const std::size_t octave = bucket / kSteps - 1;
+  return ((bucket % kSteps + kSteps + 1) << octave) - 1;
+}
+
+void DurationHistogram::add(Duration value) {
+  const auto us = std::chrono::duration_cast<std::chrono::microseconds>(value).count();
+  ++counts_[bucket(us > 0 ? static_cast<std::uint64_t>(us) : 0)];
+  ++count_;
+  max_ = std::max(max_, value);
+}
+
+Duration DurationHistogram::quantile(double q) const {
+  if (count_ == 0) return {};
+  const auto wanted = static_cast<std::uint64_t>(std::ceil(q * static_cast<double>(count_)));
+  std::uint64_t seen = 0;
+  for (std::size_t i = 0; i < counts_.size(); ++i) {
+    seen += counts_[i];
+    if (seen >= wanted) return std::min<Duration>(std::chrono::microseconds(upper_limit(i)), max_);
+  }
+  return max_;
+}
+
+std::string summary(const std::string& room, const RoomMetrics& m) {
+  const std::string ground = m.ground ? fmt::format(", tiles built {} ({} ahead), thrown out {}, read failures {}",
+                                                    m.ground->built, m.ground->ahead, m.ground->thrown_out,
+                                                    m.ground->read_failures)
+                                      : std::string();
+  const std::string shadow = m.shadow ? fmt::format(", {} ticks shadowed{}, {} differences", m.shadow->ticks,
+                                                    m.shadow->ended ? " until it was ended" : "",
+                                                    m.shadow->differences)
+                                      : std::string();
+  return fmt::format(
+      "{}: ticks {}, lateness p50 {:.3f} ms p99 {:.3f} ms max {:.3f} ms, work p50 {:.3f} ms p99 {:.3f} ms, "
+      "clock moves {}, frames encoded {}{}{}",
+      room, m.ticks, milliseconds(m.lateness.quantile(0.5)), milliseconds(m.lateness.quantile(0.99)),
+      milliseconds(m.lateness.max()), milliseconds(m.work.quantile(0.5)), milliseconds(m.work.quantile(0.99)),
+      m.clock_moves, m.frames_encoded, ground, shadow);
+}
+
+}  // namespace woodlouse::server

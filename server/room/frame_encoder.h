@@ -1,0 +1,58 @@
+// Turns the lice of a room into keys and deltas, once per (room, format, fields, tick).
+//
+//   key    {"type":"key","tick":n,"louse":[[...],...],"hash":"16 hex digits"}
+//   delta  {"type":"delta","tick":n,"base":k,"louse":[[...],...],"gone":[id,...]}
+// A delta is cumulative against the last key: the rows whose text differs from the key's, and the ids that
+// are in the key and no longer there. Cost: one comparison for a louse that is as in the key, else one row of
+// text. Pure: no socket. The room's strand owns it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "server/room/frame.h"
+#include "server/room/row_table.h"
+#include "shared/state/louse.h"
+#include "shared/state/state_hash.h"
+#include "shared/terrain/terrain.h"
+
+namespace woodlouse::server {
+
+/// What there is to see at one tick.
+struct Scene {
+  std::uint64_t tick = 0;
+  std::uint64_t index = 0;               ///< of the frame (frame.h)
+  std::span<const physics::Louse> lice;  ///< ascending id
+  const terrain::Terrain& terrain;
+  std::uint64_t hash = 0;  ///< of the state at `tick`
+  physics::HashLink link;  ///< what went into the hash besides the lice
+};
+
+class FrameEncoder {
+ public:
+  explicit FrameEncoder(RowLayout layout);
+
+  Frame key(const Scene& scene);
+  /// REQUIRES a key() before. Its base is the last key.
+  Frame delta(const Scene& scene);
+  [[nodiscard]] const RowLayout& layout() const { return rows_.layout(); }
+
+ private:
+  struct KeyRow {
+    physics::Louse louse;
+    std::size_t begin = 0;  ///< of its text in key_text_
+    std::size_t end = 0;
+  };
+
+  RowWriter rows_;
+  bool proves_hash_ = false;  ///< exact and `all`: keys carry what else went into the hash
+  Line key_text_;
+  std::uint64_t key_tick_ = 0;
+  std::vector<KeyRow> key_rows_;
+  std::string scratch_;
+};
+
+}  // namespace woodlouse::server

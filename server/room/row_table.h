@@ -1,0 +1,36 @@
+// Writes a louse's row as frames carry it: [id,x,y,...] in a layout's columns and format.
+//
+// Columns nobody asks for are not computed: height and attitude cost a sample of the terrain. A row is built
+// on the stack and appended once.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "shared/state/louse.h"
+#include "shared/protocol/messages.h"
+#include "shared/terrain/terrain.h"
+
+namespace woodlouse::server {
+
+/// What the rows of a group of clients look like; clients of one layout share their frames.
+struct RowLayout {
+  std::vector<protocol::Column> fields;
+  protocol::Format format = protocol::Format::kQuantized;
+  friend auto operator<=>(const RowLayout&, const RowLayout&) = default;
+};
+
+class RowWriter {
+ public:
+  /// REQUIRES at least one field, all of them distinct.
+  explicit RowWriter(RowLayout layout);
+
+  void append(std::string& out, const physics::Louse& louse, const terrain::Terrain& terrain) const;
+  [[nodiscard]] const RowLayout& layout() const { return layout_; }
+
+ private:
+  RowLayout layout_;
+  bool needs_ground_ = false;  ///< a column wants the terrain's sample
+};
+
+}  // namespace woodlouse::server

@@ -1,0 +1,38 @@
+// Who receives what a room says: a session, or a test's stand-in. The room knows nothing of sockets.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "server/room/frame.h"
+#include "shared/protocol/messages.h"
+
+namespace woodlouse::server {
+
+/// Counts the connections of a server; never used again.
+using SessionId = std::uint64_t;
+
+/// Every call returns at once and may come from any thread; calls of one thread arrive in their order.
+class Subscriber {
+ public:
+  virtual ~Subscriber() = default;
+
+  /// An event or another line that several share.
+  virtual void deliver(Line line) = 0;
+  /// An answer to this one alone.
+  virtual void answer(protocol::ServerMessage message) = 0;
+  /// The next key or delta; may replace one that has not been sent.
+  virtual void show(const Frame& frame) = 0;
+  /// Frames asked for again, or the first ones; they say nothing about the client's pace.
+  virtual void show_again(const Frame& frame) = 0;
+  /// The answer to get_map.
+  virtual void deliver_map(Line line) = 0;
+  /// The room did not take the join; another may be tried.
+  virtual void refuse_join(protocol::ErrorMessage error) = 0;
+  /// The welcome. `divisor`: the client takes every divisor-th frame.
+  virtual void welcome(protocol::Welcome welcome, std::uint32_t divisor) = 0;
+  /// The connection ends with this bye.
+  virtual void end(protocol::Bye bye) = 0;
+};
+
+}  // namespace woodlouse::server

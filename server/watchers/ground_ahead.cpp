@@ -1,0 +1,72 @@
+#include "server/watchers/ground_ahead.h"
+
+#include <algorithm>
+#include <boost/asio/post.hpp>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "shared/terrain/terrain.h"
+
+namespace woodlouse::server {
+
+std::unique_ptr<GroundAhead> GroundAhead::make(const map::Map& map, boost::asio::thread_pool& worker) {
+  const auto* ground = std::get_if<terrain::TiledGround>(&map.terrain->surface());
+  if (ground == nullptr) return nullptr;
+  std::unique_ptr<GroundAhead> ahead(new GroundAhead(*ground, map.definition.physics, worker));
+  for (const map::SpawnPoint& spawn : map.definition.spawns) ahead->add_around(spawn.position, 0.0);
+  ahead->build();
+  return ahead;
+}
+
+GroundAhead::GroundAhead(const terrain::TiledGround& ground, const physics::Parameters& physics,
+                         boost::asio::thread_pool& worker)
+    : worker_(worker), shared_(std::make_shared<Shared>(ground)), push_(physics.thrust_max + physics.gravity) {}
+
+GroundAhead::~GroundAhead() { shared_->stopping = true; }
+
+void GroundAhead::look(std::span<const physics::Louse> lice) {
+  turn_ = (turn_ + 1) % kTurns;
+  if (shared_->at_work) return;
+  const double farthest = static_cast<double>(terrain::BSplineTile::kCells) * shared_->ground.cell();
+  for (std::size_t i = turn_; i < lice.size(); i += kTurns) {
+    const physics::Louse& louse = lice[i];
+    if (louse.phase == physics::Phase::kResting) continue;
+    const double reach = kAheadSeconds * (std::sqrt(dot(louse.velocity, louse.velocity)) + 0.5 * kAheadSeconds * push_);
+    add_around(louse.position, std::min(reach, farthest));
+  }
+  build();
+}
+
+void GroundAhead::add_around(core::Vec2 place, double reach) {
+  const terrain::BSplineLayout& layout = shared_->ground.layout();
+  // At most a tile away: the corners, the sides' middles and the place itself meet every tile of the square.
+  for (const double x : {place.x - reach, place.x, place.x + reach}) {
+    for (const double y : {place.y - reach, place.y, place.y + reach}) {
+      wanted_.push_back(layout.tile_of(layout.cell_at(x, y)));
+    }
+  }
+}
+
+void GroundAhead::build() {
+  std::sort(wanted_.begin(), wanted_.end());
+  wanted_.erase(std::unique(wanted_.begin(), wanted_.end()), wanted_.end());
+  wanted_.resize(std::min(wanted_.size(), std::max<std::size_t>(1, shared_->ground.tiles().max_tiles() / 2)));
+  if (wanted_.empty()) return;
+  shared_->at_work = true;
+  boost::asio::post(worker_, [shared = shared_, tiles = std::exchange(wanted_, {})] {
+    for (const std::size_t tile : tiles) {
+      if (shared->stopping) break;
+      shared->ground.tiles().prepare(tile);
+    }
+    shared->at_work = false;
+  });
+}
+
+GroundMetrics GroundAhead::metrics() const {
+  const terrain::TileStore& tiles = shared_->ground.tiles();
+  const terrain::TileStore::Counters counters = tiles.counters();
+  return {counters.live, counters.built, counters.prepared, counters.thrown_out, tiles.source().read_failures()};
+}
+
+}  // namespace woodlouse::server

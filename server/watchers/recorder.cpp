@@ -1,0 +1,120 @@
+#include "server/watchers/recorder.h"
+
+#include <boost/asio/post.hpp>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+namespace woodlouse::server {
+namespace {
+
+constexpr std::size_t kWriteAt = 256u << 10;  // bytes that are not kept back for the next flush
+
+}  // namespace
+
+core::Expected<std::unique_ptr<Recorder>> Recorder::open(const std::filesystem::path& file,
+                                                         boost::asio::thread_pool& disk,
+                                                         std::shared_ptr<spdlog::logger> log) {
+  errno = 0;
+  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  if (!out)
+    return core::fail("cannot write the recording " + file.string(), std::strerror(errno),
+                      "does its folder exist, and may you write there?");
+  return std::unique_ptr<Recorder>(new Recorder(file, std::move(out), disk, std::move(log)));
+}
+
+Recorder::Recorder(std::filesystem::path file, std::ofstream out, boost::asio::thread_pool& disk,
+                   std::shared_ptr<spdlog::logger> log)
+    : file_(std::move(file)),
+      disk_(disk),
+      log_(std::move(log)),
+      out_(std::move(out)),
+      writer_(replay::encoding_of(file_)),
+      flush_timer_(disk.get_executor()) {}
+
+void Recorder::begin(const replay::Header& header, match::MatchState first) {
+  keyframe_ticks_ = replay::keyframe_ticks(header.tick_hz);
+  enqueue([this, header, first = std::move(first)](std::string& out) {
+    writer_.append_header(out, header);
+    writer_.append_keyframe(out, first);
+  });
+}
+
+void Recorder::player(match::PlayerId player, const std::string& name, protocol::Role role) {
+  enqueue([this, player, name, role](std::string&) { writer_.note_player(player, name, role); });
+}
+
+void Recorder::chat(std::uint64_t tick, match::PlayerId player, const std::string& name,
+                    const std::string& text) {
+  enqueue([this, tick, player, name, text](std::string& out) {
+    writer_.append_chat(out, tick, player, name, text);
+  });
+}
+
+void Recorder::step(const match::StepRecord& record, std::vector<InputMargin> margins,
+                    const match::Match& match) {
+  if (failed_) return;
+  std::shared_ptr<const match::MatchState> keyframe;
+  if (match.tick() % keyframe_ticks_ == 0) keyframe = std::make_shared<const match::MatchState>(match.state());
+  enqueue([this, record, margins = std::move(margins), keyframe = std::move(keyframe)](std::string& out) {
+    for (const InputMargin& margin : margins)
+      writer_.note_margin(margin.player, margin.seq, margin.microseconds);
+    writer_.append_step(out, record);
+    if (keyframe) writer_.append_keyframe(out, *keyframe);
+  });
+}
+
+void Recorder::finish(const std::string& reason, std::function<void()> done) {
+  boost::asio::post(disk_, [this, reason, done = std::move(done)] {
+    flush_timer_.cancel();
+    if (!failed_) {
+      writer_.append_end(bytes_, reason);
+      write_out();
+      errno = 0;
+      out_.close();
+      if (!failed_ && !out_) give_up(std::strerror(errno));
+    }
+    done();
+  });
+}
+
+void Recorder::enqueue(Job job) {
+  if (failed_) return;
+  if (queued_.fetch_add(1) >= kMaxQueued) return give_up("the disk is too slow");
+  boost::asio::post(disk_, [this, job = std::move(job)] {
+    if (!failed_) {
+      job(bytes_);
+      if (bytes_.size() >= kWriteAt) write_out();
+      if (!std::exchange(will_flush_, true)) await_flush();
+    }
+    queued_.fetch_sub(1);
+  });
+}
+
+void Recorder::await_flush() {
+  flush_timer_.expires_after(kFlushEvery);
+  flush_timer_.async_wait([this](const boost::system::error_code& error) {
+    will_flush_ = false;
+    if (error || failed_) return;
+    writer_.flush(bytes_);
+    write_out();
+  });
+}
+
+void Recorder::write_out() {
+  errno = 0;
+  out_.write(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
+  out_.flush();
+  bytes_.clear();
+  if (!out_) give_up(std::strerror(errno));
+}
+
+void Recorder::give_up(const std::string& why) {
+  if (failed_.exchange(true)) return;
+  log_->error("RECORDING ENDED: cannot write {}: {}; the game goes on, what follows is not recorded",
+              file_.string(), why);
+  if (on_failure_) on_failure_(why);
+}
+
+}  // namespace woodlouse::server

@@ -1,0 +1,151 @@
+#include "shared/json/fields.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "shared/core/joined.h"
+#include "shared/json/text.h"
+
+namespace woodlouse::map {
+namespace {
+
+/// Insertions, deletions and replacements between two words.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string expected(std::string_view wanted, const json::Value& value) {
+  return core::joined({wanted, " is wanted, not ", to_text(value.kind())});
+}
+
+}  // namespace
+
+void Problems::add(std::size_t line, std::string_view field, std::string what, std::string hint) {
+  std::string where = source_;
+  if (line != 0) where.append(":").append(std::to_string(line));
+  if (!field.empty()) where.append(": ").append(field);
+  add(core::Error{std::move(where), std::move(what), std::move(hint)});
+}
+
+void Problems::add(const json::Value& value, std::string what, std::string hint) {
+  if (is_full()) return;  // a line and a path cost a walk through the text
+  add(value.line(), value.path(), std::move(what), std::move(hint));
+}
+
+void Problems::add(core::Error error) {
+  if (is_full()) return;
+  errors_.push_back(std::move(error));
+}
+
+std::optional<double> number_in(const json::Value& value, const Range& range, Problems& problems) {
+  if (!value.is_number()) {
+    problems.add(value, expected("a number", value));
+    return std::nullopt;
+  }
+  const double number = value.number();
+  if (number >= range.min && number <= range.max) return number;
+  const std::string unit = range.unit.empty() ? std::string() : core::joined({" ", range.unit});
+  problems.add(value, core::joined({json::double_text(number), unit, " is out of range"}),
+               core::joined({json::double_text(range.min), " to ", json::double_text(range.max), unit}));
+  return std::nullopt;
+}
+
+std::optional<core::Vec2> pair_in(const json::Value& value, const Range& range, Problems& problems) {
+  const std::vector<json::Value> elements = value.children();
+  if (!value.is(json::Kind::kArray) || elements.size() != 2) {
+    problems.add(value, "a pair [x, y] is wanted");
+    return std::nullopt;
+  }
+  const std::optional<double> x = number_in(elements[0], range, problems);
+  const std::optional<double> y = number_in(elements[1], range, problems);
+  if (!x || !y) return std::nullopt;
+  return core::Vec2{*x, *y};
+}
+
+std::optional<std::uint64_t> integer_in(const json::Value& value, std::uint64_t min, std::uint64_t max,
+                                        Problems& problems) {
+  const std::optional<std::uint64_t> number = value.unsigned_integer();
+  if (number && *number >= min && *number <= max) return number;
+  problems.add(
+      value,
+      number ? core::joined({std::to_string(*number), " is out of range"}) : "a whole number is wanted",
+      core::joined({std::to_string(min), " to ", std::to_string(max)}));
+  return std::nullopt;
+}
+
+std::optional<std::string> text_in(const json::Value& value, std::size_t min, std::size_t max,
+                                   Problems& problems) {
+  if (!value.is(json::Kind::kString)) {
+    problems.add(value, expected("text", value));
+    return std::nullopt;
+  }
+  const std::string_view text = value.text();
+  const bool has_control = json::shown(text, text.size()) != text;
+  if (text.size() < min || text.size() > max) {
+    problems.add(value, core::joined({"text of ", std::to_string(text.size()), " bytes"}),
+                 core::joined({std::to_string(min), " to ", std::to_string(max), " bytes"}));
+    return std::nullopt;
+  }
+  if (has_control) {
+    problems.add(value, "text with control characters", "leave them out");
+    return std::nullopt;
+  }
+  return std::string(text);
+}
+
+std::string did_you_mean(std::string_view text, std::initializer_list<std::string_view> candidates) {
+  std::string_view best;
+  std::size_t best_distance = std::max<std::size_t>(2, text.size() / 3) + 1;
+  for (const std::string_view candidate : candidates) {
+    const std::size_t distance = edit_distance(text.substr(0, 64), candidate);
+    if (distance < best_distance && distance < candidate.size()) {
+      best = candidate;
+      best_distance = distance;
+    }
+  }
+  return best.empty() ? std::string() : core::joined({"did you mean \"", best, "\"?"});
+}
+
+Fields::Fields(const json::Value& object, std::initializer_list<std::string_view> known, Problems& problems)
+    : object_(object), problems_(problems) {
+  if (!object.is(json::Kind::kObject)) {
+    problems.add(object, expected("an object", object));
+    return;
+  }
+  for (const json::Value& member : object.children()) {
+    if (problems.is_full()) return;  // a suggestion costs more than its key
+    if (std::find(known.begin(), known.end(), member.key()) != known.end()) continue;
+    std::string hint = did_you_mean(member.key(), known);
+    if (hint.empty()) {
+      hint = "known here:";
+      for (const std::string_view key : known) hint.append(" ").append(key);
+    }
+    problems.add(member, "is not known", std::move(hint));
+  }
+}
+
+std::optional<json::Value> Fields::demand(std::string_view key, std::string_view hint) const {
+  std::optional<json::Value> value = object_.find(key);
+  if (!value && object_.is(json::Kind::kObject)) {
+    problems_.add(object_, core::joined({"\"", key, "\" is missing"}), std::string(hint));
+  }
+  return value;
+}
+
+double Fields::number_or(std::string_view key, const Range& range, double fallback) const {
+  const std::optional<json::Value> value = find(key);
+  return value ? number_in(*value, range, problems_).value_or(fallback) : fallback;
+}
+
+}  // namespace woodlouse::map

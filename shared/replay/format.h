@@ -1,0 +1,131 @@
+// A recording: one JSON object a line, written while the game runs, read by less, jq and the replayer.
+//
+//     {"format":"woodlouse-replay","version":2,"behavior":..,"build":..,"seed":"..","tick_hz":..,"map":{..}}
+//     {"keyframe":n,"hash":..,"generator":..,"players":[..],"lice":[..],..}   all of the match at tick n
+//     {"step":n,"roster":[..],"inputs":[..],"hash":"16 hex digits"}   step n -> n+1; the hash is tick n+1's
+//     {"chat":n,"player":..,"name":..,"text":..}                      for who reads; a re-run passes it over
+//     {"index":n,"keyframes":[..],"players":[..],"marks":[..]}        where things stand
+//     {"end":n,"reason":"..","index":offset}                          the last tick
+//
+// A keyframe stands first and then every kKeyframeSeconds; every step has its line, so a file that was cut
+// off (SIGKILL) is good up to its last whole line. Field by field in docs/determinism.md.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <iosfwd>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "shared/core/error.h"
+#include "shared/match/match.h"
+#include "shared/protocol/messages.h"
+
+namespace woodlouse::replay {
+
+inline constexpr std::string_view kFormat = "woodlouse-replay";
+inline constexpr int kFormatVersion = 2;
+inline constexpr std::size_t kMaxInlineMapBytes = 1u << 20;  ///< a longer map is named by hash and file
+inline constexpr std::size_t kMaxReplayLineBytes = 32u << 20;
+inline constexpr std::uint32_t kKeyframeSeconds = 5;
+inline constexpr double kThrustQuantum = 1.0 / 128.0;  ///< of a whole number that stands for a thrust
+
+/// The recording that a fork went on from.
+struct Parent {
+  std::string file;        ///< for people
+  std::uint64_t tick = 0;  ///< where it went on
+  std::uint64_t hash = 0;  ///< of that tick
+  friend bool operator==(const Parent&, const Parent&) = default;
+};
+
+/// The first line: what was played, by which rules.
+struct Header {
+  int behavior = match::kBehavior;
+  std::string build;  ///< name and version of the server, for people
+  std::uint64_t seed = 0;
+  std::uint32_t tick_hz = 60;
+  std::string map_name;
+  std::uint64_t map_hash = 0;
+  std::string map_definition;  ///< the canonical map; empty where it is longer than kMaxInlineMapBytes
+  std::string map_file;        ///< where the server found it; only used when map_definition is empty
+  std::optional<Parent> parent;
+};
+
+/// The header of a match. `map_file` as the server was given it.
+Header make_header(const match::Match& match, std::string_view build, std::string_view map_file);
+
+struct PlayerLabel {
+  std::string name;
+  protocol::Role role = protocol::Role::kPlayer;
+  friend bool operator==(const PlayerLabel&, const PlayerLabel&) = default;
+};
+using PlayerLabels = std::map<match::PlayerId, PlayerLabel>;
+
+/// A step's line. The labels and margins stand in the order of step.roster and step.inputs.
+struct StepLine {
+  match::StepRecord step;
+  std::vector<std::optional<PlayerLabel>> labels;
+  std::vector<std::optional<std::int64_t>> margins_ms;  ///< how long before its step it came; negative: late
+};
+struct Keyframe {
+  match::MatchState state;
+  PlayerLabels labels;  ///< of state.players, where known
+};
+struct ChatLine {
+  std::uint64_t tick = 0;
+  match::PlayerId player = 0;
+  std::string name, text;
+};
+/// Its contents are read from the end of the file (index.h); whoever reads on from above has seen them.
+struct IndexLine {
+  std::uint64_t tick = 0;
+};
+struct End {
+  std::uint64_t tick = 0;
+  std::string reason;
+  std::uint64_t index_offset = 0;  ///< of the index line
+};
+using Line = std::variant<StepLine, Keyframe, ChatLine, IndexLine, End>;
+
+/// Reads a recording line by line; memory is bounded by one line. Every field is checked here: what passes is
+/// in range, so that a re-run may trust it (but not that lines fit one another, or a state its map: that is
+/// whoever's re-runs it).
+class ReplayReader {
+ public:
+  /// `in` outlives the reader; `source` names it in errors ("FILE:LINE: field: what"). `line`: how many lines
+  /// stand before where `in` is.
+  ReplayReader(std::istream& in, std::string source, std::size_t line = 0)
+      : in_(in), source_(std::move(source)), line_number_(line) {}
+
+  /// The first line. Refuses another format, version or behavior, naming both.
+  core::Expected<Header> read_header();
+  /// The next line; nothing at the end of the file, or after a last line that was cut off.
+  core::Expected<std::optional<Line>> next();
+
+  /// The file's last line has no newline: whoever wrote it was interrupted. Known once next() gave nothing.
+  [[nodiscard]] bool is_cut_off() const { return cut_off_; }
+  /// The line read last, from 1.
+  [[nodiscard]] std::size_t line_number() const { return line_number_; }
+  [[nodiscard]] const std::string& source() const { return source_; }
+  /// The bytes this reader took before that line.
+  [[nodiscard]] std::uint64_t line_offset() const { return line_offset_; }
+  /// "FILE:LINE", of the line read last.
+  [[nodiscard]] std::string place() const;
+
+ private:
+  core::Expected<bool> read_line();  ///< false: no further whole line
+
+  std::istream& in_;
+  std::string source_;
+  std::string line_;
+  std::size_t line_number_ = 0;
+  std::uint64_t line_offset_ = 0;
+  bool cut_off_ = false;
+};
+
+}  // namespace woodlouse::replay

@@ -1,0 +1,102 @@
+#include "shared/replay/index.h"
+
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+
+namespace woodlouse::replay {
+
+std::string_view to_text(MarkKind kind) {
+  switch (kind) {
+    case MarkKind::kJoin:
+      return "join";
+    case MarkKind::kLeave:
+      return "leave";
+    case MarkKind::kRespawn:
+      return "respawn";
+    case MarkKind::kChat:
+      return "chat";
+  }
+  assert(false);
+  return {};
+}
+
+std::size_t ReplayIndex::keyframe_before(std::uint64_t tick) const {
+  assert(!keyframes.empty() && tick >= keyframes.front().tick);
+  const auto after = std::upper_bound(keyframes.begin(), keyframes.end(), tick,
+                                      [](std::uint64_t t, const KeyframePlace& place) { return t < place.tick; });
+  return static_cast<std::size_t>(after - keyframes.begin()) - 1;
+}
+
+void ReplayIndex::add(const KeyframePlace& place, const Keyframe& keyframe) {
+  keyframes.push_back(place);
+  last_tick = std::max(last_tick, place.tick);
+  if (keyframes.size() > 1) return;
+  for (const physics::Louse& louse : keyframe.state.lice) {  // a fork's: nobody saw them join
+    const auto label = keyframe.labels.find(louse.id);
+    add_player({louse.id, label != keyframe.labels.end() ? label->second : PlayerLabel{}, place.tick, {}});
+  }
+}
+
+void ReplayIndex::add(const StepLine& line) {
+  const match::StepRecord& step = line.step;
+  last_tick = step.tick + 1;
+  inputs += step.inputs.size();
+  for (std::size_t k = 0; k < step.roster.size(); ++k) {
+    const match::RosterChange& change = step.roster[k];
+    switch (change.action) {
+      case match::RosterAction::kJoin:
+        add_player({change.player, line.labels[k].value_or(PlayerLabel{}), step.tick + 1, {}});
+        add_mark({step.tick, MarkKind::kJoin, change.player});
+        break;
+      case match::RosterAction::kLeave:
+        if (PlayerSpan* player = find(change.player)) player->left = step.tick + 1;
+        add_mark({step.tick, MarkKind::kLeave, change.player});
+        break;
+      case match::RosterAction::kRespawn:
+        add_mark({step.tick, MarkKind::kRespawn, change.player});
+        break;
+    }
+  }
+}
+
+void ReplayIndex::add(const ChatLine& line) { add_mark({line.tick, MarkKind::kChat, line.player}); }
+
+void ReplayIndex::add_player(PlayerSpan player) {
+  if (players.size() < kMaxPlayers) players.push_back(std::move(player));
+}
+
+void ReplayIndex::add_mark(const Mark& mark) {
+  if (marks.size() < kMaxMarks) marks.push_back(mark);
+}
+
+PlayerSpan* ReplayIndex::find(match::PlayerId player) {
+  const auto at = std::lower_bound(players.begin(), players.end(), player,
+                                   [](const PlayerSpan& p, match::PlayerId id) { return p.player < id; });
+  return at != players.end() && at->player == player ? &*at : nullptr;
+}
+
+core::Expected<ReplayIndex> scan_index(std::istream& in, const std::string& source) {
+  in.clear();
+  in.seekg(0);
+  ReplayReader reader(in, source);
+  if (const auto header = reader.read_header(); !header) return tl::unexpected(header.error());
+  ReplayIndex index;
+  for (;;) {
+    const core::Expected<std::optional<Line>> line = reader.next();
+    if (!line) return tl::unexpected(line.error());
+    if (!*line) break;
+    if (const auto* keyframe = std::get_if<Keyframe>(&**line)) {
+      const bool is_next = index.keyframes.empty() || keyframe->state.tick > index.keyframes.back().tick;
+      if (!is_next) return core::fail(reader.place(), "a keyframe that does not follow the one before it");
+      index.add({keyframe->state.tick, reader.line_offset(), reader.line_number()}, *keyframe);
+    }
+    if (const auto* step = std::get_if<StepLine>(&**line)) index.add(*step);
+    if (const auto* chat = std::get_if<ChatLine>(&**line)) index.add(*chat);
+    if (auto* end = std::get_if<End>(&**line)) index.end = *end;
+  }
+  if (index.keyframes.empty()) return core::fail(source, "was cut off before its first keyframe");
+  return index;
+}
+
+}  // namespace woodlouse::replay

@@ -1,0 +1,317 @@
+#include <algorithm>
+#include <istream>
+#include <limits>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+#include "shared/core/joined.h"
+#include "shared/json/document.h"
+#include "shared/json/fields.h"
+#include "shared/replay/header_reader.h"
+#include "shared/replay/line_fields.h"
+#include "shared/state/louse_fields.h"
+#include "shared/replay/format.h"
+#include "shared/replay/zstd_input.h"
+
+namespace woodlouse::replay {
+namespace {
+
+using core::joined;
+using map::Fields;
+using map::Problems;
+using map::Range;
+
+constexpr json::Limits kLimits{8, 4'000'000};
+constexpr std::uint64_t kMaxUint32 = std::numeric_limits<std::uint32_t>::max();
+constexpr Range kCoordinate{-1e300, 1e300, ""};
+
+template <typename T>
+T as(std::optional<std::uint64_t> value) {
+  return static_cast<T>(value.value_or(0));
+}
+
+// ---- a step ----------------------------------------------------------------------------------------------
+
+std::optional<PlayerLabel> read_label(const Fields& fields, Problems& problems) {
+  const auto name = fields.find("name");
+  const auto role = fields.find("role");
+  if (!name && !role) return std::nullopt;
+  PlayerLabel label;
+  label.name = demand_text(fields, "name", problems);
+  if (const auto given = fields.demand("role")) label.role = role_of(*given, problems);
+  return label;
+}
+
+void read_change(const json::Value& value, StepLine& line, Problems& problems) {
+  using match::RosterAction;
+  constexpr std::pair<std::string_view, RosterAction> kActions[] = {
+      {"join", RosterAction::kJoin}, {"leave", RosterAction::kLeave}, {"respawn", RosterAction::kRespawn}};
+  for (const auto& [key, action] : kActions) {
+    const auto player = value.find(key);
+    if (!player) continue;
+    const bool is_join = action == RosterAction::kJoin;
+    const Fields fields =
+        is_join ? Fields(value, {key, "name", "role"}, problems) : Fields(value, {key}, problems);
+    line.step.roster.push_back(
+        {action, as<match::PlayerId>(map::integer_in(*player, 1, kMaxUint32 - 1, problems))});
+    line.labels.push_back(is_join ? read_label(fields, problems) : std::nullopt);
+    return;
+  }
+  problems.add(value, "{\"join\": id}, {\"leave\": id} or {\"respawn\": id} is wanted");
+}
+
+/// A whole number counts quanta; one with a point stands as itself.
+double read_component(const json::Value& value, Problems& problems) {
+  constexpr Range kUnit{-1.0, 1.0, ""};
+  constexpr Range kQuanta{-128.0, 128.0, "/ 128"};
+  if (value.is(json::Kind::kInteger)) {
+    const double quanta = map::number_in(value, kQuanta, problems).value_or(0.0);
+    return (quanta == 0.0 ? 0.0 : quanta) * kThrustQuantum;
+  }
+  return map::number_in(value, kUnit, problems).value_or(0.0);
+}
+
+void read_thrust(const json::Value& value, match::AppliedInput& input, Problems& problems) {
+  if (value.is(json::Kind::kNull)) return;
+  if (!value.is(json::Kind::kArray)) {
+    input.kind = physics::ThrustKind::kAlongHeading;
+    input.thrust.x = read_component(value, problems);
+    return;
+  }
+  const std::vector<json::Value> pair = value.children();
+  if (pair.size() != 2) return problems.add(value, "a pair [x, y] is wanted");
+  input.kind = physics::ThrustKind::kMapVector;
+  input.thrust = {read_component(pair[0], problems), read_component(pair[1], problems)};
+  if (core::dot(input.thrust, input.thrust) > 1.0) problems.add(value, "is longer than 1");
+}
+
+/// `values` from its front: player, seq, thrust.
+match::AppliedInput read_push(std::span<const json::Value> values, Problems& problems) {
+  match::AppliedInput input;
+  input.player = as<match::PlayerId>(map::integer_in(values[0], 1, kMaxUint32 - 1, problems));
+  input.seq = as<std::uint32_t>(map::integer_in(values[1], 0, kMaxUint32, problems));
+  input.ticks = physics::kHeld;
+  read_thrust(values[2], input, problems);
+  return input;
+}
+
+std::uint32_t read_ticks(const json::Value& value, Problems& problems) {
+  return as<std::uint32_t>(map::integer_in(value, 0, physics::kHeld - 1, problems));
+}
+
+void read_input(const json::Value& value, StepLine& line, Problems& problems) {
+  const std::vector<json::Value> values = value.children();
+  if (!value.is(json::Kind::kArray) || values.size() < 3 || values.size() > 5) {
+    return problems.add(value, "[player, seq, thrust, margin in ms, ticks] is wanted");
+  }
+  match::AppliedInput input = read_push(values, problems);
+  input.tick = line.step.tick;
+  std::optional<std::int64_t> margin;
+  if (values.size() > 3 && !values[3].is(json::Kind::kNull)) {
+    margin = values[3].integer();
+    if (!margin) problems.add(values[3], "a whole number is wanted");
+  }
+  if (values.size() > 4) input.ticks = read_ticks(values[4], problems);
+  line.step.inputs.push_back(input);
+  line.margins_ms.push_back(margin);
+}
+
+/// Calls read(element) for each element of a list; stops at the first problem, of which one is enough.
+template <typename Read>
+void read_list(const json::Value& value, Problems& problems, const Read& read) {
+  if (!value.is(json::Kind::kArray)) return problems.add(value, "a list is wanted");
+  for (const json::Value& element : value.children()) {
+    if (problems.count() != 0) return;
+    read(element);
+  }
+}
+
+StepLine read_step(const json::Value& root, Problems& problems) {
+  const Fields fields(root, {"step", "roster", "inputs", "hash"}, problems);
+  StepLine line;
+  line.step.tick = demand_integer(fields, "step", 0, kMaxTick, problems);
+  line.step.hash = demand_hash(fields, "hash", problems);
+  if (const auto roster = fields.find("roster")) {
+    read_list(*roster, problems, [&](const json::Value& value) { read_change(value, line, problems); });
+  }
+  if (const auto inputs = fields.find("inputs")) {
+    read_list(*inputs, problems, [&](const json::Value& value) { read_input(value, line, problems); });
+  }
+  return line;
+}
+
+// ---- a keyframe ------------------------------------------------------------------------------------------
+
+physics::Louse read_louse(const json::Value& row, Problems& problems) {
+  physics::Louse louse;
+  const std::vector<json::Value> values = row.children();
+  if (!row.is(json::Kind::kArray) || values.size() != kLouseFields) {
+    problems.add(row, joined({"a row of ", std::to_string(kLouseFields), " numbers is wanted"}));
+    return louse;
+  }
+  std::size_t index = 0;
+  visit_fields(louse, [&](std::string_view, auto& field) {
+    const json::Value& value = values[index++];
+    using Field = std::remove_cvref_t<decltype(field)>;
+    if constexpr (std::is_same_v<Field, double>) {
+      field = map::number_in(value, kCoordinate, problems).value_or(0.0);
+    } else {
+      const std::uint64_t max = std::is_enum_v<Field> ? std::uint64_t{2} : kMaxUint32;
+      field = static_cast<Field>(as<std::uint32_t>(map::integer_in(value, 0, max, problems)));
+    }
+  });
+  return louse;
+}
+
+void read_columns(const json::Value& columns, Problems& problems) {
+  const std::vector<json::Value> names = columns.children();
+  std::size_t index = 0;
+  bool same = names.size() == kLouseFields;
+  visit_fields(physics::Louse{}, [&](std::string_view name, const auto&) {
+    same = same && names[index].is(json::Kind::kString) && names[index].text() == name;
+    ++index;
+  });
+  if (!same) problems.add(columns, "are not the columns of this version");
+}
+
+void read_player(const json::Value& value, Keyframe& keyframe, Problems& problems) {
+  const std::vector<json::Value> values = value.children();
+  if (!value.is(json::Kind::kArray) || (values.size() != 2 && values.size() != 4)) {
+    return problems.add(value, "[player, seq, name, role] is wanted");
+  }
+  match::PlayerSeq player;
+  player.player = as<match::PlayerId>(map::integer_in(values[0], 1, kMaxUint32 - 1, problems));
+  if (!values[1].is(json::Kind::kNull)) {
+    player.last_seq = as<std::uint32_t>(map::integer_in(values[1], 0, kMaxUint32, problems));
+  }
+  keyframe.state.players.push_back(player);
+  if (values.size() == 2) return;
+  keyframe.labels[player.player] = {text_of(values[2], problems), role_of(values[3], problems)};
+}
+
+void read_waiting(const json::Value& value, Keyframe& keyframe, Problems& problems) {
+  const std::vector<json::Value> values = value.children();
+  if (!value.is(json::Kind::kArray) || values.size() < 4 || values.size() > 5) {
+    return problems.add(value, "[tick, player, seq, thrust, ticks] is wanted");
+  }
+  match::AppliedInput input = read_push(std::span(values).subspan(1), problems);
+  input.tick = map::integer_in(values[0], 0, 2 * kMaxTick, problems).value_or(0);
+  if (values.size() > 4) input.ticks = read_ticks(values[4], problems);
+  keyframe.state.waiting.push_back(input);
+}
+
+Keyframe read_keyframe(const json::Value& root, Problems& problems) {
+  const Fields fields(root,
+                      {"keyframe", "hash", "previous", "inputs", "generator", "next_player", "players",
+                       "waiting", "columns", "lice"},
+                      problems);
+  Keyframe keyframe;
+  match::MatchState& state = keyframe.state;
+  state.tick = demand_integer(fields, "keyframe", 0, kMaxTick, problems);
+  state.hash = demand_hash(fields, "hash", problems);
+  state.previous = demand_hash(fields, "previous", problems);
+  state.inputs = demand_hash(fields, "inputs", problems);
+  state.generator = demand_hash(fields, "generator", problems);
+  state.next_player =
+      static_cast<match::PlayerId>(demand_integer(fields, "next_player", 1, kMaxUint32, problems));
+  const auto list = [&](std::string_view key, const auto& read) {
+    if (const auto value = fields.demand(key)) read_list(*value, problems, read);
+  };
+  list("players", [&](const json::Value& value) { read_player(value, keyframe, problems); });
+  list("waiting", [&](const json::Value& value) { read_waiting(value, keyframe, problems); });
+  if (const auto columns = fields.demand("columns")) read_columns(*columns, problems);
+  list("lice", [&](const json::Value& row) { state.lice.push_back(read_louse(row, problems)); });
+  return keyframe;
+}
+
+// ---- any line --------------------------------------------------------------------------------------------
+
+ChatLine read_chat(const json::Value& root, Problems& problems) {
+  const Fields fields(root, {"chat", "player", "name", "text"}, problems);
+  ChatLine line;
+  line.tick = demand_integer(fields, "chat", 0, kMaxTick, problems);
+  line.player = static_cast<match::PlayerId>(demand_integer(fields, "player", 0, kMaxUint32, problems));
+  line.name = demand_text(fields, "name", problems);
+  line.text = demand_text(fields, "text", problems);
+  return line;
+}
+
+/// Its other fields are checked by who reads it (index_text.cpp).
+IndexLine read_index_line(const json::Value& root, Problems& problems) {
+  const Fields fields(root, {"index", "keyframes", "players", "marks", "inputs"}, problems);
+  return {demand_integer(fields, "index", 0, kMaxTick, problems)};
+}
+
+End read_end(const json::Value& root, Problems& problems) {
+  const Fields fields(root, {"end", "reason", "index"}, problems);
+  End end;
+  end.tick = demand_integer(fields, "end", 0, kMaxTick, problems);
+  end.reason = demand_text(fields, "reason", problems);
+  end.index_offset = demand_integer(fields, "index", 0, kMaxOffset, problems);
+  return end;
+}
+
+Line read_object(const json::Value& root, Problems& problems) {
+  if (root.find("step")) return read_step(root, problems);
+  if (root.find("keyframe")) return read_keyframe(root, problems);
+  if (root.find("chat")) return read_chat(root, problems);
+  if (root.find("index") && !root.find("end")) return read_index_line(root, problems);
+  if (root.find("end")) return read_end(root, problems);
+  problems.add(root, "is no step, keyframe, chat, index or end");
+  return End{};
+}
+
+}  // namespace
+
+std::string ReplayReader::place() const { return joined({source_, ":", std::to_string(line_number_)}); }
+
+core::Expected<bool> ReplayReader::read_line() {
+  line_offset_ += line_.empty() ? 0 : line_.size() + 1;
+  line_.clear();
+  std::streambuf& bytes = *in_.rdbuf();
+  for (int c = bytes.sbumpc(); c != std::char_traits<char>::eof(); c = bytes.sbumpc()) {
+    if (c == '\n') {
+      ++line_number_;
+      return true;
+    }
+    if (line_.size() >= kMaxReplayLineBytes) {
+      return core::fail(joined({source_, ":", std::to_string(line_number_ + 1)}),
+                        joined({"a line longer than ", std::to_string(kMaxReplayLineBytes >> 20), " MiB"}));
+    }
+    line_ += static_cast<char>(c);
+  }
+  if (const auto* unpacked = dynamic_cast<const ZstdInput*>(&bytes); unpacked != nullptr && !unpacked->fault().empty()) {
+    return core::fail(joined({source_, ":", std::to_string(line_number_ + 1)}), unpacked->fault());
+  }
+  cut_off_ = cut_off_ || !line_.empty();
+  return false;
+}
+
+core::Expected<Header> ReplayReader::read_header() {
+  const core::Expected<bool> whole = read_line();
+  if (!whole) return tl::unexpected(whole.error());
+  if (!*whole)
+    return core::fail(source_,
+                      line_.empty() ? "is empty" : "has no whole line: it was cut off in the header");
+  const auto document = json::parse_file(line_, source_, kLimits, line_number_);
+  if (!document) return tl::unexpected(document.error());
+  Problems problems(source_);
+  Header header = replay::read_header(document->root(), problems);
+  if (problems.count() != 0) return tl::unexpected(problems.errors().front());
+  return header;
+}
+
+core::Expected<std::optional<Line>> ReplayReader::next() {
+  const core::Expected<bool> whole = read_line();
+  if (!whole) return tl::unexpected(whole.error());
+  if (!*whole) return std::optional<Line>();
+  const auto document = json::parse_file(line_, source_, kLimits, line_number_);
+  if (!document) return tl::unexpected(document.error());
+  Problems problems(source_);
+  Line line = read_object(document->root(), problems);
+  if (problems.count() != 0) return tl::unexpected(problems.errors().front());
+  return std::optional<Line>(std::move(line));
+}
+
+}  // namespace woodlouse::replay

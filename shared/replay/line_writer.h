@@ -1,0 +1,25 @@
+// The text of a recording's lines, newline included; what line_reader.cpp reads back.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "shared/replay/format.h"
+
+namespace woodlouse::replay {
+
+/// [ms] by player and seq.
+using Margins = std::map<std::pair<match::PlayerId, std::uint32_t>, std::int64_t>;
+
+void append_header(std::string& out, const Header& header);
+void append_keyframe(std::string& out, const match::MatchState& state, const PlayerLabels& labels);
+/// Joins take their names from `labels`.
+void append_step(std::string& out, const match::StepRecord& step, const PlayerLabels& labels,
+                 const Margins& margins);
+void append_chat(std::string& out, const ChatLine& line);
+void append_end(std::string& out, const End& end);
+
+}  // namespace woodlouse::replay

@@ -1,0 +1,106 @@
+#include "shared/replay/writer.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace woodlouse::replay {
+namespace {
+
+/// Whole milliseconds, down: what came late stays negative.
+std::int64_t milliseconds(std::int64_t us) { return us >= 0 ? us / 1000 : -((999 - us) / 1000); }
+
+bool is_player(const match::MatchState& state, match::PlayerId player) {
+  const auto at = std::lower_bound(state.players.begin(), state.players.end(), player,
+                                   [](const match::PlayerSeq& p, match::PlayerId id) { return p.player < id; });
+  return at != state.players.end() && at->player == player;
+}
+
+}  // namespace
+
+Encoding encoding_of(const std::filesystem::path& file) {
+  return file.extension() == ".zst" ? Encoding::kZstd : Encoding::kPlain;
+}
+
+ReplayWriter::ReplayWriter(Encoding encoding)
+    : packer_(encoding == Encoding::kZstd ? std::make_unique<FramePacker>() : nullptr) {}
+
+void ReplayWriter::put(std::string& out) {
+  offset_ += line_.size();
+  ++lines_;
+  if (packer_) {
+    packer_->append(out, line_);
+  } else {
+    out += line_;
+  }
+  line_.clear();
+}
+
+void ReplayWriter::append_header(std::string& out, const Header& header) {
+  replay::append_header(line_, header);
+  put(out);
+}
+
+void ReplayWriter::append_keyframe(std::string& out, const match::MatchState& state) {
+  assert(state.roster.empty());
+  // Notes of inputs that their player's leaving dropped.
+  std::erase_if(margins_, [&](const auto& note) { return !is_player(state, note.first.first); });
+  if (packer_) packer_->end_frame(out);
+  index_.add(KeyframePlace{state.tick, offset_, lines_ + 1}, Keyframe{state, labels_});
+  replay::append_keyframe(line_, state, labels_);
+  put(out);
+}
+
+void ReplayWriter::note_player(match::PlayerId player, std::string_view name, protocol::Role role) {
+  labels_[player] = PlayerLabel{std::string(name), role};
+}
+
+void ReplayWriter::note_margin(match::PlayerId player, std::uint32_t seq, std::int64_t margin_us) {
+  margins_[{player, seq}] = milliseconds(margin_us);
+}
+
+void ReplayWriter::append_step(std::string& out, const match::StepRecord& step) {
+  replay::append_step(line_, step, labels_, margins_);
+  put(out);
+  StepLine line;
+  line.step = step;
+  for (const match::RosterChange& change : step.roster) {
+    const auto label = labels_.find(change.player);
+    line.labels.push_back(label != labels_.end() ? std::optional(label->second) : std::nullopt);
+  }
+  index_.add(line);
+  forget_notes(step);
+}
+
+void ReplayWriter::forget_notes(const match::StepRecord& step) {
+  for (const match::AppliedInput& input : step.inputs) margins_.erase({input.player, input.seq});
+  for (const match::RosterChange& change : step.roster) {
+    if (change.action != match::RosterAction::kLeave) continue;
+    labels_.erase(change.player);
+    // What it had filed is dropped.
+    margins_.erase(margins_.lower_bound({change.player, 0}), margins_.upper_bound({change.player, UINT32_MAX}));
+  }
+}
+
+void ReplayWriter::append_chat(std::string& out, std::uint64_t tick, match::PlayerId player,
+                               std::string_view name, std::string_view text) {
+  const ChatLine line{tick, player, std::string(name), std::string(text)};
+  replay::append_chat(line_, line);
+  put(out);
+  index_.add(line);
+}
+
+void ReplayWriter::append_end(std::string& out, std::string_view reason) {
+  if (packer_) packer_->end_frame(out);
+  const End end{index_.last_tick, std::string(reason), offset_};
+  append_index(line_, index_);
+  put(out);
+  replay::append_end(line_, end);
+  put(out);
+  if (packer_) packer_->finish(out);
+}
+
+void ReplayWriter::flush(std::string& out) {
+  if (packer_) packer_->flush(out);
+}
+
+}  // namespace woodlouse::replay

@@ -1,0 +1,67 @@
+// Turns a running match into the bytes of a recording; writes no file.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "shared/replay/zstd_packer.h"
+#include "shared/replay/line_writer.h"
+#include "shared/replay/format.h"
+#include "shared/replay/index.h"
+
+namespace woodlouse::replay {
+
+enum class Encoding {
+  kPlain,  ///< the text itself
+  kZstd,   ///< zstd frames, one from keyframe to keyframe
+};
+
+/// By name: FILE.zst is kZstd.
+Encoding encoding_of(const std::filesystem::path& file);
+
+/// How many ticks lie between keyframes. A keyframe is due at every multiple.
+constexpr std::uint64_t keyframe_ticks(std::uint32_t tick_hz) { return std::uint64_t{kKeyframeSeconds} * tick_hz; }
+
+/// One writer a recording: a header, a keyframe, then steps, chats and keyframes as they happen, at last the
+/// end. Every append_ adds the bytes that are ready to `out`; of kZstd some stay behind until flush().
+/// Not thread safe: one thread at a time, in the order things happened.
+class ReplayWriter {
+ public:
+  explicit ReplayWriter(Encoding encoding = Encoding::kPlain);
+
+  void append_header(std::string& out, const Header& header);
+  /// REQUIRES that state.tick is where the steps so far led, and that state.roster is empty.
+  void append_keyframe(std::string& out, const match::MatchState& state);
+
+  /// Labels a player's join. Call it before the step that applies the join; without it the join has no name.
+  /// Of those who are in the first keyframe: before that.
+  void note_player(match::PlayerId player, std::string_view name, protocol::Role role);
+  /// How long before its step an input came [us], negative: after. Optional; before the step that applies it.
+  void note_margin(match::PlayerId player, std::uint32_t seq, std::int64_t margin_us);
+
+  void append_step(std::string& out, const match::StepRecord& step);
+  void append_chat(std::string& out, std::uint64_t tick, match::PlayerId player, std::string_view name,
+                   std::string_view text);
+  /// The index and the last line. `reason`: for people ("SIGTERM", "ticks done").
+  void append_end(std::string& out, std::string_view reason);
+
+  /// Everything appended so far is in `out` afterwards.
+  void flush(std::string& out);
+
+ private:
+  void put(std::string& out);  ///< line_, as it is or packed
+  void forget_notes(const match::StepRecord& step);
+
+  std::unique_ptr<FramePacker> packer_;  ///< null: plain
+  std::string line_;
+  std::uint64_t offset_ = 0;  ///< bytes of text so far
+  std::uint64_t lines_ = 0;
+  PlayerLabels labels_;  ///< of who plays, or is about to
+  Margins margins_;      ///< of inputs not yet written
+  ReplayIndex index_;
+};
+
+}  // namespace woodlouse::replay

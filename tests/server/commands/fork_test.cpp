@@ -1,0 +1,141 @@
+#include "server/commands/fork.h"
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "shared/map/map_loader.h"
+#include "shared/replay/writer.h"
+
+using namespace woodlouse;
+using namespace woodlouse::server;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A recorded game of 700 ticks, kept in memory tick by tick.
+class Played {
+ public:
+  /// named_map: instead of the map itself the header has that file.
+  explicit Played(const std::string& named_map = {}) {
+    auto map = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/volcano.json");
+    REQUIRE(map);
+    match::Match game(*map, {50, 99});
+    replay::ReplayWriter writer;
+    replay::Header header = replay::make_header(game, "test", named_map);
+    if (!named_map.empty()) header.map_definition.clear();
+    writer.append_header(bytes_, header);
+    writer.append_keyframe(bytes_, game.state());
+    game.join();
+    game.join();
+    writer.note_player(1, "mara\x1b", protocol::Role::kPlayer);
+    for (int tick = 0; tick < 700; ++tick) {
+      states.push_back(game.state());
+      const auto seq = static_cast<std::uint32_t>(tick);
+      if (tick % 10 == 3) game.file({1, seq, {physics::ThrustKind::kMapVector, {0.5, 0.25}}, 15, 0});
+      writer.append_step(bytes_, game.advance());
+      if (game.tick() % replay::keyframe_ticks(50) == 0) writer.append_keyframe(bytes_, game.state());
+    }
+    states.push_back(game.state());
+    writer.append_end(bytes_, "test over");
+    write();
+  }
+  ~Played() { fs::remove(file); }
+  Played(const Played&) = delete;
+  Played& operator=(const Played&) = delete;
+
+  /// The text's one `from` becomes `to`.
+  void alter(const std::string& from, const std::string& to) {
+    const std::size_t at = bytes_.find(from);
+    REQUIRE(at != std::string::npos);
+    bytes_.replace(at, from.size(), to);
+    write();
+  }
+  [[nodiscard]] std::string failure_at(std::uint64_t tick) const {
+    const auto opening = open_fork({file, tick});
+    REQUIRE_FALSE(opening);
+    CHECK_FALSE(opening.error().hint.empty());
+    return opening.error().text();
+  }
+
+  fs::path file = fs::temp_directory_path() / ("woodlouse_fork_test_" + std::to_string(::getpid()) + ".ndjson");
+  std::vector<match::MatchState> states;
+
+ private:
+  void write() const { std::ofstream(file, std::ios::binary) << bytes_; }
+  std::string bytes_;
+};
+
+}  // namespace
+
+TEST_CASE("a fork has the state of its tick to the last bit, the recording's settings, and names its parent") {
+  const Played played;
+  for (const std::uint64_t tick : {0u, 1u, 249u, 250u, 251u, 700u}) {
+    const auto opening = open_fork({played.file, tick});
+    REQUIRE(opening);
+    const match::MatchState state = opening->match->state();
+    CHECK(state.tick == tick);
+    CHECK(state.hash == played.states[tick].hash);
+    CHECK(state.generator == played.states[tick].generator);
+    CHECK(state.lice.size() == played.states[tick].lice.size());
+    CHECK(opening->match->settings().tick_hz == 50);
+    CHECK(opening->match->settings().seed == 99);
+    CHECK(opening->parent == replay::Parent{played.file.string(), tick, played.states[tick].hash});
+  }
+}
+
+TEST_CASE("the lice of a fork have the names of those who played them, cleaned, and go on with their count of inputs") {
+  const Played played;
+  const auto opening = open_fork({played.file, 400});
+  REQUIRE(opening);
+  REQUIRE(opening->orphans.size() == 1);  // nobody named the other one
+  CHECK(opening->orphans[0].louse == 1);
+  CHECK(opening->orphans[0].name == "mara");
+  CHECK(opening->orphans[0].first_seq == 394);
+  CHECK(open_fork({played.file, 0})->orphans.empty());
+}
+
+TEST_CASE("a map that a recording only names is named on by its fork, where it was found") {
+  const std::string map_file = WOODLOUSE_SOURCE_DIR "/maps/volcano.json";
+  const Played played(map_file);
+  CHECK(open_fork({played.file, 3})->map_file == map_file);
+}
+
+TEST_CASE("a fork that nobody joins goes on as the recording does while that has no inputs") {
+  const Played played;
+  const auto opening = open_fork({played.file, 404});
+  REQUIRE(opening);
+  while (opening->match->tick() < 413) {
+    opening->match->advance();
+    CHECK(opening->match->hash() == played.states[opening->match->tick()].hash);
+  }
+}
+
+TEST_CASE("a fork of what is not there is refused with what to do") {
+  Played played;
+  CHECK_THAT(played.failure_at(701), Catch::Contains("has no tick 701, only 0 to 700") &&
+                                         Catch::Contains("try:  woodlouse-server fork "));
+  SECTION("no file") {
+    fs::remove(played.file);
+    CHECK_THAT(played.failure_at(3), Catch::Contains("No such file"));
+  }
+  SECTION("an altered input") {
+    played.alter("\"inputs\":[[1,303,[64,32]", "\"inputs\":[[1,303,[64,31]");
+    CHECK_THAT(played.failure_at(400), Catch::Contains("differs at tick 304"));
+    CHECK(open_fork({played.file, 303}));
+  }
+  SECTION("a damaged line") {
+    played.alter("{\"step\":310,", "{\"step\":310;");
+    CHECK_THAT(played.failure_at(400), Catch::Contains(played.file.string() + ":"));
+    CHECK(open_fork({played.file, 310}));
+  }
+  SECTION("a map that is not found") {
+    const Played other("/no/such/map.json");
+    CHECK_THAT(other.failure_at(3), Catch::Contains("/no/such/map.json") && Catch::Contains("beside the recording"));
+  }
+}

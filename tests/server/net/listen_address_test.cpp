@@ -1,0 +1,30 @@
+#include "server/net/listen_address.h"
+
+#include <catch2/catch.hpp>
+
+using namespace woodlouse::server;
+
+TEST_CASE("a listen address is read as people write it, and comes back so") {
+  const auto [text, host, port] = GENERATE(table<std::string, std::string, int>({
+      {"127.0.0.1:7777", "127.0.0.1", 7777},
+      {"localhost:0", "localhost", 0},
+      {"10.0.0.1", "10.0.0.1", 7777},
+      {":65535", "0.0.0.0", 65535},
+      {"[::1]:80", "::1", 80},
+      {"[::]", "::", 7777},
+  }));
+  const auto address = parse_listen_address(text);
+  REQUIRE(address);
+  CHECK(address->host == host);
+  CHECK(address->port == port);
+  CHECK(parse_listen_address(to_text(*address)).value() == *address);
+}
+
+TEST_CASE("a listen address that is none is refused with what to write instead") {
+  const std::string text = GENERATE("127.0.0.1:", "127.0.0.1:65536", "host:-1", "host:7777x", "::1:7777",
+                                    "[::1", "[::1]7777", "host:0x10");
+  const auto address = parse_listen_address(text);
+  REQUIRE_FALSE(address);
+  CHECK_THAT(address.error().where, Catch::Contains(text));
+  CHECK_FALSE(address.error().hint.empty());
+}

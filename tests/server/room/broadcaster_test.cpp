@@ -1,0 +1,121 @@
+#include "server/room/broadcaster.h"
+
+#include <catch2/catch.hpp>
+
+#include <string>
+#include <vector>
+
+using namespace woodlouse;
+using namespace woodlouse::server;
+
+namespace {
+
+class Listener final : public Subscriber {
+ public:
+  void deliver(Line line) override { heard.push_back(*line); }
+  void show(const Frame& frame) override { heard.push_back(*frame.text); }
+  void answer(protocol::ServerMessage) override {}
+  void show_again(const Frame&) override {}
+  void deliver_map(Line) override {}
+  void refuse_join(protocol::ErrorMessage) override {}
+  void welcome(protocol::Welcome, std::uint32_t) override {}
+  void end(protocol::Bye) override {}
+
+  std::vector<std::string> heard;
+};
+
+using Heard = std::vector<std::string>;
+
+Line line(const std::string& text) { return std::make_shared<const std::string>(text); }
+
+std::vector<ChannelFrame> frames(FrameKind kind, std::uint64_t tick, const std::string& text) {
+  return {{1, {kind, tick, 0, tick, line("1:" + text)}}, {2, {kind, tick, 0, tick, line("2:" + text)}}};
+}
+
+struct House {
+  boost::asio::io_context io{1};
+  Broadcaster broadcaster{io};
+  std::vector<std::shared_ptr<Listener>> listeners;
+
+  void add(std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      listeners.push_back(std::make_shared<Listener>());
+      broadcaster.add({listeners.size(), listeners.back(), static_cast<ChannelId>(1 + i % 2), 0});
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("every member hears every event in order, and the frame of its own layout") {
+  House house;
+  house.add(3 * Broadcaster::kSlice + 5);
+  house.broadcaster.event(1, line("one"));
+  house.broadcaster.event(2, line("two"));
+  house.broadcaster.frames(FrameKind::kKey, frames(FrameKind::kKey, 60, "key"));
+  house.io.run();
+  for (std::size_t i = 0; i < house.listeners.size(); ++i)
+    REQUIRE(house.listeners[i]->heard == Heard{"one", "two", i % 2 ? "2:key" : "1:key"});
+  CHECK(house.broadcaster.backlog() == 0);
+}
+
+TEST_CASE("of frames that wait only the newest goes out, an unsent key before the delta on it") {
+  House house;
+  house.add(2);
+  house.broadcaster.frames(FrameKind::kKey, frames(FrameKind::kKey, 0, "key0"));
+  house.broadcaster.frames(FrameKind::kKey, frames(FrameKind::kKey, 60, "key60"));
+  house.broadcaster.frames(FrameKind::kDelta, frames(FrameKind::kDelta, 63, "delta63"));
+  house.broadcaster.frames(FrameKind::kDelta, frames(FrameKind::kDelta, 66, "delta66"));
+  house.io.run();
+  CHECK(house.listeners[0]->heard == Heard{"1:key60", "1:delta66"});
+}
+
+TEST_CASE("a big broadcast lets others run between its slices") {
+  House house;
+  house.add(4 * Broadcaster::kSlice);
+  house.broadcaster.event(1, line("one"));
+  std::vector<std::size_t> served_when_run;
+  std::function<void()> other = [&] {
+    std::size_t served = 0;
+    for (const auto& listener : house.listeners) served += listener->heard.size();
+    served_when_run.push_back(served);
+    if (served < house.listeners.size()) boost::asio::post(house.io, other);
+  };
+  boost::asio::post(house.io, other);
+  house.io.run();
+  CHECK(std::find_if(served_when_run.begin(), served_when_run.end(), [&](std::size_t n) {
+          return n > 0 && n < house.listeners.size();
+        }) != served_when_run.end());
+}
+
+TEST_CASE("who was removed hears nothing more, also in the middle of a broadcast") {
+  House house;
+  house.add(2 * Broadcaster::kSlice);
+  house.broadcaster.event(1, line("one"));
+  house.broadcaster.remove(1);
+  house.broadcaster.remove(house.listeners.size());
+  house.broadcaster.event(2, line("two"));
+  house.io.run();
+  CHECK(house.listeners[1]->heard == Heard{"one", "two"});
+  CHECK(house.listeners.front()->heard.size() <= 1);
+  CHECK(house.listeners.back()->heard.empty());
+}
+
+TEST_CASE("a newcomer does not hear events from before it joined") {
+  House house;
+  house.broadcaster.event(1, line("one"));
+  const auto late = std::make_shared<Listener>();
+  house.broadcaster.add({9, late, 1, 2});
+  house.broadcaster.event(2, line("two"));
+  house.io.run();
+  CHECK(late->heard == Heard{"two"});
+}
+
+TEST_CASE("the backlog counts the events not yet handed out") {
+  House house;
+  house.add(1);
+  for (std::uint64_t n = 1; n <= 10; ++n) house.broadcaster.event(n, line("e"));
+  CHECK(house.broadcaster.backlog() == 10);
+  house.io.run();
+  CHECK(house.broadcaster.backlog() == 0);
+}

@@ -1,0 +1,117 @@
+#include "server/room/house_bots.h"
+
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <set>
+#include <vector>
+
+#include "shared/map/map_loader.h"
+#include "shared/match/match.h"
+#include "shared/protocol/messages.h"
+
+using namespace woodlouse;
+using namespace woodlouse::server;
+
+namespace {
+
+std::shared_ptr<const map::Map> load(const std::string& name) {
+  auto map = map::load_map(std::string(WOODLOUSE_SOURCE_DIR "/maps/") + name + ".json");
+  REQUIRE(map);
+  return *map;
+}
+
+/// What one bot did in a game of its own: a louse a tick, and the thrusts it chose.
+struct Game {
+  std::vector<physics::Louse> lice;
+  std::vector<physics::Thrust> thrusts;
+};
+
+Game play(const std::shared_ptr<const map::Map>& map, std::uint32_t number, std::uint64_t seed, int seconds) {
+  match::Match match(map, {60, seed});
+  HouseBot bot(number, seed);
+  const match::PlayerId player = match.join();
+  match.advance();
+  Game game;
+  std::uint32_t seq = 0;
+  for (int tick = 0; tick < 60 * seconds; ++tick) {
+    if (tick % 6 == 0) {
+      const auto& world = match.world();
+      game.thrusts.push_back(bot.decide({*world.find(player), world.terrain(), world.parameters()}));
+      match.file({player, ++seq, game.thrusts.back(), physics::kHeld, 0});
+    }
+    match.advance();
+    game.lice.push_back(*match.world().find(player));
+  }
+  return game;
+}
+
+double height(const map::Map& map, const physics::Louse& louse) {
+  return map.terrain->sample(louse.position.x, louse.position.y).z;
+}
+
+}  // namespace
+
+TEST_CASE("every bot on every map pushes within the wire's range and steps, and keeps moving") {
+  const auto map = load(GENERATE("parabolic_pot", "wavy_pot", "volcano", "hills", "maunga_whau"));
+  const auto number = GENERATE(range(0u, 4u));
+  const Game game = play(map, number, 12, 60);
+  CAPTURE(number, map->definition.name);
+  for (const physics::Thrust& thrust : game.thrusts) {
+    REQUIRE(thrust.kind == physics::ThrustKind::kMapVector);
+    REQUIRE(core::dot(thrust.value, thrust.value) <= 1.0);
+    REQUIRE(thrust.value.x * 128.0 == std::nearbyint(thrust.value.x * 128.0));
+    REQUIRE(thrust.value.y * 128.0 == std::nearbyint(thrust.value.y * 128.0));
+  }
+  CHECK(game.lice.back().distance > 10.0);
+  // Nor does it ever give up.
+  for (std::size_t second = 10; second + 10 <= 60; ++second)
+    REQUIRE(game.lice[60 * (second + 10) - 1].distance > game.lice[60 * second].distance + 0.5);
+}
+
+TEST_CASE("the same seed gives the same game, another seed another") {
+  const auto map = load("volcano");
+  const auto number = GENERATE(range(0u, 4u));
+  const Game a = play(map, number, 5, 30);
+  const Game b = play(map, number, 5, 30);
+  CHECK(a.thrusts == b.thrusts);
+  CHECK(a.thrusts != play(map, number, 6, 30).thrusts);
+}
+
+TEST_CASE("the climber climbs out of a pot, the roller spends its time lower than the climber") {
+  const auto map = load("parabolic_pot");
+  const Game climber = play(map, 1, 3, 60);
+  const Game roller = play(map, 0, 3, 60);
+  double top = -1e9, climber_mean = 0.0, roller_mean = 0.0;
+  for (std::size_t i = 0; i < climber.lice.size(); ++i) {
+    top = std::max(top, height(*map, climber.lice[i]));
+    climber_mean += height(*map, climber.lice[i]);
+    roller_mean += height(*map, roller.lice[i]);
+  }
+  CHECK(top > height(*map, climber.lice.front()) + 1.0);
+  CHECK(climber_mean > roller_mean);
+}
+
+TEST_CASE("the orbiter goes round the middle at a steady distance") {
+  const auto map = load("parabolic_pot");
+  const Game game = play(map, 2, 8, 120);
+  double turned = 0.0, nearest = 1e9, farthest = 0.0;
+  for (std::size_t i = game.lice.size() / 3; i + 1 < game.lice.size(); ++i) {
+    const core::Vec2 a = game.lice[i].position;
+    const core::Vec2 b = game.lice[i + 1].position;
+    turned += std::atan2(a.x * b.y - a.y * b.x, core::dot(a, b));
+    nearest = std::min(nearest, std::hypot(a.x, a.y));
+    farthest = std::max(farthest, std::hypot(a.x, a.y));
+  }
+  CHECK(std::abs(turned) > 2.0 * 3.14159);
+  CHECK(farthest < 1.3 * nearest);
+}
+
+TEST_CASE("bots have names of their own, within the wire's length") {
+  std::set<std::string> names;
+  for (std::uint32_t number = 0; number < 100; ++number) {
+    const HouseBot bot(number, 1);
+    CHECK(names.insert(bot.name()).second);
+    CHECK(bot.name().size() <= protocol::kMaxNameBytes);
+  }
+}

@@ -1,0 +1,156 @@
+#include "server/watchers/shadow.h"
+
+#include <string>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+
+#include <spdlog/sinks/ostream_sink.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <future>
+#include <sstream>
+
+#include "shared/map/map_loader.h"
+#include "shared/replay/verify.h"
+
+using namespace woodlouse;
+using namespace woodlouse::server;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A game of two lice and its shadow; a folder for what the shadow writes.
+class Stage {
+ public:
+  Stage() {
+    fs::remove_all(folder_);
+    fs::create_directory(folder_);
+    for (int player = 0; player < 2; ++player) game.join();
+    game.advance();
+    shadow.begin(game, "maps/volcano.json");
+  }
+  ~Stage() { fs::remove_all(folder_); }
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  /// Both lice push.
+  const match::StepRecord& step() {
+    for (const match::PlayerId player : {1u, 2u})
+      game.file({player, ++seq_, {physics::ThrustKind::kMapVector, {0.5, 0.25}}, physics::kHeld, 0});
+    return game.advance();
+  }
+  void step(int times) {
+    for (int k = 0; k < times; ++k) shadow.step(step(), game);
+  }
+  const ShadowMetrics& finish() {
+    shadow.finish([] {});
+    pool.join();
+    return shadow.metrics();
+  }
+  [[nodiscard]] fs::path dump(const std::string& side, std::uint64_t tick) const {
+    return folder_ / ("dump." + std::to_string(tick) + "." + side + ".ndjson");
+  }
+  [[nodiscard]] static std::string verdict(const fs::path& file) {
+    const auto result = replay::verify(replay::ReplaySource::of_file(file), 1);
+    return result ? replay::to_text(*result) : result.error().text();
+  }
+
+ private:
+  static std::shared_ptr<const map::Map> load() {
+    auto map = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/volcano.json");
+    REQUIRE(map);
+    return *map;
+  }
+  fs::path folder_ = fs::temp_directory_path() / ("woodlouse_shadow_test_" + std::to_string(::getpid()));
+  std::shared_ptr<const map::Map> map_ = load();
+  std::uint32_t seq_ = 0;
+
+ public:
+  std::ostringstream log;
+  boost::asio::thread_pool pool{1};
+  match::Match game{map_, {60, 7}};
+  Shadow shadow{"volcano", map_, folder_ / "dump", pool,
+                std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(log))};
+};
+
+}  // namespace
+
+TEST_CASE("a game with joins, leaves, respawns and inputs filed ahead has a shadow like itself") {
+  Stage stage;
+  stage.step(20);
+  stage.game.join();
+  stage.game.respawn(1);
+  stage.game.file({2, 1000, {physics::ThrustKind::kAlongHeading, {1.0, 0.0}}, 7, stage.game.tick() + 40});
+  stage.game.leave(1);
+  for (int k = 0; k < 100; ++k) stage.shadow.step(stage.game.advance(), stage.game);
+  const ShadowMetrics& metrics = stage.finish();
+  CHECK(metrics.ticks == 120);
+  CHECK(metrics.differences == 0);
+  CHECK_FALSE(metrics.ended);
+  CHECK(stage.log.str().empty());
+}
+
+TEST_CASE("one altered input is seen at its tick, told once with louse, field and both values, and kept in files") {
+  Stage stage;
+  stage.step(10);
+  match::StepRecord altered = stage.step();
+  altered.inputs.at(1).thrust.x = 0.25;
+  stage.shadow.step(altered, stage.game);
+  stage.step(50);
+  const ShadowMetrics& metrics = stage.finish();
+  CHECK(metrics.ticks == 61);
+  CHECK(metrics.differences == 1);
+  CHECK_FALSE(metrics.ended);
+  const std::string text = stage.log.str();
+  CHECK(std::count(text.begin(), text.end(), '\n') == 1);
+  CHECK_THAT(text, Catch::Contains("SHADOW DIFFERS: room volcano: tick 12: hash ") &&
+                       Catch::Contains("louse 2, x: ") && Catch::Contains(stage.dump("game", 12).string()) &&
+                       Catch::Contains(stage.dump("shadow", 12).string()));
+  // The game was played with another input than the record says: from its record the machine gives the shadow's.
+  CHECK_THAT(Stage::verdict(stage.dump("game", 12)),
+             Catch::StartsWith("differs at tick 12: hash ") && Catch::Contains("keyframe 12: louse 2, x: "));
+  CHECK(Stage::verdict(stage.dump("shadow", 12)) == "ok 1 ticks\n");
+}
+
+TEST_CASE("each difference is counted, only the first is told") {
+  Stage stage;
+  for (int k = 0; k < 5; ++k) {
+    stage.step(3);
+    match::StepRecord altered = stage.step();
+    altered.hash ^= 1;
+    stage.shadow.step(altered, stage.game);
+  }
+  const ShadowMetrics& metrics = stage.finish();
+  CHECK(metrics.ticks == 20);
+  CHECK(metrics.differences == 5);
+  const std::string text = stage.log.str();
+  CHECK(std::count(text.begin(), text.end(), '\n') == 1);
+}
+
+TEST_CASE("a shadow that falls behind is ended with one log line") {
+  Stage stage;
+  std::promise<void> hold;
+  boost::asio::post(stage.pool, [&hold] { hold.get_future().wait(); });
+  stage.step(static_cast<int>(Shadow::kMaxQueued) + 50);
+  hold.set_value();
+  const ShadowMetrics& metrics = stage.finish();
+  CHECK(metrics.ended);
+  CHECK(metrics.differences == 0);
+  const std::string text = stage.log.str();
+  CHECK_THAT(text, Catch::Contains("SHADOW ENDED: room volcano: it fell 300 steps behind"));
+  CHECK(std::count(text.begin(), text.end(), '\n') == 1);
+}
+
+TEST_CASE("a dump that can't be written is told in the same line, and the shadow goes on") {
+  Stage stage;
+  fs::remove_all(stage.dump("game", 1).parent_path());
+  match::StepRecord altered = stage.step();
+  altered.hash ^= 1;
+  stage.shadow.step(altered, stage.game);
+  stage.step(5);
+  CHECK(stage.finish().ticks == 6);
+  CHECK_THAT(stage.log.str(), Catch::Contains("can't be written: No such file"));
+}
