@@ -15,8 +15,8 @@
 #include "shared/core/random.h"
 #include "shared/map/map_loader.h"
 #include "shared/replay/inspect.h"
-#include "shared/replay/writer.h"
 #include "shared/replay/verify.h"
+#include "shared/replay/writer.h"
 
 namespace {
 
@@ -25,7 +25,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::uint32_t kTickHz = 60;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 struct Game {
   const char* name;
@@ -77,7 +79,8 @@ int time_verify(const Game& game, const std::filesystem::path& file) {
       std::cerr << (verification ? to_text(*verification) : verification.error().text()) << '\n';
       return 1;
     }
-    std::printf("verify --jobs %-2u %-34s %8.2f s %8.0f x real time\n", jobs, game.name, taken, game.seconds / taken);
+    std::printf("verify --jobs %-2u %-34s %8.2f s %8.0f x real time\n", jobs, game.name, taken,
+                game.seconds / taken);
   }
   return 0;
 }
@@ -94,8 +97,9 @@ int time_inspect(const Game& game, const std::filesystem::path& file) {
     taken.push_back(1000.0 * seconds_since(start));
   }
   std::sort(taken.begin(), taken.end());
-  std::printf("inspect --tick   %-34s %8.1f ms median, %.1f ms worst of %d; opening the file and its map included\n", game.name,
-              taken[kRounds / 2], taken.back(), kRounds);
+  std::printf(
+      "inspect --tick   %-34s %8.1f ms median, %.1f ms worst of %d; opening the file and its map included\n",
+      game.name, taken[kRounds / 2], taken.back(), kRounds);
   return 0;
 }
 

@@ -1,5 +1,5 @@
-// What the inner loops cost: spline evaluations, louse-steps, encoded rows. Google Benchmark; how to run it and
-// what it printed where: bench/results/README.md.
+// What the inner loops cost: spline evaluations, louse-steps, encoded rows. Google Benchmark; how to run it
+// and what it printed where: bench/results/README.md.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -11,8 +11,8 @@
 #include "server/room/row_table.h"
 #include "shared/core/random.h"
 #include "shared/core/stable_hash.h"
-#include "shared/state/state_hash.h"
 #include "shared/physics/world.h"
+#include "shared/state/state_hash.h"
 #include "shared/terrain/terrain.h"
 
 namespace {
@@ -56,7 +56,8 @@ void spline_evaluation(benchmark::State& state, Order order) {
 /// `count` lice all moving under thrust on the volcano: one iteration is one tick, its state hash included.
 void world_tick(benchmark::State& state) {
   const auto count = static_cast<std::uint32_t>(state.range(0));
-  const auto surface = std::make_shared<const terrain::Terrain>(volcano(static_cast<std::size_t>(state.range(1))));
+  const auto surface =
+      std::make_shared<const terrain::Terrain>(volcano(static_cast<std::size_t>(state.range(1))));
   physics::World world(surface, {}, 1.0 / 60);
   core::Random random(2);
   const auto symmetric = [&] { return 2 * random.uniform() - 1; };
@@ -73,7 +74,8 @@ void world_tick(benchmark::State& state) {
   const auto steer = [&] {
     for (std::uint32_t id = 1; id <= count; ++id) {
       const double angle = 3.14159 * symmetric();
-      world.set_thrust(id, {physics::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}}, physics::kHeld);
+      world.set_thrust(id, {physics::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}},
+                       physics::kHeld);
     }
   };
   steer();
@@ -89,8 +91,8 @@ void world_tick(benchmark::State& state) {
     hashed += count;
   }
   const auto& c = world.counters();
-  state.counters["louse-step"] =
-      benchmark::Counter(static_cast<double>(hashed), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["louse-step"] = benchmark::Counter(
+      static_cast<double>(hashed), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.counters["awake"] = static_cast<double>(c.louse_steps) / static_cast<double>(hashed);
   state.counters["sub-steps"] = static_cast<double>(c.sub_steps) / static_cast<double>(c.louse_steps);
 }
@@ -126,7 +128,11 @@ void state_hash(benchmark::State& state) {
 }  // namespace
 
 BENCHMARK_CAPTURE(spline_evaluation, random, Order::kRandom)->ArgName("knots")->Arg(21)->Arg(201)->Arg(1001);
-BENCHMARK_CAPTURE(spline_evaluation, coherent, Order::kCoherent)->ArgName("knots")->Arg(21)->Arg(201)->Arg(1001);
+BENCHMARK_CAPTURE(spline_evaluation, coherent, Order::kCoherent)
+    ->ArgName("knots")
+    ->Arg(21)
+    ->Arg(201)
+    ->Arg(1001);
 BENCHMARK(world_tick)->ArgNames({"lice", "knots"})->ArgsProduct({{1, 1000, 10000}, {21, 201}});
 BENCHMARK_CAPTURE(row_encoding, quantized, protocol::Format::kQuantized);
 BENCHMARK_CAPTURE(row_encoding, exact, protocol::Format::kExact);

@@ -174,7 +174,8 @@ void add_options(CLI::App& app, Raw& raw) {
   app.add_option("--room", raw.room, "room of the server; default: its first")->envname("WOODLOUSE_ROOM");
   app.add_flag("--watch,!--play", raw.watch, "watch, without a louse of your own")
       ->envname("WOODLOUSE_WATCH");
-  app.add_flag("--verify,!--no-verify", raw.verify, "recompute the state hash of every key; exit 1 when one differs")
+  app.add_flag("--verify,!--no-verify", raw.verify,
+               "recompute the state hash of every key; exit 1 when one differs")
       ->envname("WOODLOUSE_VERIFY");
   app.add_option("--color", raw.color, color_words().list())
       ->envname("WOODLOUSE_COLOR")
@@ -185,11 +186,13 @@ void add_options(CLI::App& app, Raw& raw) {
       ->capture_default_str();
   app.add_option("--view", raw.view, view_words().list())->envname("WOODLOUSE_VIEW")->capture_default_str();
   app.add_option("--fps", raw.fps, "frames a second, 5..60")->envname("WOODLOUSE_FPS")->capture_default_str();
-  CLI::App* const replay = app.add_subcommand("replay", "watch a recording: play, pause, jump, follow; ? shows the keys");
+  CLI::App* const replay =
+      app.add_subcommand("replay", "watch a recording: play, pause, jump, follow; ? shows the keys");
   replay->add_option("FILE", raw.recording, "what woodlouse-server --record wrote; .zst too")->required();
   replay->footer(
       "For example:  woodlouse replay game.ndjson\n"
-      "Keys: Space play/pause, < > 5 s, comma and full stop one tick, [ ] speed, 0-9 jump, F Shift-F follow,\n"
+      "Keys: Space play/pause, < > 5 s, comma and full stop one tick, [ ] speed, 0-9 jump, F Shift-F "
+      "follow,\n"
       "      N Shift-N events, V view, Tab scores, ? help, Q quit.\n"
       "Options of woodlouse (--color, --glyphs, --view, --fps) may stand here, too.\n"
       "Exit: 0 fine, 1 a tick's re-run differs, 2 usage, 74 no recording or terminal lost, 130 Ctrl-C.");
@@ -222,7 +225,8 @@ core::Expected<Config> read_config_file(const std::string& text, const std::stri
       if (!value.is_boolean()) return core::fail(where, "it is not true or false");
       (key == "watch" ? raw.watch : raw.verify) = value.get<bool>();
     } else {
-      return core::fail(where, "no such setting", "known: server map name room color glyphs view fps watch verify");
+      return core::fail(where, "no such setting",
+                        "known: server map name room color glyphs view fps watch verify");
     }
   }
   auto result = understood(raw);
@@ -240,7 +244,8 @@ Parsed parse_arguments(int argc, const char* const* argv) {
   app.footer(
       "Watch a recording:  woodlouse replay game.ndjson\n"
       "Keys: W push, S brake, A D turn, Space cruise, T chat, Tab scores, V view, ? help, Q quit.\n"
-      "Exit: 0 fine, 1 a verified state differs, 2 usage, 69 server unreachable, 74 terminal lost, 130 Ctrl-C.");
+      "Exit: 0 fine, 1 a verified state differs, 2 usage, 69 server unreachable, 74 terminal lost, 130 "
+      "Ctrl-C.");
   add_options(app, raw);
   Parsed parsed;
   try {

@@ -5,10 +5,10 @@
 #include <optional>
 #include <string>
 
+#include "client/drawing/scene.h"
 #include "client/net/address.h"
 #include "client/play/keyframe_verifier.h"
 #include "client/play/look_choice.h"
-#include "client/drawing/scene.h"
 #include "shared/core/error.h"
 
 namespace woodlouse::client {

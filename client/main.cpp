@@ -3,8 +3,8 @@
 #include <iostream>
 
 #include "client/config.h"
-#include "client/terminal/outcome.h"
 #include "client/startup.h"
+#include "client/terminal/outcome.h"
 
 int main(int argc, char** argv) {
   using namespace woodlouse::client;

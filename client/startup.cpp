@@ -12,12 +12,12 @@
 #include <string>
 #include <utility>
 
-#include "client/terminal/descriptor.h"
-#include "client/play/game.h"
 #include "client/local_server.h"
-#include "client/terminal/outcome.h"
+#include "client/play/game.h"
 #include "client/play/session.h"
 #include "client/play/text_game.h"
+#include "client/terminal/descriptor.h"
+#include "client/terminal/outcome.h"
 #include "client/watch_recording.h"
 
 namespace woodlouse::client {
@@ -126,9 +126,10 @@ Outcome tell(boost::asio::io_context& context, Session& session, LocalServer* lo
 int run_client(const Config& config) {
   const bool as_text = config.glyphs == GlyphChoice::kText;
   if (config.part == Part::kReplay && (as_text || isatty(STDOUT_FILENO) == 0)) {
-    return complain(kExitUsage, "a recording is watched on a terminal. For scripts use:  woodlouse-server verify " +
-                                    config.recording,
-                    "");
+    return complain(
+        kExitUsage,
+        "a recording is watched on a terminal. For scripts use:  woodlouse-server verify " + config.recording,
+        "");
   }
   if (!as_text && isatty(STDOUT_FILENO) == 0) {
     return complain(kExitUsage, "stdout is not a terminal. For scripts use:  woodlouse --watch --glyphs text",

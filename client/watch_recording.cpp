@@ -16,7 +16,8 @@ namespace {
 
 Outcome no_recording(const core::Error& error) {
   return {kExitIo, "woodlouse: " + error.where + ": " + error.what + "\n      " +
-                       (error.hint.empty() ? "a recording is what  woodlouse-server --record FILE  writes" : error.hint) +
+                       (error.hint.empty() ? "a recording is what  woodlouse-server --record FILE  writes"
+                                           : error.hint) +
                        "\n"};
 }
 

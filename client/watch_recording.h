@@ -6,8 +6,8 @@
 
 namespace woodlouse::client {
 
-/// REQUIRES Part::kReplay and a terminal. The file is opened and checked before the terminal is touched. A tick
-/// whose re-run differed is kExitDiffers.
+/// REQUIRES Part::kReplay and a terminal. The file is opened and checked before the terminal is touched. A
+/// tick whose re-run differed is kExitDiffers.
 Outcome watch_recording(const Config& config);
 
 }  // namespace woodlouse::client

@@ -21,7 +21,8 @@ constexpr const char* kExamples = R"(Examples:
   woodlouse-server verify game.ndjson
   woodlouse-server fork game.ndjson --tick 1200 --listen :7778)";
 
-constexpr const char* kForkExamples = R"(Its lice go on as they were; who joins under a recorded name takes that louse
+constexpr const char* kForkExamples =
+    R"(Its lice go on as they were; who joins under a recorded name takes that louse
 over. Map, tick rate and seed are the recording's.
 
 Examples:
@@ -97,13 +98,15 @@ CLI::App* add_fork(CLI::App& app, Typed& typed) {
 }
 
 CLI::App* add_inspect(CLI::App& app, replay::InspectRequest& request) {
-  CLI::App* inspect = app.add_subcommand("inspect", "Say what a recording holds, or the exact state at a tick");
+  CLI::App* inspect =
+      app.add_subcommand("inspect", "Say what a recording holds, or the exact state at a tick");
   inspect->add_option("file", request.file, "A recording")->required();
   CLI::Option* tick = inspect->add_option("--tick", request.tick, "The state at this tick, as JSON");
   inspect->add_option("--at", request.seconds, "The same, by seconds since the game began")
       ->check(CLI::NonNegativeNumber)
       ->excludes(tick);
-  inspect->add_flag("--summary", request.summary, "Players, inputs, events, and who was late; also without an option");
+  inspect->add_flag("--summary", request.summary,
+                    "Players, inputs, events, and who was late; also without an option");
   return inspect;
 }
 
@@ -135,7 +138,8 @@ core::Expected<Config> checked(CLI::App& app, TypedServe& typed) {
   if (!serve.fork) {
     if (serve.maps.empty())
       return core::fail("--map", "no map given", "try:  woodlouse-server --map maps/volcano.json");
-    if (const auto fits = check_state_hz(serve.state_hz, serve.tick_hz); !fits) return tl::unexpected(fits.error());
+    if (const auto fits = check_state_hz(serve.state_hz, serve.tick_hz); !fits)
+      return tl::unexpected(fits.error());
   }
   auto listen = parse_listen_address(typed.listen);
   if (!listen) return tl::unexpected(listen.error());
@@ -147,7 +151,8 @@ core::Expected<Config> checked(CLI::App& app, TypedServe& typed) {
 
 core::Expected<void> check_state_hz(std::uint32_t state_hz, std::uint32_t tick_hz) {
   if (tick_hz % state_hz == 0) return {};
-  return core::fail("--state-hz " + std::to_string(state_hz), "does not divide the tick rate " + std::to_string(tick_hz),
+  return core::fail("--state-hz " + std::to_string(state_hz),
+                    "does not divide the tick rate " + std::to_string(tick_hz),
                     "frames fall on ticks: for 60 take 60, 30, 20, 15, 12 or 10");
 }
 

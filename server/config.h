@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "server/commands/fork.h"
-#include "server/net/listen_address.h"
 #include "server/log.h"
+#include "server/net/listen_address.h"
 #include "shared/core/error.h"
 #include "shared/replay/inspect.h"
 

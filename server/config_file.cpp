@@ -15,7 +15,8 @@ using Json = nlohmann::json;
 core::Expected<std::string> as_typed(const Json& value, const std::string& where) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_number() || value.is_boolean()) return value.dump();
-  return core::fail(where, "must be text, a number, true or false, or a list of them, not " + value.dump().substr(0, 40));
+  return core::fail(
+      where, "must be text, a number, true or false, or a list of them, not " + value.dump().substr(0, 40));
 }
 
 }  // namespace

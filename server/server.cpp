@@ -4,8 +4,8 @@
 #include <boost/asio/post.hpp>
 
 #include <algorithm>
-#include <cstdint>
 #include <csignal>
+#include <cstdint>
 #include <random>
 #include <set>
 #include <thread>
@@ -37,8 +37,8 @@ fs::path recording_of(const fs::path& file, const std::string& room, std::size_t
   if (rooms <= 1) return file;
   const std::string packed = file.extension() == ".zst" ? ".zst" : "";
   const fs::path plain = packed.empty() ? file : fs::path(file).replace_extension();
-  return fs::path(file).replace_filename(plain.stem().string() + '.' + file_part(room) + plain.extension().string() +
-                                         packed);
+  return fs::path(file).replace_filename(plain.stem().string() + '.' + file_part(room) +
+                                         plain.extension().string() + packed);
 }
 
 /// Beside the recording, or where the server was started.
@@ -59,7 +59,8 @@ core::Expected<Opening> begin_fork(ServeConfig& config) {
   auto opening = open_fork(*config.fork);
   if (!opening) return opening;
   config.tick_hz = opening->match->settings().tick_hz;
-  if (const auto fits = check_state_hz(config.state_hz, config.tick_hz); !fits) return tl::unexpected(fits.error());
+  if (const auto fits = check_state_hz(config.state_hz, config.tick_hz); !fits)
+    return tl::unexpected(fits.error());
   const std::uint64_t begin = config.fork->tick;
   if (config.ticks) config.ticks = begin + std::min(*config.ticks, UINT64_MAX - begin);
   return opening;
@@ -93,7 +94,8 @@ Server::Server(const ServeConfig& config, std::shared_ptr<spdlog::logger> log)
 
 Server::~Server() = default;
 
-core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config, std::shared_ptr<spdlog::logger> log) {
+core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config,
+                                                       std::shared_ptr<spdlog::logger> log) {
   std::optional<Opening> fork;
   if (config.fork) {
     auto opening = begin_fork(config);
@@ -149,7 +151,8 @@ core::Expected<void> Server::open_room(const ServeConfig& config, const std::str
   return {};
 }
 
-core::Expected<RoomStaff> Server::hire(const ServeConfig& config, const std::string& room, const Opening& opening) {
+core::Expected<RoomStaff> Server::hire(const ServeConfig& config, const std::string& room,
+                                       const Opening& opening) {
   RoomStaff staff;
   if (config.record) {
     auto opened = Recorder::open(recording_of(*config.record, room, config.maps.size()), disk_, log_);

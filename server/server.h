@@ -1,9 +1,9 @@
 // The whole server: rooms, port, threads, signals, and the order in which they start and stop.
 //
 // Threads: rooms tick in a context of their own (one thread for each room, at most one a core), sockets and
-// broadcasts run in another (kIoThreads), recordings are written on one more, tiles of big maps are built ahead of lice
-// on another, shadows re-run games on as many as rooms tick on. A tick so never waits for a socket, and for a disk only
-// where a louse outruns the tiles.
+// broadcasts run in another (kIoThreads), recordings are written on one more, tiles of big maps are built
+// ahead of lice on another, shadows re-run games on as many as rooms tick on. A tick so never waits for a
+// socket, and for a disk only where a louse outruns the tiles.
 #pragma once
 
 #include <spdlog/logger.h>
@@ -20,13 +20,13 @@
 #include <string>
 #include <vector>
 
-#include "server/net/acceptor.h"
 #include "server/config.h"
-#include "server/room/lobby.h"
-#include "server/room/figures.h"
-#include "server/room/start.h"
-#include "server/room/room.h"
+#include "server/net/acceptor.h"
 #include "server/net/session.h"
+#include "server/room/figures.h"
+#include "server/room/lobby.h"
+#include "server/room/room.h"
+#include "server/room/start.h"
 #include "shared/core/error.h"
 
 namespace woodlouse::server {
@@ -38,7 +38,8 @@ class Server {
   static constexpr Duration kStopWithin = std::chrono::milliseconds(800);
 
   /// Loads the maps or the recording to go on from, opens the port, creates the recordings.
-  static core::Expected<std::unique_ptr<Server>> create(ServeConfig config, std::shared_ptr<spdlog::logger> log);
+  static core::Expected<std::unique_ptr<Server>> create(ServeConfig config,
+                                                        std::shared_ptr<spdlog::logger> log);
   ~Server();
 
   /// `127.0.0.1:7777`, with the port that was really taken.

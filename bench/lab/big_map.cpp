@@ -12,11 +12,11 @@
 #include <variant>
 #include <vector>
 
+#include "bench/lab/methods/laboratory.h"
 #include "bench/lab/problems/motion.h"
 #include "bench/lab/report/progress.h"
 #include "shared/core/random.h"
 #include "shared/map/flt_grid.h"
-#include "bench/lab/methods/laboratory.h"
 
 namespace woodlouse::lab {
 namespace {
@@ -24,7 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
 
 double resident_megabytes() {
   std::ifstream status("/proc/self/status");
@@ -58,22 +60,29 @@ class TemporaryFolder {
 /// Rolling hills with a cell of 1 m; the rows repeat with a shift, so that writing is a copy.
 core::Expected<void> write_map(const fs::path& file, std::size_t knots) {
   std::ofstream header(fs::path(file).replace_extension(".hdr"));
-  header << "ncols " << knots << "\nnrows " << knots << "\nxllcenter 0\nyllcenter 0\ncellsize 1\nbyteorder LSBFIRST\n";
+  header << "ncols " << knots << "\nnrows " << knots
+         << "\nxllcenter 0\nyllcenter 0\ncellsize 1\nbyteorder LSBFIRST\n";
   header.close();
   std::ofstream data(file, std::ios::binary);
   Progress progress("writing the map", knots);
   std::vector<float> row(knots);
-  const auto wave = [](std::size_t i, double length) { return std::sin(2.0 * std::numbers::pi * static_cast<double>(i) / length); };
+  const auto wave = [](std::size_t i, double length) {
+    return std::sin(2.0 * std::numbers::pi * static_cast<double>(i) / length);
+  };
   std::vector<double> across(knots);
   for (std::size_t i = 0; i < knots; ++i) across[i] = 3.0 * wave(i, 97.0) + 0.5 * wave(i, 23.0);
   for (std::size_t j = 0; j < knots; ++j) {
     const double along = wave(j, 71.0);
-    for (std::size_t i = 0; i < knots; ++i) row[i] = static_cast<float>(across[i] * along + across[(i + 7 * j) % knots]);
-    data.write(reinterpret_cast<const char*>(row.data()), static_cast<std::streamsize>(row.size() * sizeof(float)));
+    for (std::size_t i = 0; i < knots; ++i)
+      row[i] = static_cast<float>(across[i] * along + across[(i + 7 * j) % knots]);
+    data.write(reinterpret_cast<const char*>(row.data()),
+               static_cast<std::streamsize>(row.size() * sizeof(float)));
     progress.advance();
   }
   data.close();
-  if (!header || !data) return core::fail(file.string(), "can't be written", "the temporary folder needs room; TMPDIR names another");
+  if (!header || !data)
+    return core::fail(file.string(), "can't be written",
+                      "the temporary folder needs room; TMPDIR names another");
   return {};
 }
 
@@ -134,8 +143,9 @@ core::Expected<BigMapUsage> use_big_map(std::size_t knots, std::size_t lice_coun
   const terrain::AnySurface surface(std::in_place_type<terrain::TiledBSpline>, std::move(*grid));
   const auto& spline = std::get<terrain::TiledBSpline>(surface);
   constexpr double kRate = 60.0;
-  const auto stepper = physics::make_stepper(surface, physics::Equations::kSurface, physics::Integrator::kNystrom4,
-                                             physics::Parameters{}, spline.domain(), 1.0 / kRate);
+  const auto stepper =
+      physics::make_stepper(surface, physics::Equations::kSurface, physics::Integrator::kNystrom4,
+                            physics::Parameters{}, spline.domain(), 1.0 / kRate);
   if (!stepper) return tl::unexpected(stepper.error());
   std::vector<physics::Louse> lice = wanderers(lice_count, spline.domain());
   physics::StepCounters counters;
@@ -153,7 +163,8 @@ core::Expected<BigMapUsage> use_big_map(std::size_t knots, std::size_t lice_coun
   usage.grown_mb = usage.resident_mb - before;
   usage.cached_mb = cached_megabytes(file);
   usage.tiles = static_cast<double>(spline.tiles_built());
-  const double side = std::ceil(static_cast<double>(knots - 1) / static_cast<double>(terrain::BSplineTile::kCells));
+  const double side =
+      std::ceil(static_cast<double>(knots - 1) / static_cast<double>(terrain::BSplineTile::kCells));
   usage.all_tiles = side * side;
   return usage;
 }

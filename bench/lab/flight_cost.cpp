@@ -1,5 +1,5 @@
-// What contact and central gravity cost a louse-step: the laboratory's, one louse after the other, and the room's, which
-// has no lanes for either. Flat ground is a surface that only rooms have.
+// What contact and central gravity cost a louse-step: the laboratory's, one louse after the other, and the
+// room's, which has no lanes for either. Flat ground is a surface that only rooms have.
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-#include "bench/lab/problems/motion.h"
+#include "bench/lab/methods/laboratory.h"
 #include "bench/lab/precision_flight.h"
+#include "bench/lab/problems/motion.h"
 #include "bench/lab/report/race.h"
 #include "shared/core/random.h"
-#include "bench/lab/methods/laboratory.h"
 #include "shared/physics/world.h"
 
 namespace woodlouse::lab {
@@ -77,7 +77,8 @@ std::vector<Case> cases() {
           {"flying at 15 m/s", flying(15.0), parameters(SurfaceContact::kUnilateral)},
           {"gliding, central gravity", gliding(), parameters(SurfaceContact::kBilateral, 100.0)},
           {"flat ground", gliding(), parameters(SurfaceContact::kBilateral), GroundKind::kFlat},
-          {"flat ground, central gravity", gliding(), parameters(SurfaceContact::kBilateral, 100.0), GroundKind::kFlat}};
+          {"flat ground, central gravity", gliding(), parameters(SurfaceContact::kBilateral, 100.0),
+           GroundKind::kFlat}};
 }
 
 /// Steps the same lice through the same ticks, again and again.
@@ -87,10 +88,11 @@ struct Runner {
 };
 
 core::Expected<Runner> one_by_one(const Case& one, const terrain::AnySurface& ground) {
-  auto made = physics::make_stepper(ground, physics::Equations::kSurface, physics::Integrator::kNystrom4, one.parameters,
-                                    kNowhere, kTick);
+  auto made = physics::make_stepper(ground, physics::Equations::kSurface, physics::Integrator::kNystrom4,
+                                    one.parameters, kNowhere, kTick);
   if (!made) return tl::unexpected(made.error());
-  return Runner{"one after the other", [stepper = std::shared_ptr<const physics::LaboratoryStepper>(std::move(*made)), &one] {
+  return Runner{"one after the other",
+                [stepper = std::shared_ptr<const physics::LaboratoryStepper>(std::move(*made)), &one] {
                   std::vector<physics::Louse> lice = one.start;
                   physics::StepCounters counters;
                   for (int i = 0; i < kTicks; ++i) stepper->advance(lice, counters);
@@ -126,7 +128,8 @@ core::Expected<void> measure_flight_cost(const Output& output) {
     runners.emplace_back(&one, room(one, one.ground == GroundKind::kHills ? hills : flat));
   }
   std::vector<Contestant> contestants;
-  for (const auto& entry : runners) contestants.push_back({"", [&run = entry.second.run] { run(); }, kLice * double{kTicks}});
+  for (const auto& entry : runners)
+    contestants.push_back({"", [&run = entry.second.run] { run(); }, kLice * double{kTicks}});
   const std::vector<Timing> times = race(contestants, output.effort(), "what flying costs");
   Table table({"lice", "stepped", "ns", "ns_best", "sub_steps"});
   for (std::size_t i = 0; i < runners.size(); ++i) {
@@ -134,7 +137,8 @@ core::Expected<void> measure_flight_cost(const Output& output) {
     table.add({runners[i].first->name, runners[i].second.name, times[i].median_ns, times[i].best_ns,
                static_cast<double>(counters.sub_steps) / static_cast<double>(counters.louse_steps)});
   }
-  std::cout << "\nA louse-step on hills, scale " << kScale << " m, 21 knots, 60 Hz, drag, friction and thrust, " << kLice
+  std::cout << "\nA louse-step on hills, scale " << kScale
+            << " m, 21 knots, 60 Hz, drag, friction and thrust, " << kLice
             << " lice; sub_steps: of a flight its pieces\n";
   table.print(std::cout);
   return output.write(table, "lab-precision-flight-cost");

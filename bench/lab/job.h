@@ -1,5 +1,5 @@
-// What a subcommand leaves to do once its options are parsed. Each subcommand is a file pair with one function
-// that adds it to the command line.
+// What a subcommand leaves to do once its options are parsed. Each subcommand is a file pair with one
+// function that adds it to the command line.
 #pragma once
 
 #include <CLI/CLI.hpp>

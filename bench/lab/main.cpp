@@ -6,7 +6,8 @@
 int main(int argc, char** argv) {
   using namespace woodlouse::lab;
   CLI::App app("Measures every surface, equation and integrator: run time against error.");
-  app.footer("Example:\n  woodlouse-lab speed --quick\nEach subcommand has a --help with an example of its own.");
+  app.footer(
+      "Example:\n  woodlouse-lab speed --quick\nEach subcommand has a --help with an example of its own.");
   app.require_subcommand(1);
   Job job;
   add_sample(app, job);

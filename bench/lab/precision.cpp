@@ -1,16 +1,17 @@
-// `precision`: run time against error, of the integrators, of the surfaces, under central gravity and in flight.
+// `precision`: run time against error, of the integrators, of the surfaces, under central gravity and in
+// flight.
 #include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
 
 #include "bench/lab/job.h"
-#include "bench/lab/problems/names.h"
-#include "bench/lab/report/output.h"
 #include "bench/lab/precision_flight.h"
 #include "bench/lab/precision_integrators.h"
 #include "bench/lab/precision_kepler.h"
 #include "bench/lab/precision_surfaces.h"
+#include "bench/lab/problems/names.h"
+#include "bench/lab/report/output.h"
 #include "bench/lab/report/race.h"
 
 namespace woodlouse::lab {
@@ -33,11 +34,14 @@ std::string problem_names() {
 core::Expected<void> run(const PrecisionOptions& options) {
   const auto function = function_named(options.function);
   if (!function) return tl::unexpected(function.error());
-  if (!options.only.empty() && std::find(kProblems.begin(), kProblems.end(), options.only) == kProblems.end()) {
+  if (!options.only.empty() &&
+      std::find(kProblems.begin(), kProblems.end(), options.only) == kProblems.end()) {
     return core::fail("--only", "there is no \"" + options.only + "\"", "one of: " + problem_names());
   }
   pin_to_core();
-  const auto wanted = [&](std::string_view problem) { return options.only.empty() || options.only == problem; };
+  const auto wanted = [&](std::string_view problem) {
+    return options.only.empty() || options.only == problem;
+  };
   if (wanted("integrators")) {
     if (auto done = measure_integrators(*function, options.output); !done) return done;
   }
@@ -59,11 +63,13 @@ core::Expected<void> run(const PrecisionOptions& options) {
 void add_precision(CLI::App& app, Job& job) {
   CLI::App* command = app.add_subcommand("precision", "Work-precision diagrams: nanoseconds against error.");
   const auto options = std::make_shared<PrecisionOptions>();
-  command->add_option("--function", options->function, names_of(terrain::kFunctionNames))->capture_default_str();
+  command->add_option("--function", options->function, names_of(terrain::kFunctionNames))
+      ->capture_default_str();
   command->add_option("--only", options->only, problem_names() + "; all of them when left out");
   add_output_options(*command, options->output);
   command->footer(
-      "Writes lab-precision-integrators, -surfaces, -kepler and -flight as .csv, .svg and .png, -flight-cost as .csv.\n"
+      "Writes lab-precision-integrators, -surfaces, -kepler and -flight as .csv, .svg and .png, -flight-cost "
+      "as .csv.\n"
       "Example:\n  woodlouse-lab precision --quick --out .");
   command->callback([options, &job] {
     if (!options->only.empty()) options->output.command += " --only " + options->only;

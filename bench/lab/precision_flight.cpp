@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "bench/lab/methods/laboratory.h"
 #include "bench/lab/problems/motion.h"
+#include "bench/lab/problems/ski_jump.h"
 #include "bench/lab/report/progress.h"
 #include "bench/lab/report/race.h"
-#include "bench/lab/problems/ski_jump.h"
 #include "bench/lab/report/work_precision.h"
-#include "bench/lab/methods/laboratory.h"
 
 namespace woodlouse::lab {
 namespace {
@@ -22,7 +22,8 @@ namespace {
 using physics::Integrator;
 using SharedStepper = std::shared_ptr<const physics::LaboratoryStepper>;
 
-constexpr double kSeconds = 1.6;  // a whole number of ticks at every rate, a third of a second after the landings
+constexpr double kSeconds =
+    1.6;  // a whole number of ticks at every rate, a third of a second after the landings
 
 core::Expected<SharedStepper> jumping(const terrain::AnySurface& ground, Integrator integrator, double tick) {
   physics::Parameters p{SkiJump::kGravity, 0.0, 0.0, 0.0, 1.0};
@@ -54,8 +55,8 @@ Landing landing_of(const physics::Louse& louse, double now, double within) {
 }
 
 /// The shortest tick in which `before` takes off, given that it does in `tick`.
-core::Expected<double> take_off_after(const terrain::AnySurface& ground, Integrator integrator, const physics::Louse& before,
-                                      double tick) {
+core::Expected<double> take_off_after(const terrain::AnySurface& ground, Integrator integrator,
+                                      const physics::Louse& before, double tick) {
   double low = 0.0, high = tick;
   for (int i = 0; i < 44; ++i) {
     const double middle = 0.5 * (low + high);
@@ -75,7 +76,8 @@ struct Measured {
   double take_off = 0.0, landing_time = 0.0, landing_place = 0.0, end = 0.0;
 };
 
-core::Expected<Measured> measure(const terrain::AnySurface& ground, Integrator integrator, double rate, const std::vector<Jump>& all) {
+core::Expected<Measured> measure(const terrain::AnySurface& ground, Integrator integrator, double rate,
+                                 const std::vector<Jump>& all) {
   const auto stepper = jumping(ground, integrator, 1.0 / rate);
   if (!stepper) return tl::unexpected(stepper.error());
   Measured worst;
@@ -147,7 +149,8 @@ core::Expected<void> measure_flight(const Output& output) {
     }
   }
   const std::vector<Timing> times = race(contestants, output.effort(), "times of jumps");
-  Table table({"integrator", "rate", "sub_steps", "flights", "ns_per_second", "ns_best", "take_off_time", "landing_time", "landing_place", "error_after"});
+  Table table({"integrator", "rate", "sub_steps", "flights", "ns_per_second", "ns_best", "take_off_time",
+               "landing_time", "landing_place", "error_after"});
   Panel in_flight{"landing", "error of the place of landing [m]", {}};
   Panel after{"a third of a second after it", "position error [m]", {}};
   std::size_t i = 0;
@@ -156,8 +159,8 @@ core::Expected<void> measure_flight(const Output& output) {
     Curve landing{name, {}}, end{name, {}};
     for (const double rate : rates) {
       const Measured& m = measured[i];
-      table.add({name, rate, m.sub_steps, m.flights, times[i].median_ns, times[i].best_ns, m.take_off, m.landing_time,
-                 m.landing_place, m.end});
+      table.add({name, rate, m.sub_steps, m.flights, times[i].median_ns, times[i].best_ns, m.take_off,
+                 m.landing_time, m.landing_place, m.end});
       landing.points.emplace_back(times[i].median_ns, m.landing_place);
       end.points.emplace_back(times[i].median_ns, m.end);
       ++i;

@@ -1,4 +1,5 @@
-// Integrators on a unilateral map against a jump in closed form: take-off, landing and the way on; and what flying costs.
+// Integrators on a unilateral map against a jump in closed form: take-off, landing and the way on; and what
+// flying costs.
 #pragma once
 
 #include "bench/lab/report/output.h"

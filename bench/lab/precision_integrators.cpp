@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "bench/lab/methods/laboratory.h"
 #include "bench/lab/problems/motion.h"
+#include "bench/lab/problems/reference_motion.h"
 #include "bench/lab/report/progress.h"
 #include "bench/lab/report/race.h"
-#include "bench/lab/problems/reference_motion.h"
 #include "bench/lab/report/work_precision.h"
 #include "shared/core/random.h"
-#include "bench/lab/methods/laboratory.h"
 
 namespace woodlouse::lab {
 namespace {
@@ -36,7 +36,8 @@ std::vector<physics::Motion> starts(Effort effort) {
   const auto symmetric = [&](double size) { return size * (2.0 * random.uniform() - 1.0); };
   std::vector<physics::Motion> result{{{0.8, 0.0}, {0.0, 1.5}}};
   const std::size_t count = effort == Effort::kQuick ? 3 : 9;
-  while (result.size() < count) result.push_back({{symmetric(0.6), symmetric(0.6)}, {symmetric(1.0), symmetric(1.0)}});
+  while (result.size() < count)
+    result.push_back({{symmetric(0.6), symmetric(0.6)}, {symmetric(1.0), symmetric(1.0)}});
   return result;
 }
 
@@ -65,15 +66,17 @@ struct Measured {
 
 /// The errors after kSeconds of all starts.
 core::Expected<Measured> measure(const Ground& ground, Integrator integrator, double rate,
-                                 const std::vector<physics::Motion>& from, const std::vector<physics::Motion>& ends) {
-  const auto stepper =
-      physics::make_stepper(ground.surface, physics::Equations::kSurface, integrator, free_motion(), kNowhere, 1.0 / rate);
+                                 const std::vector<physics::Motion>& from,
+                                 const std::vector<physics::Motion>& ends) {
+  const auto stepper = physics::make_stepper(ground.surface, physics::Equations::kSurface, integrator,
+                                             free_motion(), kNowhere, 1.0 / rate);
   if (!stepper) return tl::unexpected(stepper.error());
   std::vector<double> errors;
   physics::StepCounters counters;
   for (std::size_t i = 0; i < from.size(); ++i) {
     physics::Louse louse = louse_at(from[i].position, from[i].velocity);
-    for (long tick = 0; tick < std::lround(kSeconds * rate); ++tick) (*stepper)->advance({&louse, 1}, counters);
+    for (long tick = 0; tick < std::lround(kSeconds * rate); ++tick)
+      (*stepper)->advance({&louse, 1}, counters);
     const double error = distance(louse.position, ends[i].position);
     errors.push_back(std::isfinite(error) ? error : 1e300);
   }
@@ -83,9 +86,10 @@ core::Expected<Measured> measure(const Ground& ground, Integrator integrator, do
 }
 
 /// One simulated second of all starts, over and over.
-core::Expected<Contestant> runner(const Ground& ground, const Measured& m, const std::vector<physics::Motion>& from) {
-  auto stepper = physics::make_stepper(ground.surface, physics::Equations::kSurface, m.integrator, free_motion(),
-                                       kNowhere, 1.0 / m.rate);
+core::Expected<Contestant> runner(const Ground& ground, const Measured& m,
+                                  const std::vector<physics::Motion>& from) {
+  auto stepper = physics::make_stepper(ground.surface, physics::Equations::kSurface, m.integrator,
+                                       free_motion(), kNowhere, 1.0 / m.rate);
   if (!stepper) return tl::unexpected(stepper.error());
   const auto run = [shared = std::shared_ptr<const physics::LaboratoryStepper>(std::move(*stepper)), &from,
                     ticks = std::lround(m.rate)] {
@@ -106,7 +110,8 @@ std::string picture(const Table& table, const std::vector<Ground>& all) {
     for (const Integrator integrator : physics::kIntegrators) {
       Curve curve{std::string(to_text(integrator)), {}};
       for (const auto& row : table.rows()) {
-        if (std::get<std::string>(row[0]) != ground.name || std::get<std::string>(row[1]) != curve.name) continue;
+        if (std::get<std::string>(row[0]) != ground.name || std::get<std::string>(row[1]) != curve.name)
+          continue;
         curve.points.emplace_back(std::get<double>(row[4]), std::get<double>(row[6]));
       }
       panel.curves.push_back(std::move(curve));
@@ -122,10 +127,12 @@ core::Expected<void> measure_integrators(terrain::FunctionName function, const O
   const Effort effort = output.effort();
   const std::vector<Ground> all = grounds(function);
   const std::vector<physics::Motion> from = starts(effort);
-  const std::vector<double> rates =
-      effort == Effort::kQuick ? std::vector<double>{60, 240} : std::vector<double>{15, 30, 60, 120, 240, 480, 960};
+  const std::vector<double> rates = effort == Effort::kQuick
+                                        ? std::vector<double>{60, 240}
+                                        : std::vector<double>{15, 30, 60, 120, 240, 480, 960};
   const double h = effort == Effort::kQuick ? 1.0 / 1000 : 1.0 / 2000;
-  Table table({"surface", "integrator", "rate", "sub_steps", "ns_per_second", "ns_best", "error_median", "error_worst", "reference_uncertainty"});
+  Table table({"surface", "integrator", "rate", "sub_steps", "ns_per_second", "ns_best", "error_median",
+               "error_worst", "reference_uncertainty"});
   for (const Ground& ground : all) {
     std::vector<physics::Motion> ends;
     double uncertainty = 0.0;
@@ -133,7 +140,8 @@ core::Expected<void> measure_integrators(terrain::FunctionName function, const O
       Progress progress("reference on " + ground.name, from.size());
       for (const physics::Motion& start : from) {
         ends.push_back(reference_end(ground.surface, start, h));
-        uncertainty = std::fmax(uncertainty, distance(ends.back().position, reference_end(ground.surface, start, 2 * h).position));
+        uncertainty = std::fmax(uncertainty, distance(ends.back().position,
+                                                      reference_end(ground.surface, start, 2 * h).position));
         progress.advance();
       }
     }
@@ -160,8 +168,9 @@ core::Expected<void> measure_integrators(terrain::FunctionName function, const O
                  times[i].best_ns, m.median_error, m.worst_error, uncertainty});
     }
   }
-  std::cout << "Integrators on " << to_text(function) << ", gravity and curvature alone, " << kSeconds << " s, "
-            << from.size() << " starts; reference_uncertainty: what halving the reference's step changes\n";
+  std::cout << "Integrators on " << to_text(function) << ", gravity and curvature alone, " << kSeconds
+            << " s, " << from.size()
+            << " starts; reference_uncertainty: what halving the reference's step changes\n";
   table.print(std::cout);
   if (auto done = output.write(table, "lab-precision-integrators"); !done) return done;
   return output.draw(picture(table, all), "lab-precision-integrators", 1500, 560);

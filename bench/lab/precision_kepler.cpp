@@ -7,19 +7,19 @@
 #include <utility>
 #include <vector>
 
+#include "bench/lab/methods/laboratory.h"
 #include "bench/lab/problems/kepler_ellipse.h"
 #include "bench/lab/problems/motion.h"
 #include "bench/lab/report/progress.h"
 #include "bench/lab/report/race.h"
 #include "bench/lab/report/work_precision.h"
-#include "bench/lab/methods/laboratory.h"
 
 namespace woodlouse::lab {
 namespace {
 
 using physics::Integrator;
 
-constexpr double kPull = 1.0;     // the document's planet: F = -x / r^3
+constexpr double kPull = 1.0;  // the document's planet: F = -x / r^3
 constexpr double kPeriods = 10.0;
 constexpr double kManyPeriods = 100.0;
 
@@ -41,8 +41,8 @@ terrain::AnySurface flat_ground() {
 
 struct Measured {
   double sub_steps = 0.0;
-  double position = 0.0;                      ///< error after kPeriods
-  double energy = 0.0, energy_later = 0.0;    ///< largest relative error within kPeriods, within kManyPeriods
+  double position = 0.0;                    ///< error after kPeriods
+  double energy = 0.0, energy_later = 0.0;  ///< largest relative error within kPeriods, within kManyPeriods
   double momentum_later = 0.0;
 };
 
@@ -57,8 +57,9 @@ Measured measure(const physics::LaboratoryStepper& stepper, const KeplerEllipse&
     stepper.advance({&louse, 1}, counters);
     const double energy = std::fabs(ellipse.energy(louse.position, louse.velocity) / ellipse.energy() - 1.0);
     result.energy_later = std::max(result.energy_later, energy);
-    result.momentum_later = std::max(
-        result.momentum_later, std::fabs(KeplerEllipse::angular_momentum(louse.position, louse.velocity) / momentum - 1.0));
+    result.momentum_later =
+        std::max(result.momentum_later,
+                 std::fabs(KeplerEllipse::angular_momentum(louse.position, louse.velocity) / momentum - 1.0));
     if (tick != ticks) continue;
     result.energy = result.energy_later;
     result.position = distance(louse.position, ellipse.position_at(static_cast<double>(tick) / rate));
@@ -68,9 +69,11 @@ Measured measure(const physics::LaboratoryStepper& stepper, const KeplerEllipse&
 }
 
 /// One period, over and over.
-Contestant runner(std::shared_ptr<const physics::LaboratoryStepper> stepper, const KeplerEllipse& ellipse, double rate) {
+Contestant runner(std::shared_ptr<const physics::LaboratoryStepper> stepper, const KeplerEllipse& ellipse,
+                  double rate) {
   const long ticks = std::lround(ellipse.period() * rate);
-  const auto run = [stepper = std::move(stepper), start = louse_at(ellipse.start(), ellipse.velocity()), ticks] {
+  const auto run = [stepper = std::move(stepper), start = louse_at(ellipse.start(), ellipse.velocity()),
+                    ticks] {
     physics::StepCounters counters;
     physics::Louse louse = start;
     for (long tick = 0; tick < ticks; ++tick) stepper->advance({&louse, 1}, counters);
@@ -85,7 +88,8 @@ core::Expected<void> measure_kepler(const Output& output) {
   const std::vector<double> rates =
       output.quick ? std::vector<double>{60, 240} : std::vector<double>{15, 30, 60, 120, 240, 480, 960};
   const terrain::AnySurface ground = flat_ground();
-  Table table({"eccentricity", "integrator", "rate", "sub_steps", "ns_per_second", "ns_best", "error_10_periods", "energy_10_periods", "energy_100_periods", "momentum_100_periods"});
+  Table table({"eccentricity", "integrator", "rate", "sub_steps", "ns_per_second", "ns_best",
+               "error_10_periods", "energy_10_periods", "energy_100_periods", "momentum_100_periods"});
   std::vector<Panel> panels;
   for (const double speed : {0.8, 0.4}) {
     const KeplerEllipse ellipse(kPull, 1.0, speed);
@@ -96,7 +100,8 @@ core::Expected<void> measure_kepler(const Output& output) {
       Progress progress("errors, " + name, physics::kIntegrators.size() * rates.size());
       for (const Integrator integrator : physics::kIntegrators) {
         for (const double rate : rates) {
-          auto made = physics::make_stepper(ground, physics::Equations::kSurface, integrator, planet(), kNowhere, 1.0 / rate);
+          auto made = physics::make_stepper(ground, physics::Equations::kSurface, integrator, planet(),
+                                            kNowhere, 1.0 / rate);
           if (!made) return tl::unexpected(made.error());
           const std::shared_ptr<const physics::LaboratoryStepper> stepper = std::move(*made);
           measured.push_back(measure(*stepper, ellipse, rate));
@@ -112,8 +117,8 @@ core::Expected<void> measure_kepler(const Output& output) {
       Curve curve{std::string(to_text(integrator)), {}};
       for (const double rate : rates) {
         const Measured& m = measured[i];
-        table.add({ellipse.eccentricity(), curve.name, rate, m.sub_steps, times[i].median_ns, times[i].best_ns, m.position,
-                   m.energy, m.energy_later, m.momentum_later});
+        table.add({ellipse.eccentricity(), curve.name, rate, m.sub_steps, times[i].median_ns,
+                   times[i].best_ns, m.position, m.energy, m.energy_later, m.momentum_later});
         curve.points.emplace_back(times[i].median_ns, m.position);
         ++i;
       }
@@ -121,7 +126,8 @@ core::Expected<void> measure_kepler(const Output& output) {
     }
     panels.push_back(std::move(panel));
   }
-  std::cout << "\nCentral gravity, k = " << kPull << " m^3/s^2, from (1, 0) m at (0, 0.8) and (0, 0.4) m/s on flat ground; energy and "
+  std::cout << "\nCentral gravity, k = " << kPull
+            << " m^3/s^2, from (1, 0) m at (0, 0.8) and (0, 0.4) m/s on flat ground; energy and "
             << "momentum: the largest relative error at a tick\n";
   table.print(std::cout);
   if (auto done = output.write(table, "lab-precision-kepler"); !done) return done;

@@ -33,7 +33,8 @@ struct Truth {
     terrain::SurfaceSample s = surface.sample(x, y);
     if (!waves_alone) return s;
     const terrain::SurfaceSample bowl = FunctionSurface(FunctionName::kParabolicPot, 1.0).sample(x, y);
-    return {{s.z - bowl.z, s.zx - bowl.zx, s.zy - bowl.zy}, s.zxx - bowl.zxx, s.zxy - bowl.zxy, s.zyy - bowl.zyy};
+    return {
+        {s.z - bowl.z, s.zx - bowl.zx, s.zy - bowl.zy}, s.zxx - bowl.zxx, s.zxy - bowl.zxy, s.zyy - bowl.zyy};
   }
   [[nodiscard]] terrain::HeightGrid grid(std::size_t g) const {
     terrain::HeightGrid result = terrain::sample_function(surface.name(), 1.0, g);
@@ -68,7 +69,8 @@ Errors errors_of(const terrain::AnySurface& any, const Truth& truth, std::size_t
           if (std::fmax(std::fabs(x), std::fabs(y)) > kInner) continue;
           raise(e.value_inner, value);
           raise(e.gradient_inner, gradient);
-          raise(e.hessian_inner, std::fmax(std::fabs(s.zxx - t.zxx), std::fmax(std::fabs(s.zxy - t.zxy), std::fabs(s.zyy - t.zyy))));
+          raise(e.hessian_inner, std::fmax(std::fabs(s.zxx - t.zxx),
+                                           std::fmax(std::fabs(s.zxy - t.zxy), std::fabs(s.zyy - t.zyy))));
         }
         if (!terrain::kHasHessian<S>) e.hessian_inner = kNone;
         return e;
@@ -92,7 +94,9 @@ Contestant sampler(const terrain::AnySurface& surface, const std::vector<core::V
   return {"", run, static_cast<double>(points.size())};
 }
 
-double order(double coarse, double fine) { return fine > 0.0 && coarse > 0.0 ? std::log2(coarse / fine) : kNone; }
+double order(double coarse, double fine) {
+  return fine > 0.0 && coarse > 0.0 ? std::log2(coarse / fine) : kNone;
+}
 
 std::string picture(const Table& table) {
   std::ostringstream script;
@@ -109,8 +113,8 @@ std::string picture(const Table& table) {
         script << std::get<double>(row[x_column]) << ' ' << std::get<double>(row[y_column]) << '\n';
       }
       script << "EOD\n";
-      plots << (index == 0 ? "plot " : ", ") << block << " with linespoints lw 1.5 pt " << index + 4 << " ps 0.6 title '"
-            << to_text(interpolation) << "' noenhanced";
+      plots << (index == 0 ? "plot " : ", ") << block << " with linespoints lw 1.5 pt " << index + 4
+            << " ps 0.6 title '" << to_text(interpolation) << "' noenhanced";
       ++index;
     }
     script << plots.str() << '\n';
@@ -118,7 +122,8 @@ std::string picture(const Table& table) {
   script << "set title 'run time against error'\nset xlabel 'ns per evaluation, random order'\n"
          << "set ylabel 'largest gradient error, inner 80 %'\nunset key\n";
   panel(2, 6);
-  script << "set title 'the rim included'\nset xlabel 'knots a side'\nset ylabel 'largest value error, whole domain'\nset key outside right top font ',9'\n";
+  script << "set title 'the rim included'\nset xlabel 'knots a side'\nset ylabel 'largest value error, whole "
+            "domain'\nset key outside right top font ',9'\n";
   panel(1, 3);
   return script.str() + "unset multiplot\n";
 }
@@ -127,10 +132,12 @@ std::string picture(const Table& table) {
 
 core::Expected<void> measure_surfaces(FunctionName function, const Output& output) {
   const bool quick = output.effort() == Effort::kQuick;
-  const std::vector<std::size_t> grids = quick ? std::vector<std::size_t>{10, 20} : std::vector<std::size_t>{5, 10, 20, 40, 80, 160};
+  const std::vector<std::size_t> grids =
+      quick ? std::vector<std::size_t>{10, 20} : std::vector<std::size_t>{5, 10, 20, 40, 80, 160};
   std::vector<core::Vec2> points;
   core::Random random(7);
-  for (int i = 0; i < 1024; ++i) points.push_back({2.0 * random.uniform() - 1.0, 2.0 * random.uniform() - 1.0});
+  for (int i = 0; i < 1024; ++i)
+    points.push_back({2.0 * random.uniform() - 1.0, 2.0 * random.uniform() - 1.0});
 
   struct Entry {
     Interpolation interpolation;
@@ -158,20 +165,22 @@ core::Expected<void> measure_surfaces(FunctionName function, const Output& outpu
   for (const Entry& entry : entries) contestants.push_back(sampler(entry.surface, points));
   const std::vector<Timing> times = race(contestants, output.effort(), "times of surfaces");
 
-  Table table({"surface", "knots", "ns", "value", "gradient", "value_inner", "gradient_inner", "hessian_inner",
-               "order_value", "order_gradient", "order_value_inner", "order_gradient_inner"});
+  Table table({"surface", "knots", "ns", "value", "gradient", "value_inner", "gradient_inner",
+               "hessian_inner", "order_value", "order_gradient", "order_value_inner",
+               "order_gradient_inner"});
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Entry& entry = entries[i];
     const Errors& e = entry.errors;
     const bool first = entry.grid == grids.front();
     const Errors& before = first ? e : entries[i - 1].errors;
     const auto grown = [&](double Errors::*error) { return first ? kNone : order(before.*error, e.*error); };
-    table.add({std::string(to_text(entry.interpolation)), static_cast<double>(2 * entry.grid + 1), times[i].median_ns, e.value,
-               e.gradient, e.value_inner, e.gradient_inner, e.hessian_inner, grown(&Errors::value),
-               grown(&Errors::gradient), grown(&Errors::value_inner), grown(&Errors::gradient_inner)});
+    table.add({std::string(to_text(entry.interpolation)), static_cast<double>(2 * entry.grid + 1),
+               times[i].median_ns, e.value, e.gradient, e.value_inner, e.gradient_inner, e.hessian_inner,
+               grown(&Errors::value), grown(&Errors::gradient), grown(&Errors::value_inner),
+               grown(&Errors::gradient_inner)});
   }
-  std::cout << "\nSurfaces of " << to_text(function) << " (periodic: of its waves alone), largest errors, inner: |x|, |y| <= "
-            << kInner << '\n';
+  std::cout << "\nSurfaces of " << to_text(function)
+            << " (periodic: of its waves alone), largest errors, inner: |x|, |y| <= " << kInner << '\n';
   table.print(std::cout);
   if (auto done = output.write(table, "lab-precision-surfaces"); !done) return done;
   return output.draw(picture(table), "lab-precision-surfaces", 1300, 600);

@@ -1,5 +1,5 @@
-// Every surface on finer and finer grids: ns per evaluation against the errors of value and gradient, with the
-// orders of convergence between one grid and the next.
+// Every surface on finer and finer grids: ns per evaluation against the errors of value and gradient, with
+// the orders of convergence between one grid and the next.
 #pragma once
 
 #include "bench/lab/report/output.h"

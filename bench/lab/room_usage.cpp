@@ -29,7 +29,8 @@ class Process {
   static core::Expected<Process> start(const std::vector<std::string>& command, const fs::path& output) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC,
+                                     0600);
     posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     std::vector<char*> arguments;
     for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
@@ -37,7 +38,8 @@ class Process {
     pid_t id = -1;
     const int error = posix_spawn(&id, command.front().c_str(), &actions, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
-    if (error != 0) return core::fail(command.front(), "can't be started", "build it, or name its folder with --programs");
+    if (error != 0)
+      return core::fail(command.front(), "can't be started", "build it, or name its folder with --programs");
     return Process(id);
   }
   Process(Process&& other) noexcept : id_(std::exchange(other.id_, -1)) {}
@@ -85,17 +87,22 @@ void write_flat_map(const fs::path& file) {
   out << "]}}\n";
 }
 
-core::Expected<RoomUsage> use_room_in(const fs::path& folder, const fs::path& programs, Population population, double seconds) {
+core::Expected<RoomUsage> use_room_in(const fs::path& folder, const fs::path& programs, Population population,
+                                      double seconds) {
   write_flat_map(folder / "flat.json");
-  const auto server = Process::start({(programs / "woodlouse-server").string(), "--map", (folder / "flat.json").string(),
-                                      "--listen", "127.0.0.1:0"}, folder / "server");
+  const auto server = Process::start({(programs / "woodlouse-server").string(), "--map",
+                                      (folder / "flat.json").string(), "--listen", "127.0.0.1:0"},
+                                     folder / "server");
   if (!server) return tl::unexpected(server.error());
   const std::string address = address_in(folder / "server");
-  if (address.empty()) return core::fail("woodlouse-server", "did not say where it listens", "run it by hand to see why");
+  if (address.empty())
+    return core::fail("woodlouse-server", "did not say where it listens", "run it by hand to see why");
   std::vector<Process> swarm;
   if (population == Population::kResting) {
-    auto started = Process::start({(programs / "woodlouse-swarm").string(), "--bots", std::to_string(kRestingLice),
-                                   "--inputs-per-second", "0", "--seconds", std::to_string(seconds + 10), address}, folder / "swarm");
+    auto started =
+        Process::start({(programs / "woodlouse-swarm").string(), "--bots", std::to_string(kRestingLice),
+                        "--inputs-per-second", "0", "--seconds", std::to_string(seconds + 10), address},
+                       folder / "swarm");
     if (!started) return tl::unexpected(started.error());
     swarm.push_back(std::move(*started));
   }

@@ -1,5 +1,5 @@
-// What a server's room costs where nothing moves: the server is run as a process of its own, and its processor
-// time is read from the system.
+// What a server's room costs where nothing moves: the server is run as a process of its own, and its
+// processor time is read from the system.
 #pragma once
 
 #include <filesystem>
@@ -18,6 +18,7 @@ struct RoomUsage {
 
 /// programs: the folder of woodlouse-server and woodlouse-swarm. Resting lice are the swarm's, connected and
 /// without inputs, on flat ground. Errors: a program is missing, the server does not start.
-core::Expected<RoomUsage> use_room(const std::filesystem::path& programs, Population population, double seconds);
+core::Expected<RoomUsage> use_room(const std::filesystem::path& programs, Population population,
+                                   double seconds);
 
 }  // namespace woodlouse::lab

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "bench/lab/job.h"
+#include "bench/lab/problems/surface_choice.h"
 #include "bench/lab/report/numbers.h"
 #include "bench/lab/report/progress.h"
-#include "bench/lab/problems/surface_choice.h"
 #include "bench/lab/report/table.h"
 #include "shared/core/vec2.h"
 #include "shared/terrain/outside_policy.h"
@@ -32,8 +32,9 @@ core::Expected<std::vector<core::Vec2>> read_points(std::istream& in, const std:
     if (line.ends_with('\r')) line.pop_back();
     if (line.empty() || (number == 1 && line == "x,y")) continue;
     const auto xy = numbers_of<2>(line);
-    if (!xy) return core::fail(source + ":" + std::to_string(number), "\"" + line.substr(0, 60) + "\" is not x,y",
-                               "two finite numbers with a comma between them; a first line x,y may stand above");
+    if (!xy)
+      return core::fail(source + ":" + std::to_string(number), "\"" + line.substr(0, 60) + "\" is not x,y",
+                        "two finite numbers with a comma between them; a first line x,y may stand above");
     points.push_back({(*xy)[0], (*xy)[1]});
   }
   return points;
@@ -42,7 +43,8 @@ core::Expected<std::vector<core::Vec2>> read_points(std::istream& in, const std:
 core::Expected<std::vector<core::Vec2>> read_points(const std::string& source) {
   if (source == "-") return read_points(std::cin, "standard input");
   std::ifstream in(source);
-  if (!in) return core::fail(source, "can't be read", "--points takes a CSV file of x,y, or - for standard input");
+  if (!in)
+    return core::fail(source, "can't be read", "--points takes a CSV file of x,y, or - for standard input");
   return read_points(in, source);
 }
 
@@ -53,7 +55,8 @@ void print_row(core::Vec2 p, const std::optional<terrain::SurfaceSample>& s, boo
     return;
   }
   for (const double value : {s->z, s->zx, s->zy}) std::cout << ',' << exact_text(value);
-  for (const double value : {s->zxx, s->zxy, s->zyy}) std::cout << ',' << (has_hessian ? exact_text(value) : "");
+  for (const double value : {s->zxx, s->zxy, s->zyy})
+    std::cout << ',' << (has_hessian ? exact_text(value) : "");
   std::cout << '\n';
 }
 
@@ -63,7 +66,8 @@ core::Expected<void> run(const SampleOptions& options) {
   auto points = read_points(options.points);
   if (!points) return tl::unexpected(points.error());
   if (options.quick && points->size() > kQuickPoints) points->resize(kQuickPoints);
-  const auto policy = options.outside == "extend" ? terrain::OutsidePolicy::kExtend : terrain::OutsidePolicy::kNothing;
+  const auto policy =
+      options.outside == "extend" ? terrain::OutsidePolicy::kExtend : terrain::OutsidePolicy::kNothing;
   std::cout << "x,y,z,zx,zy,zxx,zxy,zyy\n";
   Progress progress("sample", points->size());
   std::visit(
@@ -81,16 +85,21 @@ core::Expected<void> run(const SampleOptions& options) {
 }  // namespace
 
 void add_sample(CLI::App& app, Job& job) {
-  CLI::App* command = app.add_subcommand("sample", "Prints a surface's height, gradient and Hessian at given points.");
+  CLI::App* command =
+      app.add_subcommand("sample", "Prints a surface's height, gradient and Hessian at given points.");
   const auto options = std::make_shared<SampleOptions>();
   add_surface_options(*command, options->surface, MapOption::kOffered);
   command->add_option("--points", options->points, "CSV of x,y, or - for standard input")->required();
-  command->add_option("--outside", options->outside, "points outside the domain: nothing (empty fields) or extend")
-      ->check(CLI::IsMember({"nothing", "extend"}))->capture_default_str();
+  command
+      ->add_option("--outside", options->outside,
+                   "points outside the domain: nothing (empty fields) or extend")
+      ->check(CLI::IsMember({"nothing", "extend"}))
+      ->capture_default_str();
   command->add_flag("--quick", options->quick, "the first 1000 points only");
   command->footer(
       "Prints x,y,z,zx,zy,zxx,zxy,zyy with 17 digits; fields that the surface has not are empty.\n"
-      "Example:\n  echo 0.25,-0.5 | woodlouse-lab sample --surface not_a_knot --function volcano --grid 10 --points -");
+      "Example:\n  echo 0.25,-0.5 | woodlouse-lab sample --surface not_a_knot --function volcano --grid 10 "
+      "--points -");
   command->callback([options, &job] { job = [options] { return run(*options); }; });
 }
 

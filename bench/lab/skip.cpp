@@ -25,7 +25,8 @@ struct SkipOptions {
 core::Expected<void> measure_tiles(Table& table, const Output& output) {
   const auto usage = use_big_map(output.quick ? 2001 : 10001, 100, output.quick ? 2.0 : 60.0);
   if (!usage) return tl::unexpected(usage.error());
-  const std::string map = std::to_string(static_cast<int>(usage->knots)) + "^2 knots, " + std::to_string(static_cast<int>(usage->lice)) + " lice";
+  const std::string map = std::to_string(static_cast<int>(usage->knots)) + "^2 knots, " +
+                          std::to_string(static_cast<int>(usage->lice)) + " lice";
   table.add({"tiles nobody visits: tiles, " + map, "tiles", usage->all_tiles, usage->tiles});
   table.add({"  coefficients in memory", "MB", usage->all_tiles * 0.0361, usage->tiles * 0.0361});
   table.add({"  memory the run added", "MB", std::string("-"), usage->grown_mb});
@@ -38,14 +39,17 @@ core::Expected<void> measure_tiles(Table& table, const Output& output) {
 
 core::Expected<void> measure_rooms(Table& table, const SkipOptions& options) {
   const double seconds = options.output.quick ? 1.0 : 10.0;
-  for (const auto& [population, name] : {std::pair{Population::kEmpty, "empty room"}, std::pair{Population::kResting, "resting room"}}) {
+  for (const auto& [population, name] :
+       {std::pair{Population::kEmpty, "empty room"}, std::pair{Population::kResting, "resting room"}}) {
     const auto usage = use_room(options.programs, population, seconds);
     if (!usage) {
-      table.add({std::string(name) + ": not run, " + usage.error().text(), "% of a core", std::string("-"), std::string("-")});
+      table.add({std::string(name) + ": not run, " + usage.error().text(), "% of a core", std::string("-"),
+                 std::string("-")});
       continue;
     }
-    table.add({std::string(name) + ", 60 Hz, " + std::to_string(static_cast<int>(usage->lice)) + " lice watching", "% of a core",
-               std::string("-"), usage->percent_of_core});
+    table.add(
+        {std::string(name) + ", 60 Hz, " + std::to_string(static_cast<int>(usage->lice)) + " lice watching",
+         "% of a core", std::string("-"), usage->percent_of_core});
   }
   return {};
 }
@@ -72,7 +76,8 @@ void add_skip(CLI::App& app, Job& job) {
   const auto options = std::make_shared<SkipOptions>();
   options->programs = own_folder();
   add_output_options(*command, options->output);
-  command->add_option("--programs", options->programs, "folder of woodlouse-server and woodlouse-swarm")->check(CLI::ExistingDirectory);
+  command->add_option("--programs", options->programs, "folder of woodlouse-server and woodlouse-swarm")
+      ->check(CLI::ExistingDirectory);
   command->footer(
       "Writes lab-skip.csv. Needs 400 MB in the temporary folder (--quick: 16 MB).\n"
       "Example:\n  woodlouse-lab skip --quick");

@@ -44,8 +44,9 @@ std::vector<physics::Louse> lice_of(std::size_t count, double speed) {
   return lice;
 }
 
-std::shared_ptr<physics::World> world_of(std::shared_ptr<const terrain::Terrain> ground, const physics::Parameters& parameters,
-                                         physics::InstructionSet set, const std::vector<physics::Louse>& lice) {
+std::shared_ptr<physics::World> world_of(std::shared_ptr<const terrain::Terrain> ground,
+                                         const physics::Parameters& parameters, physics::InstructionSet set,
+                                         const std::vector<physics::Louse>& lice) {
   auto world = std::make_shared<physics::World>(std::move(ground), parameters, 1.0 / 60.0);
   world->use(set);
   for (const physics::Louse& louse : lice) world->insert(louse);
@@ -81,8 +82,8 @@ void add_forces(std::vector<Duel>& duels) {
   std::vector<physics::Louse> pushed = lice;
   for (physics::Louse& louse : pushed) push(louse, {0.6, 0.8});
   for (const auto set : {physics::InstructionSet::kScalar, physics::best_instruction_set()}) {
-    duels.push_back({std::string("drag, friction, thrust compiled out, ") + physics::to_text(set), "ns a louse-step",
-                     fresh_ticks(world_of(ground, {}, set, pushed)),
+    duels.push_back({std::string("drag, friction, thrust compiled out, ") + physics::to_text(set),
+                     "ns a louse-step", fresh_ticks(world_of(ground, {}, set, pushed)),
                      fresh_ticks(world_of(ground, {9.81, 0.0, 0.0, 0.0, 0.5}, set, lice))});
     if (set == physics::best_instruction_set()) break;
   }
@@ -94,7 +95,8 @@ void add_flat(std::vector<Duel>& duels) {
   const auto curved = std::make_shared<const terrain::Terrain>(terrain::BicubicSpline(flat_grid()));
   for (const auto set : {physics::InstructionSet::kScalar, physics::best_instruction_set()}) {
     duels.push_back({std::string("curvature of flat ground, ") + physics::to_text(set), "ns a louse-step",
-                     fresh_ticks(world_of(curved, {}, set, lice)), fresh_ticks(world_of(flat(), {}, set, lice))});
+                     fresh_ticks(world_of(curved, {}, set, lice)),
+                     fresh_ticks(world_of(flat(), {}, set, lice))});
     if (set == physics::best_instruction_set()) break;
   }
 }
@@ -112,7 +114,8 @@ Contestant sampler(const std::shared_ptr<const terrain::Terrain>& ground, const 
   const auto run = [ground, points, sum] {
     const auto& spline = std::get<terrain::BicubicSpline>(ground->surface());
     double total = 0.0;
-    for (const physics::Louse& louse : *points) total += sum(spline.sample(louse.position.x, louse.position.y));
+    for (const physics::Louse& louse : *points)
+      total += sum(spline.sample(louse.position.x, louse.position.y));
     keep(total);
   };
   return {"", run, static_cast<double>(points->size())};
@@ -122,16 +125,18 @@ void add_hessians(std::vector<Duel>& duels) {
   const auto all = [](const terrain::SurfaceSample& s) { return s.z + s.zx + s.zy + s.zxx + s.zxy + s.zyy; };
   const auto gradient = [](const terrain::SurfaceSample& s) { return s.z + s.zx + s.zy; };
   const auto value = [](const terrain::SurfaceSample& s) { return s.z; };
-  duels.push_back({"Hessian that no integrator asks for", "ns an evaluation", sampler(volcano(), all), sampler(volcano(), gradient)});
-  duels.push_back({"gradient and Hessian, only z asked for", "ns an evaluation", sampler(volcano(), all), sampler(volcano(), value)});
+  duels.push_back({"Hessian that no integrator asks for", "ns an evaluation", sampler(volcano(), all),
+                   sampler(volcano(), gradient)});
+  duels.push_back({"gradient and Hessian, only z asked for", "ns an evaluation", sampler(volcano(), all),
+                   sampler(volcano(), value)});
 }
 
-Contestant key_frames(const std::shared_ptr<const terrain::Terrain>& ground, std::vector<protocol::Column> columns) {
+Contestant key_frames(const std::shared_ptr<const terrain::Terrain>& ground,
+                      std::vector<protocol::Column> columns) {
   const auto lice = std::make_shared<const std::vector<physics::Louse>>(lice_of(200, 2.0));
-  const auto encoder = std::make_shared<server::FrameEncoder>(server::RowLayout{std::move(columns), protocol::Format::kQuantized});
-  const auto run = [ground, lice, encoder] {
-    keep(encoder->key({0, 0, *lice, *ground, 0, {}}));
-  };
+  const auto encoder = std::make_shared<server::FrameEncoder>(
+      server::RowLayout{std::move(columns), protocol::Format::kQuantized});
+  const auto run = [ground, lice, encoder] { keep(encoder->key({0, 0, *lice, *ground, 0, {}})); };
   return {"", run, static_cast<double>(lice->size())};
 }
 
@@ -143,8 +148,10 @@ void add_columns(std::vector<Duel>& duels) {
   std::vector<Column> everything;
   for (std::size_t i = 0; i < protocol::kColumnCount; ++i) everything.push_back(static_cast<Column>(i));
   const auto ground = volcano();
-  duels.push_back({"attitude (yaw pitch roll) nobody asked for", "ns a row", key_frames(ground, attitude), key_frames(ground, plain)});
-  duels.push_back({"columns nobody asked for: 18, default 5", "ns a row", key_frames(ground, everything), key_frames(ground, plain)});
+  duels.push_back({"attitude (yaw pitch roll) nobody asked for", "ns a row", key_frames(ground, attitude),
+                   key_frames(ground, plain)});
+  duels.push_back({"columns nobody asked for: 18, default 5", "ns a row", key_frames(ground, everything),
+                   key_frames(ground, plain)});
 }
 
 }  // namespace

@@ -41,8 +41,8 @@ void look(const physics::World& world, Findings& findings) {
 }  // namespace
 
 Table soak(Effort effort) {
-  Table table({"terrain", "louse_steps", "sub_steps", "bounces", "stops", "capped", "not_finite", "outside", "absurd",
-               "fastest", "ns_per_step"});
+  Table table({"terrain", "louse_steps", "sub_steps", "bounces", "stops", "capped", "not_finite", "outside",
+               "absurd", "fastest", "ns_per_step"});
   const std::uint64_t wanted = effort == Effort::kQuick ? 1'000'000 : 25'000'000;
   for (const auto function : terrain::kFunctionNames) {
     const auto ground = std::make_shared<const terrain::Terrain>(
@@ -62,7 +62,8 @@ Table soak(Effort effort) {
       if (tick % 60 == 0) {
         for (std::uint32_t id = 1; id <= kLice; ++id) {
           const double angle = symmetric(std::numbers::pi);
-          world.set_thrust(id, {physics::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}}, physics::kHeld);
+          world.set_thrust(id, {physics::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}},
+                           physics::kHeld);
         }
       }
       const std::uint64_t before = world.counters().louse_steps;
@@ -70,13 +71,14 @@ Table soak(Effort effort) {
       progress.advance(world.counters().louse_steps - before);
       if (tick % 10 == 0) look(world, findings);
     }
-    const double ns = std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
+    const double ns =
+        std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
     look(world, findings);
     const auto& c = world.counters();
     const auto number = [](std::uint64_t n) { return static_cast<double>(n); };
-    table.add({std::string(to_text(function)), number(c.louse_steps), number(c.sub_steps), number(c.bounces), number(c.stops),
-               number(c.capped), findings.not_finite, findings.outside, findings.absurd, findings.fastest,
-               ns / number(c.louse_steps)});
+    table.add({std::string(to_text(function)), number(c.louse_steps), number(c.sub_steps), number(c.bounces),
+               number(c.stops), number(c.capped), findings.not_finite, findings.outside, findings.absurd,
+               findings.fastest, ns / number(c.louse_steps)});
   }
   return table;
 }

@@ -17,7 +17,8 @@ core::Expected<void> run(const Output& output) {
 }  // namespace
 
 void add_speed(CLI::App& app, Job& job) {
-  CLI::App* command = app.add_subcommand("speed", "Evaluations and steps beside GSL, ALGLIB and the document's.");
+  CLI::App* command =
+      app.add_subcommand("speed", "Evaluations and steps beside GSL, ALGLIB and the document's.");
   const auto output = std::make_shared<Output>();
   add_output_options(*command, *output);
   command->footer(

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "bench/lab/methods/lanes.h"
-#include "bench/lab/report/race.h"
 #include "bench/lab/methods/rival.h"
+#include "bench/lab/report/race.h"
 #include "shared/core/random.h"
 #include "shared/document/surface_catalogue.h"
 
@@ -23,8 +23,8 @@ namespace {
 constexpr double kNotRun = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kPoints = 4096;
 
-/// Random points jump anywhere; coherent ones follow one slow walk; a flock is 64 lice, each on a slow walk of
-/// its own, taken in turn: what a room does.
+/// Random points jump anywhere; coherent ones follow one slow walk; a flock is 64 lice, each on a slow walk
+/// of its own, taken in turn: what a room does.
 enum class Order { kRandom, kCoherent, kFlock };
 constexpr std::array kOrders = {Order::kRandom, Order::kCoherent, Order::kFlock};
 
@@ -89,8 +89,15 @@ struct Field {
 
   explicit Field(std::size_t g)
       : grid(terrain::sample_function(terrain::FunctionName::kVolcano, 1.0, g)),
-        spline(grid), bspline(grid), document(grid), biquadratic(grid), blended(grid), gauss(grid),
-        gsl_six(gsl_six_calls(grid)), gsl_three(gsl_three_calls(grid)), alglib(alglib_differentiation(grid)) {}
+        spline(grid),
+        bspline(grid),
+        document(grid),
+        biquadratic(grid),
+        blended(grid),
+        gauss(grid),
+        gsl_six(gsl_six_calls(grid)),
+        gsl_three(gsl_three_calls(grid)),
+        alglib(alglib_differentiation(grid)) {}
 };
 
 /// One line of the table; no contestant: `note` says why.
@@ -104,8 +111,10 @@ struct Entry {
 
 template <Wanted kWanted, typename S>
 Entry ours(std::string name, const S& surface, std::size_t points = kPoints) {
-  return {std::move(name), kWanted == Wanted::kHessian ? "z+G+H" : "z+G",
-          [&surface](std::span<const core::Vec2> p, const LanePoints&) { return sum_of<kWanted>(surface, p); }, "", points};
+  return {
+      std::move(name), kWanted == Wanted::kHessian ? "z+G+H" : "z+G",
+      [&surface](std::span<const core::Vec2> p, const LanePoints&) { return sum_of<kWanted>(surface, p); },
+      "", points};
 }
 
 Entry rival(std::string name, std::string computes, const std::unique_ptr<Rival>& rival) {
@@ -156,24 +165,27 @@ Measured measure(const Field& field, std::size_t knots, Order order, Effort effo
     };
     contestants.push_back({entry.name, run, static_cast<double>(entry.points)});
   }
-  const std::vector<Timing> times = race(contestants, effort, std::to_string(knots) + " knots, " + to_text(order));
+  const std::vector<Timing> times =
+      race(contestants, effort, std::to_string(knots) + " knots, " + to_text(order));
   Measured measured;
   std::size_t next = 0;
   for (const Entry& entry : entries) {
     const Timing time = entry.sum ? times[next++] : Timing{kNotRun, kNotRun};
     if (entry.sum) measured[entry.name + " " + entry.computes] = time.median_ns;
-    table.add({entry.name, entry.computes, static_cast<double>(knots), to_text(order), time.median_ns, time.best_ns, entry.note});
+    table.add({entry.name, entry.computes, static_cast<double>(knots), to_text(order), time.median_ns,
+               time.best_ns, entry.note});
   }
   return measured;
 }
 
-void add_ratio(Table& ratios, const Measured& m, const std::string& ours, const std::string& theirs, std::size_t knots,
-               Order order) {
+void add_ratio(Table& ratios, const Measured& m, const std::string& ours, const std::string& theirs,
+               std::size_t knots, Order order) {
   const auto a = m.find(ours);
   const auto b = m.find(theirs);
   if (a == m.end() || b == m.end()) {
-    ratios.add({theirs + " / " + ours, static_cast<double>(knots), to_text(order),
-                std::string(b == m.end() && theirs.find("avx") == std::string::npos ? "not built" : "not run")});
+    ratios.add(
+        {theirs + " / " + ours, static_cast<double>(knots), to_text(order),
+         std::string(b == m.end() && theirs.find("avx") == std::string::npos ? "not built" : "not run")});
     return;
   }
   ratios.add({theirs + " / " + ours, static_cast<double>(knots), to_text(order), b->second / a->second});
@@ -192,7 +204,8 @@ LaneEvaluation find_lane_evaluation(physics::InstructionSet set) {
 }
 
 core::Expected<void> measure_evaluations(const Output& output) {
-  const std::vector<std::size_t> sizes = output.quick ? std::vector<std::size_t>{21, 201} : std::vector<std::size_t>{21, 201, 1001};
+  const std::vector<std::size_t> sizes =
+      output.quick ? std::vector<std::size_t>{21, 201} : std::vector<std::size_t>{21, 201, 1001};
   Table table({"surface", "computes", "knots", "order", "ns", "ns_best", "note"});
   Table ratios({"ratio", "knots", "order", "times"});
   for (const std::size_t knots : sizes) {
@@ -205,7 +218,8 @@ core::Expected<void> measure_evaluations(const Output& output) {
       add_ratio(ratios, m, "spline avx512 z+G+H", "spline z+G+H", knots, order);
     }
   }
-  std::cout << "Evaluations of volcano's knots (natural ends: GSL, ALGLIB, the document's; not-a-knot: ours)\n";
+  std::cout
+      << "Evaluations of volcano's knots (natural ends: GSL, ALGLIB, the document's; not-a-knot: ours)\n";
   table.print(std::cout);
   std::cout << '\n';
   ratios.print(std::cout);

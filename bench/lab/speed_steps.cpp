@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/lab/methods/laboratory.h"
 #include "bench/lab/problems/motion.h"
 #include "bench/lab/report/race.h"
 #include "shared/core/random.h"
-#include "bench/lab/methods/laboratory.h"
 #include "shared/physics/world.h"
 
 namespace woodlouse::lab {
@@ -45,17 +45,20 @@ class Room {
     for (std::uint32_t i = 0; i < lice_ / 12; ++i) {
       next_ = next_ % lice_ + 1;
       const double angle = 2.0 * std::numbers::pi * random_.uniform();
-      world_.set_thrust(next_, {physics::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}}, physics::kHeld);
+      world_.set_thrust(next_, {physics::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}},
+                        physics::kHeld);
     }
     for (int i = 0; i < kTicks; ++i) world_.step();
   }
   [[nodiscard]] double louse_steps() const { return static_cast<double>(lice_) * kTicks; }
   [[nodiscard]] double sub_steps() const {
-    return static_cast<double>(world_.counters().sub_steps) / static_cast<double>(world_.counters().louse_steps);
+    return static_cast<double>(world_.counters().sub_steps) /
+           static_cast<double>(world_.counters().louse_steps);
   }
   [[nodiscard]] double awake() const {
     double awake = 0.0;
-    for (const physics::Louse& louse : world_.lice()) awake += louse.phase != physics::Phase::kResting ? 1.0 : 0.0;
+    for (const physics::Louse& louse : world_.lice())
+      awake += louse.phase != physics::Phase::kResting ? 1.0 : 0.0;
     return awake / static_cast<double>(lice_);
   }
 
@@ -71,7 +74,8 @@ class Runners {
  public:
   static constexpr int kTicks = 20;
 
-  Runners(std::unique_ptr<physics::LaboratoryStepper> stepper, std::size_t lice) : stepper_(std::move(stepper)) {
+  Runners(std::unique_ptr<physics::LaboratoryStepper> stepper, std::size_t lice)
+      : stepper_(std::move(stepper)) {
     core::Random random(2);
     for (std::uint32_t id = 1; id <= lice; ++id) start_.push_back(random_louse(random, id));
   }
@@ -95,16 +99,20 @@ struct Entry {
   std::shared_ptr<Runners> runners;
 };
 
-core::Expected<Entry> runners(const terrain::AnySurface& surface, std::string name, physics::Equations equations,
-                              physics::Integrator integrator, std::size_t lice) {
-  auto stepper = physics::make_stepper(surface, equations, integrator, physics::Parameters{}, kNowhere, kTick);
+core::Expected<Entry> runners(const terrain::AnySurface& surface, std::string name,
+                              physics::Equations equations, physics::Integrator integrator,
+                              std::size_t lice) {
+  auto stepper =
+      physics::make_stepper(surface, equations, integrator, physics::Parameters{}, kNowhere, kTick);
   if (!stepper) return tl::unexpected(stepper.error());
-  return Entry{std::move(name), static_cast<double>(lice), nullptr, std::make_shared<Runners>(std::move(*stepper), lice)};
+  return Entry{std::move(name), static_cast<double>(lice), nullptr,
+               std::make_shared<Runners>(std::move(*stepper), lice)};
 }
 
 core::Expected<void> measure_on(std::size_t knots, const Output& output, Table& table, Table& ratios) {
   using physics::Equations, physics::Integrator, physics::InstructionSet;
-  const terrain::HeightGrid grid = terrain::sample_function(terrain::FunctionName::kVolcano, kScale, (knots - 1) / 2);
+  const terrain::HeightGrid grid =
+      terrain::sample_function(terrain::FunctionName::kVolcano, kScale, (knots - 1) / 2);
   const terrain::BicubicSpline spline(grid);
   const terrain::AnySurface any(spline);
   const terrain::AnySurface document{terrain::DocumentSpline(grid)};
@@ -117,22 +125,28 @@ core::Expected<void> measure_on(std::size_t knots, const Output& output, Table& 
       entries.push_back(std::move(entry));
     }
   }
-  for (const Integrator integrator : {Integrator::kFalseEuler, Integrator::kVerletQ, Integrator::kNystrom4,
-                                      Integrator::kRungeKutta4, Integrator::kDormandPrince5, Integrator::kPrecise}) {
-    auto entry = runners(any, std::string(to_text(integrator)) + ", scalar", Equations::kSurface, integrator, 200);
+  for (const Integrator integrator :
+       {Integrator::kFalseEuler, Integrator::kVerletQ, Integrator::kNystrom4, Integrator::kRungeKutta4,
+        Integrator::kDormandPrince5, Integrator::kPrecise}) {
+    auto entry =
+        runners(any, std::string(to_text(integrator)) + ", scalar", Equations::kSurface, integrator, 200);
     if (!entry) return tl::unexpected(entry.error());
     entries.push_back(std::move(*entry));
   }
-  auto documents = runners(document, "the document's step", Equations::kAsPrinted, Integrator::kFalseEuler, 20);
+  auto documents =
+      runners(document, "the document's step", Equations::kAsPrinted, Integrator::kFalseEuler, 20);
   if (!documents) return tl::unexpected(documents.error());
   entries.push_back(std::move(*documents));
 
   std::vector<Contestant> contestants;
   for (const Entry& entry : entries) {
-    if (entry.room) contestants.push_back({entry.name, [&entry] { entry.room->run(); }, entry.room->louse_steps()});
-    if (entry.runners) contestants.push_back({entry.name, [&entry] { entry.runners->run(); }, entry.runners->louse_steps()});
+    if (entry.room)
+      contestants.push_back({entry.name, [&entry] { entry.room->run(); }, entry.room->louse_steps()});
+    if (entry.runners)
+      contestants.push_back({entry.name, [&entry] { entry.runners->run(); }, entry.runners->louse_steps()});
   }
-  const std::vector<Timing> times = race(contestants, output.effort(), "steps, " + std::to_string(knots) + " knots");
+  const std::vector<Timing> times =
+      race(contestants, output.effort(), "steps, " + std::to_string(knots) + " knots");
   const double documents_ns = times.back().median_ns;
   std::size_t next = 0;
   for (const Entry& entry : entries) {
@@ -152,7 +166,8 @@ core::Expected<void> measure_on(std::size_t knots, const Output& output, Table& 
 core::Expected<void> measure_steps(const Output& output) {
   Table table({"step", "knots", "lice", "ns", "ns_best", "sub_steps", "awake", "note"});
   Table ratios({"ratio", "knots", "lice", "times"});
-  for (const std::size_t knots : output.quick ? std::vector<std::size_t>{201} : std::vector<std::size_t>{21, 201}) {
+  for (const std::size_t knots :
+       output.quick ? std::vector<std::size_t>{201} : std::vector<std::size_t>{21, 201}) {
     if (auto done = measure_on(knots, output, table, ratios); !done) return done;
   }
   std::cout << "\nLouse-steps on volcano, scale " << kScale << " m, 60 Hz, drag, friction and thrust\n";

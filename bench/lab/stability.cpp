@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/lab/problems/egg_crate.h"
 #include "bench/lab/job.h"
+#include "bench/lab/problems/egg_crate.h"
 #include "bench/lab/problems/motion.h"
 #include "bench/lab/problems/names.h"
 #include "bench/lab/report/output.h"
@@ -36,7 +36,13 @@ struct Axes {
 
 Axes axes_of(Effort effort) {
   if (effort == Effort::kQuick) return {{1, 20}, {20, 2000}, {1}, {0, 0.05}, {15, 240}, {8}, 1.0};
-  return {{0.2, 1, 5, 20}, {1, 20, 200, 2000}, {0.1, 1, 10}, {0, 0.05, 0.5}, {15, 30, 60, 120, 240}, {8, 32}, 10.0};
+  return {{0.2, 1, 5, 20},
+          {1, 20, 200, 2000},
+          {0.1, 1, 10},
+          {0, 0.05, 0.5},
+          {15, 30, 60, 120, 240},
+          {8, 32},
+          10.0};
 }
 
 struct Cell {
@@ -50,8 +56,8 @@ struct Cell {
 };
 
 bool is_finite(const physics::Louse& louse) {
-  return std::isfinite(louse.position.x) && std::isfinite(louse.position.y) && std::isfinite(louse.velocity.x) &&
-         std::isfinite(louse.velocity.y);
+  return std::isfinite(louse.position.x) && std::isfinite(louse.position.y) &&
+         std::isfinite(louse.velocity.x) && std::isfinite(louse.velocity.y);
 }
 
 double penetration(const terrain::Rectangle& walls, core::Vec2 p) {
@@ -63,14 +69,17 @@ core::Expected<void> run(Cell& cell, const EggCrate& crate, Integrator integrato
   const physics::Parameters parameters{kGravity, 0.0, cell.friction, 0.0, 1.0};
   const terrain::AnySurface& surface = crate.surface;
   const terrain::Rectangle walls = crate.walls;
-  const auto stepper = physics::make_stepper(surface, physics::Equations::kSurface, integrator, parameters, walls, 1.0 / cell.rate);
+  const auto stepper = physics::make_stepper(surface, physics::Equations::kSurface, integrator, parameters,
+                                             walls, 1.0 / cell.rate);
   if (!stepper) return tl::unexpected(stepper.error());
 
   // Off every axis of symmetry, on the flank of a dent.
-  const core::Vec2 at{walls.x_min + 0.37 * (walls.x_max - walls.x_min), walls.y_min + 0.46 * (walls.y_max - walls.y_min)};
+  const core::Vec2 at{walls.x_min + 0.37 * (walls.x_max - walls.x_min),
+                      walls.y_min + 0.46 * (walls.y_max - walls.y_min)};
   const core::Vec2 along{0.8, 0.6};
   const terrain::SurfaceSample s = sample_of(surface, at);
-  physics::Louse louse = louse_at(at, (cell.speed / std::sqrt(physics::squared_length_in_space(s, along))) * along);
+  physics::Louse louse =
+      louse_at(at, (cell.speed / std::sqrt(physics::squared_length_in_space(s, along))) * along);
   const double floor = kGravity * crate.lowest;
   const double start = energy_of(s, louse.velocity, kGravity) - floor;
   double lowest = start;
@@ -89,16 +98,18 @@ core::Expected<void> run(Cell& cell, const EggCrate& crate, Integrator integrato
     cell.gained = std::fmax(cell.gained, (energy - (cell.friction > 0.0 ? lowest : start)) / start);
     lowest = std::fmin(lowest, energy);
   }
-  cell.capped = static_cast<double>(counters.capped) / static_cast<double>(std::max<std::uint64_t>(1, counters.sub_steps));
-  cell.sub_steps = static_cast<double>(counters.sub_steps) / static_cast<double>(std::max<std::uint64_t>(1, counters.louse_steps));
+  cell.capped = static_cast<double>(counters.capped) /
+                static_cast<double>(std::max<std::uint64_t>(1, counters.sub_steps));
+  cell.sub_steps = static_cast<double>(counters.sub_steps) /
+                   static_cast<double>(std::max<std::uint64_t>(1, counters.louse_steps));
   return {};
 }
 
 core::Expected<std::vector<Cell>> run_all(Integrator integrator, const Axes& axes) {
   std::vector<Cell> cells;
   Progress progress("stability of " + std::string(to_text(integrator)),
-                    axes.slopes.size() * axes.curvatures.size() * axes.knots_per_wave.size() * axes.speeds.size() *
-                        axes.frictions.size() * axes.rates.size());
+                    axes.slopes.size() * axes.curvatures.size() * axes.knots_per_wave.size() *
+                        axes.speeds.size() * axes.frictions.size() * axes.rates.size());
   for (const double slope : axes.slopes) {
     for (const double curvature : axes.curvatures) {
       for (const double knots : axes.knots_per_wave) {
@@ -107,7 +118,8 @@ core::Expected<std::vector<Cell>> run_all(Integrator integrator, const Axes& axe
           for (const double friction : axes.frictions) {
             for (const double rate : axes.rates) {
               Cell cell{slope, curvature, speed, friction, rate, knots};
-              if (auto done = run(cell, crate, integrator, axes.seconds); !done) return tl::unexpected(done.error());
+              if (auto done = run(cell, crate, integrator, axes.seconds); !done)
+                return tl::unexpected(done.error());
               cells.push_back(cell);
               progress.advance();
             }
@@ -121,14 +133,16 @@ core::Expected<std::vector<Cell>> run_all(Integrator integrator, const Axes& axe
 
 void add_rows(Table& table, Integrator integrator, const std::vector<Cell>& cells) {
   for (const Cell& c : cells) {
-    table.add({std::string(to_text(integrator)), c.slope, c.curvature, c.speed, c.friction, c.rate, c.knots_per_wave,
-               c.energy_error, c.gained, std::isnan(c.first_nan) ? Table::Cell(std::string()) : Table::Cell(c.first_nan),
-               c.penetration, c.capped, c.sub_steps});
+    table.add({std::string(to_text(integrator)), c.slope, c.curvature, c.speed, c.friction, c.rate,
+               c.knots_per_wave, c.energy_error, c.gained,
+               std::isnan(c.first_nan) ? Table::Cell(std::string()) : Table::Cell(c.first_nan), c.penetration,
+               c.capped, c.sub_steps});
   }
 }
 
 void summarize(Table& summary, Integrator integrator, const std::vector<Cell>& cells) {
-  double nan = 0, capped = 0, within = 0, uncapped = 0, worst = 0, worst_capped = 0, gained = 0, gained_capped = 0, through = 0;
+  double nan = 0, capped = 0, within = 0, uncapped = 0, worst = 0, worst_capped = 0, gained = 0,
+         gained_capped = 0, through = 0;
   for (const Cell& c : cells) {
     nan += std::isnan(c.first_nan) ? 0 : 1;
     through = std::fmax(through, c.penetration);
@@ -158,7 +172,8 @@ std::string picture(Integrator integrator, const std::vector<Cell>& cells, const
     return static_cast<std::size_t>(std::find(axis.begin(), axis.end(), value) - axis.begin());
   };
   for (const Cell& c : cells) {
-    const std::size_t column = place(axes.curvatures, c.curvature) * axes.speeds.size() + place(axes.speeds, c.speed);
+    const std::size_t column =
+        place(axes.curvatures, c.curvature) * axes.speeds.size() + place(axes.speeds, c.speed);
     const std::size_t row = place(axes.slopes, c.slope) * axes.rates.size() + place(axes.rates, c.rate);
     double& w = worst[row * columns + column];
     w = std::fmax(w, std::isnan(c.first_nan) ? c.energy_error : 1e300);
@@ -175,21 +190,30 @@ std::string picture(Integrator integrator, const std::vector<Cell>& cells, const
     map << '\n';
   }
   std::ostringstream script;
-  script << "$map << EOD\n" << map.str() << "EOD\n$caps << EOD\n" << caps.str() << "EOD\n"
+  script << "$map << EOD\n"
+         << map.str() << "EOD\n$caps << EOD\n"
+         << caps.str() << "EOD\n"
          << "set title '" << to_text(integrator) << ": energy error in " << axes.seconds
          << " s, worst over friction and grid' noenhanced\n"
          << "set xlabel 'curvature [1/m], speed [m/s]'\nset ylabel 'slope, rate [Hz]'\n"
-         << "set cblabel 'log10 of the error (top: not finite); dots: the sub-step cap was reached' noenhanced offset 1,0\n"
-         << "set cbrange [-12:2]\nset palette defined (-12 '#1a6faf', -6 '#7fc4a0', -4 '#f4f0a0', -2 '#f08030', 0 '#b01020', 2 '#000000')\n"
-         << "set xrange [-0.5:" << columns << "-0.5]\nset yrange [-0.5:" << rows << "-0.5]\nset tics nomirror out\nset xtics rotate by 60 right (";
+         << "set cblabel 'log10 of the error (top: not finite); dots: the sub-step cap was reached' "
+            "noenhanced offset 1,0\n"
+         << "set cbrange [-12:2]\nset palette defined (-12 '#1a6faf', -6 '#7fc4a0', -4 '#f4f0a0', -2 "
+            "'#f08030', 0 '#b01020', 2 '#000000')\n"
+         << "set xrange [-0.5:" << columns << "-0.5]\nset yrange [-0.5:" << rows
+         << "-0.5]\nset tics nomirror out\nset xtics rotate by 60 right (";
   for (std::size_t i = 0; i < columns; ++i) {
-    script << (i == 0 ? "" : ",") << '"' << axes.curvatures[i / axes.speeds.size()] << ", " << axes.speeds[i % axes.speeds.size()] << "\" " << i;
+    script << (i == 0 ? "" : ",") << '"' << axes.curvatures[i / axes.speeds.size()] << ", "
+           << axes.speeds[i % axes.speeds.size()] << "\" " << i;
   }
   script << ")\nset ytics (";
   for (std::size_t i = 0; i < rows; ++i) {
-    script << (i == 0 ? "" : ",") << '"' << axes.slopes[i / axes.rates.size()] << ", " << axes.rates[i % axes.rates.size()] << "\" " << i;
+    script << (i == 0 ? "" : ",") << '"' << axes.slopes[i / axes.rates.size()] << ", "
+           << axes.rates[i % axes.rates.size()] << "\" " << i;
   }
-  script << ")\nplot $map using 1:2:3 with image notitle" << (caps.str().empty() ? "" : ", $caps using 1:2 with points pt 7 ps 0.4 lc rgb 'black' notitle") << '\n';
+  script << ")\nplot $map using 1:2:3 with image notitle"
+         << (caps.str().empty() ? "" : ", $caps using 1:2 with points pt 7 ps 0.4 lc rgb 'black' notitle")
+         << '\n';
   return script.str();
 }
 
@@ -202,10 +226,10 @@ core::Expected<void> run(const StabilityOptions& options) {
   }
   const Output& output = options.output;
   const Axes axes = axes_of(output.effort());
-  Table table({"integrator", "slope", "curvature", "speed", "friction", "rate", "knots_per_wave", "energy_error",
-               "gained", "first_nan", "penetration", "capped", "sub_steps"});
-  Table summary({"integrator", "cells", "with_nan", "capped", "percent_within_1e-4", "worst", "gained", "worst_capped", "gained_capped",
-                 "penetration"});
+  Table table({"integrator", "slope", "curvature", "speed", "friction", "rate", "knots_per_wave",
+               "energy_error", "gained", "first_nan", "penetration", "capped", "sub_steps"});
+  Table summary({"integrator", "cells", "with_nan", "capped", "percent_within_1e-4", "worst", "gained",
+                 "worst_capped", "gained_capped", "penetration"});
   for (const Integrator integrator : integrators) {
     const auto cells = run_all(integrator, axes);
     if (!cells) return tl::unexpected(cells.error());
@@ -214,7 +238,8 @@ core::Expected<void> run(const StabilityOptions& options) {
     const std::string name = "lab-stability-" + std::string(to_text(integrator));
     if (auto done = output.draw(picture(integrator, *cells, axes), name, 760, 640); !done) return done;
   }
-  std::cout << "Egg crates between elastic walls, " << axes.seconds << " s a cell; percent, worst: cells that never reached the sub-step cap\n";
+  std::cout << "Egg crates between elastic walls, " << axes.seconds
+            << " s a cell; percent, worst: cells that never reached the sub-step cap\n";
   summary.print(std::cout);
   if (auto done = output.write(table, "lab-stability"); !done) return done;
   const Table soaked = soak(output.effort());
@@ -226,9 +251,12 @@ core::Expected<void> run(const StabilityOptions& options) {
 }  // namespace
 
 void add_stability(CLI::App& app, Job& job) {
-  CLI::App* command = app.add_subcommand("stability", "Energy, NaN and walls over slopes, curvatures, speeds and rates; a soak.");
+  CLI::App* command = app.add_subcommand(
+      "stability", "Energy, NaN and walls over slopes, curvatures, speeds and rates; a soak.");
   const auto options = std::make_shared<StabilityOptions>();
-  command->add_option("--integrator", options->integrator, "all, or one of: " + names_of(physics::kIntegrators))->capture_default_str();
+  command
+      ->add_option("--integrator", options->integrator, "all, or one of: " + names_of(physics::kIntegrators))
+      ->capture_default_str();
   add_output_options(*command, options->output);
   command->footer(
       "Writes lab-stability.csv, lab-soak.csv and a heat map per integrator.\n"

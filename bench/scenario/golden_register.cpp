@@ -11,7 +11,8 @@ namespace woodlouse::scenario {
 namespace {
 
 constexpr std::size_t kMaxBytes = 1u << 20;
-constexpr std::string_view kHeader = "# behavior scenario script hashes; written by woodlouse-scenario run --update\n";
+constexpr std::string_view kHeader =
+    "# behavior scenario script hashes; written by woodlouse-scenario run --update\n";
 
 std::uint64_t digest_of_file(const Scenario& scenario) {
   std::vector<std::uint64_t> hashes;
@@ -35,25 +36,27 @@ core::Expected<GoldenRegister> GoldenRegister::read(const std::filesystem::path&
     std::string rest;
     words >> std::dec >> entry.behavior >> name >> std::hex >> entry.script >> entry.hashes;
     if (!words || words >> rest || !result.entries_.emplace(name, entry).second) {
-      return core::fail(core::joined({file.string(), ":", std::to_string(number)}), "is no line of a register",
-                        "behavior scenario script hashes, each scenario once");
+      return core::fail(core::joined({file.string(), ":", std::to_string(number)}),
+                        "is no line of a register", "behavior scenario script hashes, each scenario once");
     }
   }
   return result;
 }
 
-std::optional<core::Error> GoldenRegister::forbids(const Scenario& scenario, int behavior, std::uint64_t hashes) const {
+std::optional<core::Error> GoldenRegister::forbids(const Scenario& scenario, int behavior,
+                                                   std::uint64_t hashes) const {
   const auto found = entries_.find(scenario.name);
   if (found == entries_.end()) return std::nullopt;
   const Entry& entry = found->second;
   if (entry.behavior != behavior || entry.script != script_digest(scenario) || entry.hashes == hashes) {
     return std::nullopt;
   }
-  return core::Error{core::joined({scenario.file.string(), ":", std::to_string(scenario.goldens_line), ": hashes"}),
-                     core::joined({"are not those registered for behavior ", std::to_string(behavior),
-                                   ": golden hashes change only together with the behavior"}),
-                     "if the change is wanted: raise match::kBehavior in shared/match/match.h, build, and run --update; "
-                     "if not: find what changed the bits"};
+  return core::Error{
+      core::joined({scenario.file.string(), ":", std::to_string(scenario.goldens_line), ": hashes"}),
+      core::joined({"are not those registered for behavior ", std::to_string(behavior),
+                    ": golden hashes change only together with the behavior"}),
+      "if the change is wanted: raise match::kBehavior in shared/match/match.h, build, and run --update; "
+      "if not: find what changed the bits"};
 }
 
 std::optional<core::Error> GoldenRegister::check(const Scenario& scenario) const {
@@ -65,14 +68,16 @@ std::optional<core::Error> GoldenRegister::check(const Scenario& scenario) const
   }
   return core::Error{scenario.file.string(),
                      found == entries_.end() ? core::joined({"is not in ", kRegisterName})
-                                             : core::joined({"is not what ", kRegisterName, " registers: its script has changed"}),
+                                             : core::joined({"is not what ", kRegisterName,
+                                                             " registers: its script has changed"}),
                      "woodlouse-scenario run --update registers it"};
 }
 
 void GoldenRegister::drop_missing(const std::filesystem::path& folder) {
   std::erase_if(entries_, [&](const auto& entry) {
     std::error_code error;
-    return std::filesystem::status(folder / (entry.first + ".json"), error).type() == std::filesystem::file_type::not_found;
+    return std::filesystem::status(folder / (entry.first + ".json"), error).type() ==
+           std::filesystem::file_type::not_found;
   });
 }
 

@@ -1,5 +1,6 @@
-// `goldens.txt` beside scenario files: what each of them played, by which behavior, and what came out. It holds
-// golden hashes to match::kBehavior: the same script and the same behavior have the same hashes for ever.
+// `goldens.txt` beside scenario files: what each of them played, by which behavior, and what came out. It
+// holds golden hashes to match::kBehavior: the same script and the same behavior have the same hashes for
+// ever.
 //
 //     # behavior scenario script hashes
 //     1 walls 0123456789abcdef fedcba9876543210
@@ -30,8 +31,10 @@ class GoldenRegister {
   /// Errors: where = "file:line".
   static core::Expected<GoldenRegister> read(const std::filesystem::path& file);
 
-  /// What must not become of the scenario: the entry's script and `behavior`, but other hashes. Nothing: it may.
-  [[nodiscard]] std::optional<core::Error> forbids(const Scenario& scenario, int behavior, std::uint64_t hashes) const;
+  /// What must not become of the scenario: the entry's script and `behavior`, but other hashes. Nothing: it
+  /// may.
+  [[nodiscard]] std::optional<core::Error> forbids(const Scenario& scenario, int behavior,
+                                                   std::uint64_t hashes) const;
   /// What is wrong with a scenario's hashes as its file has them; REQUIRES all of them to be known.
   [[nodiscard]] std::optional<core::Error> check(const Scenario& scenario) const;
 

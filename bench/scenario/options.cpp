@@ -8,11 +8,14 @@ namespace woodlouse::scenario {
 
 std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   Options options;
-  CLI::App app("Plays matches from scripts and compares their state hashes: deterministic tests without C++.");
+  CLI::App app(
+      "Plays matches from scripts and compares their state hashes: deterministic tests without C++.");
   app.footer("How to write one: docs/determinism.md.");
   app.require_subcommand(1);
-  CLI::App& run = *app.add_subcommand("run", "plays the scenarios; exit status 0: all hashes are right, 1: one is not, "
-                                             "2: a file or option is wrong, 3: nothing was run");
+  CLI::App& run =
+      *app.add_subcommand("run",
+                          "plays the scenarios; exit status 0: all hashes are right, 1: one is not, "
+                          "2: a file or option is wrong, 3: nothing was run");
   run.footer("Example:\n  woodlouse-scenario run tests/scenarios");
   run.add_option("FILE", options.places, "scenario files, or folders of them")->required();
   bool table = false;
@@ -29,7 +32,8 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   run.add_option("--threads", options.threads, "that step the matches in turns")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  run.add_option("--maps", options.maps, "folder of the maps named in the files; default: maps/ beside or above them");
+  run.add_option("--maps", options.maps,
+                 "folder of the maps named in the files; default: maps/ beside or above them");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

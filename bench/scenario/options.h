@@ -20,7 +20,7 @@ struct Options {
   Output output = Output::kVerdict;
   Goldens goldens = Goldens::kCheck;
   std::optional<physics::InstructionSet> instructions;  ///< nothing: every one there is
-  std::size_t rooms = 1;    ///< matches of each scenario
+  std::size_t rooms = 1;                                ///< matches of each scenario
   std::size_t threads = 1;
 };
 

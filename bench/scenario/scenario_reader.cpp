@@ -11,9 +11,9 @@
 
 #include "bench/scenario/script_reader.h"
 #include "shared/core/joined.h"
+#include "shared/core/whole_file.h"
 #include "shared/json/fields.h"
 #include "shared/map/map_loader.h"
-#include "shared/core/whole_file.h"
 
 namespace woodlouse::scenario {
 namespace {
@@ -61,10 +61,11 @@ std::filesystem::path folder_of_map(const json::Value& value, const std::filesys
   return file.has_parent_path() ? file.parent_path() : ".";
 }
 
-MapPointer read_map(const json::Value& value, const std::filesystem::path& file, const std::filesystem::path& folder,
-                    Problems& problems) {
+MapPointer read_map(const json::Value& value, const std::filesystem::path& file,
+                    const std::filesystem::path& folder, Problems& problems) {
   if (value.is(json::Kind::kObject)) {
-    return keep(map::parse_map(lines_before(value) + std::string(value.raw()), file.string(), folder), problems);
+    return keep(map::parse_map(lines_before(value) + std::string(value.raw()), file.string(), folder),
+                problems);
   }
   if (!value.is(json::Kind::kString)) {
     problems.add(value, "a map's name, or the map itself, is wanted");
@@ -80,15 +81,16 @@ MapPointer read_map(const json::Value& value, const std::filesystem::path& file,
   return keep(map::load_map(found), problems);
 }
 
-/// The map with the scenario's own spawns. They end a canonical map; so its reader checks them in their place.
+/// The map with the scenario's own spawns. They end a canonical map; so its reader checks them in their
+/// place.
 MapPointer with_spawns(const MapPointer& map, const json::Value& spawns, const std::filesystem::path& file,
                        const std::filesystem::path& folder, Problems& problems) {
   constexpr std::string_view kKey = ",\"spawns\":";
   const std::size_t at = map->canonical.rfind(kKey);
   assert(at != std::string::npos);
   const std::string_view own = spawns.is(json::Kind::kArray) ? spawns.raw() : "null";
-  const std::string text = core::joined(
-      {lines_before(spawns), std::string_view(map->canonical).substr(0, at), kKey, own, "}"});
+  const std::string text =
+      core::joined({lines_before(spawns), std::string_view(map->canonical).substr(0, at), kKey, own, "}"});
   return keep(map::parse_map(text, file.string(), folder), problems);
 }
 
@@ -105,7 +107,8 @@ std::vector<GoldenHash> read_goldens(const json::Value& value, Problems& problem
     }
     if (!goldens.empty() && *tick <= goldens.back().tick) wrong(member, "stands after a later tick");
     GoldenHash golden{*tick, std::nullopt};
-    if (member.is(json::Kind::kString) && member.text().size() == 16) golden.hash = whole_text<std::uint64_t>(member.text(), 16);
+    if (member.is(json::Kind::kString) && member.text().size() == 16)
+      golden.hash = whole_text<std::uint64_t>(member.text(), 16);
     if (!golden.hash && !member.is(json::Kind::kNull)) wrong(member, "is no hash");
     goldens.push_back(golden);
   }
@@ -113,12 +116,13 @@ std::vector<GoldenHash> read_goldens(const json::Value& value, Problems& problem
   return goldens;
 }
 
-Scenario read_fields(const json::Value& root, const std::filesystem::path& file, const std::filesystem::path& maps,
-                     std::string_view text, Problems& problems) {
+Scenario read_fields(const json::Value& root, const std::filesystem::path& file,
+                     const std::filesystem::path& maps, std::string_view text, Problems& problems) {
   constexpr std::uint64_t kAny = std::numeric_limits<std::uint64_t>::max();
   constexpr std::uint64_t kMaxBehavior = 1'000'000;
   Scenario scenario;
-  const map::Fields fields(root, {"about", "behavior", "map", "spawns", "tick_hz", "seed", "script", "hashes"}, problems);
+  const map::Fields fields(
+      root, {"about", "behavior", "map", "spawns", "tick_hz", "seed", "script", "hashes"}, problems);
   if (const auto about = fields.find("about")) map::text_in(*about, 1, 1000, problems);
   if (const auto behavior = fields.demand("behavior", "0 until --update sets it")) {
     scenario.behavior = static_cast<int>(map::integer_in(*behavior, 0, kMaxBehavior, problems).value_or(0));
@@ -131,7 +135,8 @@ Scenario read_fields(const json::Value& root, const std::filesystem::path& file,
     if (spawns && scenario.map) scenario.map = with_spawns(scenario.map, *spawns, file, folder, problems);
   }
   if (const auto hz = fields.find("tick_hz")) {
-    scenario.settings.tick_hz = static_cast<std::uint32_t>(map::integer_in(*hz, 1, 1000, problems).value_or(60));
+    scenario.settings.tick_hz =
+        static_cast<std::uint32_t>(map::integer_in(*hz, 1, 1000, problems).value_or(60));
   }
   if (const auto seed = fields.find("seed")) {
     scenario.settings.seed = map::integer_in(*seed, 0, kAny, problems).value_or(0);
@@ -164,7 +169,8 @@ ReadScenario read_scenario(const std::filesystem::path& file, const std::filesys
   return {std::move(scenario), {}};
 }
 
-core::Expected<std::vector<std::filesystem::path>> find_scenarios(const std::vector<std::filesystem::path>& places) {
+core::Expected<std::vector<std::filesystem::path>> find_scenarios(
+    const std::vector<std::filesystem::path>& places) {
   std::vector<std::filesystem::path> files;
   for (const std::filesystem::path& place : places) {
     std::error_code error;
@@ -184,7 +190,8 @@ core::Expected<std::vector<std::filesystem::path>> find_scenarios(const std::vec
   const auto twin = std::adjacent_find(files.begin(), files.end(),
                                        [](const auto& a, const auto& b) { return a.stem() == b.stem(); });
   if (twin != files.end()) {
-    return core::fail(std::next(twin)->string(), core::joined({"the scenario ", twin->stem().string(), " stands twice"}),
+    return core::fail(std::next(twin)->string(),
+                      core::joined({"the scenario ", twin->stem().string(), " stands twice"}),
                       "a scenario is named by its file");
   }
   return files;

@@ -22,6 +22,7 @@ ReadScenario read_scenario(const std::filesystem::path& file, const std::filesys
 
 /// The files; a folder stands for the *.json in it, by name. Errors: what is not there, a folder without any,
 /// two of one name.
-core::Expected<std::vector<std::filesystem::path>> find_scenarios(const std::vector<std::filesystem::path>& places);
+core::Expected<std::vector<std::filesystem::path>> find_scenarios(
+    const std::vector<std::filesystem::path>& places);
 
 }  // namespace woodlouse::scenario

@@ -17,7 +17,8 @@ using map::Problems;
 
 constexpr std::string_view kPlayerWants = "a player's number, a list of them, or \"all\"";
 constexpr std::string_view kThrustWants =
-    "a number from -1 to 1 (along the heading), a pair [x, y] of length at most 1 (map directions), null (none) or "
+    "a number from -1 to 1 (along the heading), a pair [x, y] of length at most 1 (map directions), null "
+    "(none) or "
     "\"random\"";
 
 enum class Whom { kListed, kAll };
@@ -48,7 +49,8 @@ void read_players(const json::Value& value, Rule& rule, Problems& problems) {
   const std::vector<json::Value> numbers =
       value.is(json::Kind::kArray) ? value.children() : std::vector<json::Value>{value};
   for (const json::Value& number : numbers) {
-    if (!number.is(json::Kind::kInteger)) return problems.add(number, "names no player", std::string(kPlayerWants));
+    if (!number.is(json::Kind::kInteger))
+      return problems.add(number, "names no player", std::string(kPlayerWants));
     const auto player = map::integer_in(number, 1, kMaxLice, problems);
     if (player) rule.players.push_back(static_cast<match::PlayerId>(*player));
   }
@@ -64,7 +66,8 @@ void read_thrust(const json::Value& value, Rule& rule, Problems& problems) {
     rule.thrust = {physics::ThrustKind::kAlongHeading, {along.value_or(0.0), 0.0}};
   } else if (value.is(json::Kind::kArray)) {
     const auto pair = map::pair_in(value, kUnit, problems);
-    if (pair && core::dot(*pair, *pair) > 1.0) problems.add(value, "is longer than 1", std::string(kThrustWants));
+    if (pair && core::dot(*pair, *pair) > 1.0)
+      problems.add(value, "is longer than 1", std::string(kThrustWants));
     rule.thrust = {physics::ThrustKind::kMapVector, pair.value_or(core::Vec2{})};
   } else {
     problems.add(value, "is no thrust", std::string(kThrustWants));
@@ -132,11 +135,13 @@ class Layout {
       return;
     }
     const std::vector<match::PlayerId> players =
-        rule.whom == Whom::kAll ? std::vector<match::PlayerId>(present_.begin(), present_.end()) : rule.players;
+        rule.whom == Whom::kAll ? std::vector<match::PlayerId>(present_.begin(), present_.end())
+                                : rule.players;
     for (const match::PlayerId player : players) {
       if (!present_.contains(player)) {
-        problems_.add(rule.place, core::joined({"player ", std::to_string(player), " is not in the match at step ",
-                                                std::to_string(step)}),
+        problems_.add(rule.place,
+                      core::joined({"player ", std::to_string(player), " is not in the match at step ",
+                                    std::to_string(step)}),
                       "players are numbered from 1 in the order they join");
         return;
       }
@@ -167,7 +172,8 @@ class Layout {
     }
     events_.push_back(event);
     if (is_full()) {
-      problems_.add(rule.place, core::joined({"the script has more than ", std::to_string(kMaxEvents), " events"}));
+      problems_.add(rule.place,
+                    core::joined({"the script has more than ", std::to_string(kMaxEvents), " events"}));
     }
   }
 
@@ -184,8 +190,8 @@ class Layout {
     counted_step_ = step;
     if (++inputs_[player] == match::InputQueue::kMaxPending + 1) {
       problems_.add(rule.place, core::joined({"player ", std::to_string(player), " has more than ",
-                                              std::to_string(match::InputQueue::kMaxPending), " inputs at step ",
-                                              std::to_string(step)}));
+                                              std::to_string(match::InputQueue::kMaxPending),
+                                              " inputs at step ", std::to_string(step)}));
     }
   }
 

@@ -59,7 +59,8 @@ void Session::choose_instructions() {
 void Session::play() {
   for (const Scenario& scenario : scenarios_) {
     for (const physics::InstructionSet set : instructions_) {
-      for (std::size_t room = 0; room < options_.rooms; ++room) plays_.push_back(std::make_unique<Play>(scenario, set));
+      for (std::size_t room = 0; room < options_.rooms; ++room)
+        plays_.push_back(std::make_unique<Play>(scenario, set));
     }
   }
   play_all(plays_, options_.threads);

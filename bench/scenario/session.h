@@ -20,7 +20,8 @@ enum class Exit { kSame = 0, kDiffers = 1, kUnusable = 2, kNotRun = 3 };
 class Session {
  public:
   /// Table and verdict go to `out`, everything else to `log`.
-  Session(const Options& options, std::ostream& out, std::ostream& log) : options_(options), out_(out), log_(log) {}
+  Session(const Options& options, std::ostream& out, std::ostream& log)
+      : options_(options), out_(out), log_(log) {}
 
   Exit run();
 
@@ -40,7 +41,8 @@ class Session {
   std::vector<Scenario> scenarios_;
   std::map<std::filesystem::path, GoldenRegister> registers_;  ///< by folder
   std::vector<physics::InstructionSet> instructions_;
-  std::vector<std::unique_ptr<Play>> plays_;  ///< those of a scenario lie together, in the order of scenarios_
+  std::vector<std::unique_ptr<Play>>
+      plays_;  ///< those of a scenario lie together, in the order of scenarios_
   std::size_t wrong_ = 0;
 };
 

@@ -16,8 +16,9 @@ std::string at_tick(const Scenario& scenario, std::uint64_t tick) {
 std::string golden_place(const Scenario& scenario, std::uint64_t tick) {
   const std::string key = core::joined({"\"", std::to_string(tick), "\""});
   const Span place = scenario.goldens_place;
-  const std::string_view before =
-      std::string_view(scenario.text).substr(place.begin, place.size).substr(0, scenario.text.find(key, place.begin) - place.begin);
+  const std::string_view before = std::string_view(scenario.text)
+                                      .substr(place.begin, place.size)
+                                      .substr(0, scenario.text.find(key, place.begin) - place.begin);
   std::size_t line = scenario.goldens_line;
   for (const char c : before) line += c == '\n' ? 1 : 0;
   return core::joined({scenario.file.string(), ":", std::to_string(line), ": hashes.", std::to_string(tick)});
@@ -34,9 +35,9 @@ std::optional<core::Error> disagreement(std::span<const std::unique_ptr<Play>> p
       if (play.hashes()[k] == first.hashes()[k]) continue;
       return core::Error{
           scenario.file.string(),
-          core::joined({at_tick(scenario, scenario.goldens[k].tick), "hash ", core::to_hex(first.hashes()[k]), " by ",
-                        physics::to_text(first.instructions()), ", ", core::to_hex(play.hashes()[k]), " by ",
-                        physics::to_text(play.instructions())}),
+          core::joined({at_tick(scenario, scenario.goldens[k].tick), "hash ", core::to_hex(first.hashes()[k]),
+                        " by ", physics::to_text(first.instructions()), ", ", core::to_hex(play.hashes()[k]),
+                        " by ", physics::to_text(play.instructions())}),
           "the same match gave two results in one program: this is a fault, whatever the file says"};
     }
   }
@@ -45,10 +46,11 @@ std::optional<core::Error> disagreement(std::span<const std::unique_ptr<Play>> p
 
 std::vector<core::Error> differences(const Scenario& scenario, const Play& played) {
   if (scenario.behavior != match::kBehavior) {
-    return {core::Error{core::joined({scenario.file.string(), ": behavior"}),
-                        core::joined({std::to_string(scenario.behavior), " made these hashes, this program is of behavior ",
-                                      std::to_string(match::kBehavior)}),
-                        "if that is wanted: woodlouse-scenario run --update"}};
+    return {core::Error{
+        core::joined({scenario.file.string(), ": behavior"}),
+        core::joined({std::to_string(scenario.behavior), " made these hashes, this program is of behavior ",
+                      std::to_string(match::kBehavior)}),
+        "if that is wanted: woodlouse-scenario run --update"}};
   }
   for (std::size_t k = 0; k < scenario.goldens.size(); ++k) {
     const GoldenHash& golden = scenario.goldens[k];
@@ -59,10 +61,11 @@ std::vector<core::Error> differences(const Scenario& scenario, const Play& playe
       return {core::Error{place, core::joined({at_tick(scenario, golden.tick), "no hash is expected yet"}),
                           "woodlouse-scenario run --update fills it in"}};
     }
-    return {core::Error{place,
-                        core::joined({at_tick(scenario, golden.tick), "hash ", core::to_hex(*golden.hash), " expected, ",
-                                      core::to_hex(hash), " played by ", physics::to_text(played.instructions())}),
-                        {}}};
+    return {core::Error{
+        place,
+        core::joined({at_tick(scenario, golden.tick), "hash ", core::to_hex(*golden.hash), " expected, ",
+                      core::to_hex(hash), " played by ", physics::to_text(played.instructions())}),
+        {}}};
   }
   return {};
 }
@@ -70,8 +73,8 @@ std::vector<core::Error> differences(const Scenario& scenario, const Play& playe
 std::string table_of(const Play& played) {
   std::string table;
   for (std::size_t k = 0; k < played.hashes().size(); ++k) {
-    table += core::joined({played.scenario().name, " ", std::to_string(played.scenario().goldens[k].tick), " ",
-                           core::to_hex(played.hashes()[k]), "\n"});
+    table += core::joined({played.scenario().name, " ", std::to_string(played.scenario().goldens[k].tick),
+                           " ", core::to_hex(played.hashes()[k]), "\n"});
   }
   return table;
 }
@@ -79,15 +82,18 @@ std::string table_of(const Play& played) {
 std::string updated_text(const Scenario& scenario, const std::vector<std::uint64_t>& hashes) {
   std::string goldens = "{";
   for (std::size_t k = 0; k < hashes.size(); ++k) {
-    goldens += core::joined({k == 0 ? "\n" : ",\n", "    \"", std::to_string(scenario.goldens[k].tick), "\": \"",
-                             core::to_hex(hashes[k]), "\""});
+    goldens += core::joined({k == 0 ? "\n" : ",\n", "    \"", std::to_string(scenario.goldens[k].tick),
+                             "\": \"", core::to_hex(hashes[k]), "\""});
   }
   goldens += "\n  }";
   std::string text = scenario.text;
   const auto put_behavior = [&] {
-    text.replace(scenario.behavior_place.begin, scenario.behavior_place.size, std::to_string(match::kBehavior));
+    text.replace(scenario.behavior_place.begin, scenario.behavior_place.size,
+                 std::to_string(match::kBehavior));
   };
-  const auto put_goldens = [&] { text.replace(scenario.goldens_place.begin, scenario.goldens_place.size, goldens); };
+  const auto put_goldens = [&] {
+    text.replace(scenario.goldens_place.begin, scenario.goldens_place.size, goldens);
+  };
   // The later place first: the other one then still is where it was.
   const bool goldens_last = scenario.goldens_place.begin > scenario.behavior_place.begin;
   goldens_last ? put_goldens() : put_behavior();

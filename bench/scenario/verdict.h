@@ -1,4 +1,5 @@
-// What came of the plays of a scenario: whether they agree with one another, with the file and with the register.
+// What came of the plays of a scenario: whether they agree with one another, with the file and with the
+// register.
 #pragma once
 
 #include <cstdint>

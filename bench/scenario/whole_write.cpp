@@ -13,7 +13,8 @@ std::optional<core::Error> write_whole_file(const std::filesystem::path& file, s
     std::ofstream out(beside, std::ios::binary | std::ios::trunc);
     out << text;
     out.close();
-    if (!out) return core::Error{beside.string(), std::string("can't be written: ") + std::strerror(errno), {}};
+    if (!out)
+      return core::Error{beside.string(), std::string("can't be written: ") + std::strerror(errno), {}};
   }
   std::error_code error;
   std::filesystem::rename(beside, file, error);

@@ -73,13 +73,15 @@ void Bot::take_lines(Clock::time_point now) {
   while (state_ != State::kClosed) {
     const auto line = framer_.next();
     if (!line) return;
-    if (line->oversize) return lose("a line of more than " + std::to_string(protocol::kMaxServerLineBytes) + " bytes");
+    if (line->oversize)
+      return lose("a line of more than " + std::to_string(protocol::kMaxServerLineBytes) + " bytes");
     if (const auto tick = scan_frame_tick(line->text)) {
       take_frame(*tick, now);
       continue;
     }
     static const std::vector<protocol::Column> kNone;
-    const auto message = protocol::decode_server(line->text, welcome_ ? welcome_->fields : kNone, options_.format);
+    const auto message =
+        protocol::decode_server(line->text, welcome_ ? welcome_->fields : kNone, options_.format);
     if (message) {
       take(*message, now);
     } else if (message.error().code != protocol::code::kUnknownType) {

@@ -71,7 +71,7 @@ class Bot {
     std::uint32_t seq;
     Clock::time_point time;
   };
-  static constexpr std::size_t kMaxAwaited = 1024;        ///< inputs without an ack; older ones are forgotten
+  static constexpr std::size_t kMaxAwaited = 1024;  ///< inputs without an ack; older ones are forgotten
   static constexpr std::size_t kMaxUnsentBytes = 1 << 20;  ///< past it the server takes nothing any more
 
   const Options& options_;

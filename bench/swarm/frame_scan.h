@@ -1,5 +1,5 @@
-// The tick of a frame's line without decoding its rows: 200 bots of 200 rows at 20 Hz are 800,000 rows a second,
-// and the tool must not be what it measures.
+// The tick of a frame's line without decoding its rows: 200 bots of 200 rows at 20 Hz are 800,000 rows a
+// second, and the tool must not be what it measures.
 #pragma once
 
 #include <cstdint>

@@ -12,12 +12,15 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   app.add_option("address", address, "HOST:PORT of the server")->capture_default_str();
   app.add_option("--bots", options.bots, "how many")->check(CLI::Range(1, 20000))->capture_default_str();
   app.add_option("--seconds", options.seconds, "how long to measure, once all have joined")
-      ->check(CLI::Range(0.1, 86400.0))->capture_default_str();
+      ->check(CLI::Range(0.1, 86400.0))
+      ->capture_default_str();
   app.add_option("--inputs-per-second", options.inputs_per_second, "that each bot sends")
-      ->check(CLI::Range(0.0, 1000.0))->capture_default_str();
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
   const std::map<std::string, protocol::Format> formats{{"quantized", protocol::Format::kQuantized},
                                                         {"exact", protocol::Format::kExact}};
-  app.add_option("--format", options.format, "of the rows: quantized or exact")->transform(CLI::CheckedTransformer(formats));
+  app.add_option("--format", options.format, "of the rows: quantized or exact")
+      ->transform(CLI::CheckedTransformer(formats));
   app.add_option("--room", options.room, "to join; the server's first when left out");
   app.add_option("--seed", options.seed, "of the steering")->capture_default_str();
   try {
@@ -33,7 +36,8 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   }
   options.host = address.substr(0, colon);
   options.port = address.substr(colon + 1);
-  if (options.host.starts_with('[') && options.host.ends_with(']')) options.host = options.host.substr(1, options.host.size() - 2);
+  if (options.host.starts_with('[') && options.host.ends_with(']'))
+    options.host = options.host.substr(1, options.host.size() - 2);
   return options;
 }
 

@@ -12,20 +12,23 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kBetweenJoins = 2ms;  // a crowd that comes in the same millisecond overruns the listen queue
 constexpr auto kJoinPatience = 15s;
-constexpr auto kSettling = 1s;       // the first key of each is sent out of turn
+constexpr auto kSettling = 1s;  // the first key of each is sent out of turn
 constexpr auto kLeavePatience = 3s;
 
 double cpu_seconds() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) { return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec); };
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 }  // namespace
 
 Swarm::Swarm(const Options& options) : options_(options), context_(1), work_(context_.get_executor()) {
-  for (std::size_t i = 0; i < options.bots; ++i) bots_.push_back(std::make_unique<Bot>(context_, options_, i));
+  for (std::size_t i = 0; i < options.bots; ++i)
+    bots_.push_back(std::make_unique<Bot>(context_, options_, i));
 }
 
 std::size_t Swarm::count(Bot::State state) const {
@@ -52,7 +55,8 @@ core::Expected<std::chrono::duration<double>> Swarm::run() {
   run_until(kJoinPatience, [this] { return count(Bot::State::kJoining) == 0; });
   if (count(Bot::State::kJoined) == 0) {
     const std::string& loss = bots_.front()->loss();
-    return core::fail(options_.host + ":" + options_.port, "no bot could join: " + (loss.empty() ? "no answer" : loss),
+    return core::fail(options_.host + ":" + options_.port,
+                      "no bot could join: " + (loss.empty() ? "no answer" : loss),
                       "is woodlouse-server running there?");
   }
   run_until(kSettling, [] { return false; });

@@ -40,7 +40,8 @@ core::Expected<protocol::Welcome> LineClient::join(const std::string& host, cons
   for (;;) {
     const auto message = receive();
     if (!message) return tl::unexpected(message.error());
-    if (const auto* refusal = std::get_if<protocol::ErrorMessage>(&*message)) return core::fail(refusal->code, refusal->text);
+    if (const auto* refusal = std::get_if<protocol::ErrorMessage>(&*message))
+      return core::fail(refusal->code, refusal->text);
     if (const auto* bye = std::get_if<protocol::Bye>(&*message)) return core::fail(bye->code, bye->text);
     const auto* welcome = std::get_if<protocol::Welcome>(&*message);
     if (!welcome) continue;
@@ -63,7 +64,8 @@ core::Expected<protocol::ServerMessage> LineClient::receive() {
       if (line->oversize) return core::fail("server", "a line of more than 128 MiB");
       auto message = protocol::decode_server(line->text, fields_, format_);
       if (message) return std::move(*message);
-      if (message.error().code != protocol::code::kUnknownType) return core::fail("server", message.error().text);
+      if (message.error().code != protocol::code::kUnknownType)
+        return core::fail("server", message.error().text);
     }
     boost::system::error_code error;
     const std::size_t size = socket_.read_some(asio::buffer(incoming_), error);

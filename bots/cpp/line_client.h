@@ -30,7 +30,8 @@ class WorldView {
 class LineClient {
  public:
   /// Connects and joins. Errors: no server there, or why it refused.
-  core::Expected<protocol::Welcome> join(const std::string& host, const std::string& port, const protocol::Join& join);
+  core::Expected<protocol::Welcome> join(const std::string& host, const std::string& port,
+                                         const protocol::Join& join);
   core::Expected<void> send(const protocol::ClientMessage& message);
   /// Waits for the next message that this version knows. Errors: the connection ended, a line out of shape.
   core::Expected<protocol::ServerMessage> receive();

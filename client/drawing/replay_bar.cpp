@@ -39,7 +39,8 @@ char sign_of(EventSign sign) {
   return '?';
 }
 
-/// The bar without its brackets. Of the signs in one cell the rarest kind wins: chat over leaving over joining.
+/// The bar without its brackets. Of the signs in one cell the rarest kind wins: chat over leaving over
+/// joining.
 std::string bar_text(const ReplayBar& bar, int width) {
   const auto cell_of = [&](double seconds) {
     const double part = bar.total_seconds > 0.0 ? seconds / bar.total_seconds : 0.0;
@@ -70,8 +71,10 @@ void draw_replay_status_line(const Scene& scene, CellBuffer& cells) {
   Style title = styles.bar;
   title.attributes = kBold;
   int at = cells.text(1, 0, columns < 80 ? "REPLAY" : "WOODLOUSE REPLAY", title);
-  at = cells.text(at + 2, 0, printable(scene.replay->file, scene.look.glyphs), styles.bar, columns < 80 ? 14 : 20);
-  at = cells.text(at + 2, 0, formatted(scene.hud.players == 1 ? "%d louse" : "%d lice", scene.hud.players), styles.bar);
+  at = cells.text(at + 2, 0, printable(scene.replay->file, scene.look.glyphs), styles.bar,
+                  columns < 80 ? 14 : 20);
+  at = cells.text(at + 2, 0, formatted(scene.hud.players == 1 ? "%d louse" : "%d lice", scene.hud.players),
+                  styles.bar);
   if (!scene.proof) return;
   const std::string proof = proof_text(*scene.proof);
   cells.text(std::max(at + 2, columns - 1 - static_cast<int>(proof.size())), 0, proof,
@@ -85,7 +88,8 @@ void draw_scrubber(const Scene& scene, const Layout& layout, CellBuffer& cells) 
   const int row = layout.rule_row;
   cells.fill(0, row, {columns, 1}, styles.bar);
   const std::string speed = speed_text(bar.speed);
-  const std::string tail = "]  " + time_text(bar.total_seconds) + "  " + std::string(5 - speed.size(), ' ') + speed;
+  const std::string tail =
+      "]  " + time_text(bar.total_seconds) + "  " + std::string(5 - speed.size(), ' ') + speed;
   int at = cells.text(1, row, bar.playing ? "|>" : "||", styles.strong);
   at = cells.text(at + 2, row, time_text(bar.seconds), styles.strong);
   at = cells.text(at + 1, row, "[", styles.bar);

@@ -1,4 +1,5 @@
-// What a recording has on the screen besides a game's: its status line, the scrubber with event signs, its keys.
+// What a recording has on the screen besides a game's: its status line, the scrubber with event signs, its
+// keys.
 #pragma once
 
 #include "client/drawing/cell_buffer.h"

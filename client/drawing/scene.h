@@ -91,10 +91,10 @@ struct ChatLine {
 
 /// Whether what is shown is what was played: state hashes, recomputed here.
 struct StateProof {
-  std::uint64_t verified = 0;             ///< keys of a server, ticks of a recording
-  std::optional<std::uint64_t> total;     ///< ticks of the recording; empty: a server's
-  std::uint64_t hash = 0;                 ///< the newest that was right
-  std::optional<std::uint64_t> differs;   ///< the first tick whose hash is not what was stated
+  std::uint64_t verified = 0;            ///< keys of a server, ticks of a recording
+  std::optional<std::uint64_t> total;    ///< ticks of the recording; empty: a server's
+  std::uint64_t hash = 0;                ///< the newest that was right
+  std::optional<std::uint64_t> differs;  ///< the first tick whose hash is not what was stated
 };
 
 enum class EventSign : std::uint8_t { kJoined, kLeft, kRespawned, kChat };
@@ -137,10 +137,10 @@ struct Scene {
   std::vector<LouseMark> lice;                      ///< ascending id
   HudNumbers hud;
   std::vector<ScoreRow> scores;
-  std::vector<ChatLine> chat;  ///< the newest 50 or so
-  std::string chat_entry;      ///< what is being typed, UTF-8 (Mode::kChatEntry)
-  std::string notice;          ///< one line over the key line; empty: none
-  ConnectionLost lost;         ///< Mode::kConnectionLost
+  std::vector<ChatLine> chat;       ///< the newest 50 or so
+  std::string chat_entry;           ///< what is being typed, UTF-8 (Mode::kChatEntry)
+  std::string notice;               ///< one line over the key line; empty: none
+  ConnectionLost lost;              ///< Mode::kConnectionLost
   std::optional<StateProof> proof;  ///< empty: nothing is verified
   std::optional<ReplayBar> replay;  ///< a recording is watched; empty: a game
 };

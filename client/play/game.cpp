@@ -72,8 +72,8 @@ void Game::perform(Action action) {
       session_.room().respawn();
       break;
     case Action::kNextLouse:
-      interface_.follow_id = next_louse(
-          session_.room().sight(), followed(session_.room().sight(), interface_.follow_id));
+      interface_.follow_id =
+          next_louse(session_.room().sight(), followed(session_.room().sight(), interface_.follow_id));
       break;
     case Action::kConfirm:
       loop_.finish({});

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "client/play/key_bindings.h"
 #include "client/drawing/scene.h"
+#include "client/play/key_bindings.h"
 
 namespace woodlouse::client {
 

@@ -8,7 +8,8 @@
 namespace woodlouse::client {
 namespace {
 
-/// REQUIRES protocol::all_columns(): the louse's record, field by field. The decoder has checked the integers.
+/// REQUIRES protocol::all_columns(): the louse's record, field by field. The decoder has checked the
+/// integers.
 physics::Louse louse_of(const double* row) {
   physics::Louse louse;
   louse.id = static_cast<physics::LouseId>(row[0]);
@@ -38,7 +39,8 @@ void KeyVerifier::take(const protocol::Frame& frame) {
   lice.reserve(frame.rows());
   for (std::size_t row = 0; row < frame.rows(); ++row)
     lice.push_back(louse_of(&frame.values[row * frame.columns]));
-  const physics::HashLink link{frame.proof->previous, frame.proof->inputs, frame.tick, frame.proof->generator};
+  const physics::HashLink link{frame.proof->previous, frame.proof->inputs, frame.tick,
+                               frame.proof->generator};
   const std::uint64_t recomputed = physics::state_hash(hasher_, link, lice);
   if (recomputed == *frame.hash) {
     ++verified_;

@@ -107,7 +107,8 @@ std::optional<LouseSample> Pilot::sample() const {
   if (louse == nullptr) return std::nullopt;
   const double part = std::clamp(ahead_ - static_cast<double>(prediction_->tick()), 0.0, 1.0);
   LouseSample result;
-  result.position = ways_.place(louse->position + (part * prediction_->step_seconds()) * louse->velocity + correction_);
+  result.position =
+      ways_.place(louse->position + (part * prediction_->step_seconds()) * louse->velocity + correction_);
   result.velocity = louse->velocity;
   result.heading = louse->heading;
   result.distance = louse->distance;

@@ -5,17 +5,18 @@
 // trip and a margin ahead of the frames that arrive. The margin is learnt from the acks: `late` widens it at
 // once, inputs that come earlier than needed narrow it slowly.
 //
-// On a big map the client has an overview, whose slopes are wrong by tens of per cent: a prediction from it would stray
-// by more than a row's quantum within a few ticks and ask for an exact state several times a second. So nothing is
-// predicted there, and the louse is drawn from the server's frames, kDelay behind, as all others are.
+// On a big map the client has an overview, whose slopes are wrong by tens of per cent: a prediction from it
+// would stray by more than a row's quantum within a few ticks and ask for an exact state several times a
+// second. So nothing is predicted there, and the louse is drawn from the server's frames, kDelay behind, as
+// all others are.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <optional>
 
-#include "client/play/prediction.h"
 #include "client/net/server_clock.h"
+#include "client/play/prediction.h"
 #include "client/play/steering.h"
 #include "client/play/view_state.h"
 #include "shared/protocol/messages.h"
@@ -56,7 +57,8 @@ class Pilot {
   Steering& steering() { return steering_; }
   [[nodiscard]] const Steering& steering() const { return steering_; }
   [[nodiscard]] std::uint32_t id() const { return id_; }
-  /// The louse as it is to be drawn now; nothing before the first exact state, and where nothing is predicted.
+  /// The louse as it is to be drawn now; nothing before the first exact state, and where nothing is
+  /// predicted.
   [[nodiscard]] std::optional<LouseSample> sample() const;
 
  private:

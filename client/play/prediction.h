@@ -10,8 +10,8 @@
 #include <memory>
 #include <optional>
 
-#include "client/play/steering.h"
 #include "client/play/shortest_way.h"
+#include "client/play/steering.h"
 #include "shared/physics/world.h"
 #include "shared/protocol/messages.h"
 
@@ -43,7 +43,8 @@ class Prediction {
   [[nodiscard]] double step_seconds() const { return world_.step_seconds(); }
   /// Where it was, or was last believed to be, before step `tick`; nothing when that is forgotten.
   [[nodiscard]] std::optional<core::Vec2> position_at(std::uint64_t tick) const;
-  /// How far the last ack moved what was already predicted: old minus new, the shorter way [m]. The drawing fades it out.
+  /// How far the last ack moved what was already predicted: old minus new, the shorter way [m]. The drawing
+  /// fades it out.
   [[nodiscard]] core::Vec2 take_correction();
 
  private:

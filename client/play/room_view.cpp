@@ -31,7 +31,8 @@ terrain::HeightGrid grid_of(const protocol::Overview& overview) {
 
 }  // namespace
 
-protocol::Join make_join(protocol::Role role, const std::string& name, const std::string& room, Hashes hashes) {
+protocol::Join make_join(protocol::Role role, const std::string& name, const std::string& room,
+                         Hashes hashes) {
   protocol::Join join;
   join.role = role;
   join.name = name;
@@ -92,8 +93,9 @@ void RoomView::take(const protocol::Welcome& welcome) {
 }
 
 core::Expected<void> RoomView::take(const protocol::MapMessage& message) {
-  auto parsed = message.overview ? map::parse_overview(message.definition, "the server's map", grid_of(*message.overview))
-                                 : map::parse_map(message.definition, "the server's map", {});
+  auto parsed = message.overview
+                    ? map::parse_overview(message.definition, "the server's map", grid_of(*message.overview))
+                    : map::parse_map(message.definition, "the server's map", {});
   if (!parsed) return tl::unexpected(parsed.error());
   if (welcome_ && (*parsed)->hash != welcome_->map_hash) {
     return core::fail("the server's map",

@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
+#include "client/net/server_clock.h"
 #include "client/play/keyframe_verifier.h"
 #include "client/play/pilot.h"
 #include "client/play/roster.h"
-#include "client/net/server_clock.h"
-#include "client/play/visible_lice.h"
 #include "client/play/trail.h"
 #include "client/play/view_state.h"
+#include "client/play/visible_lice.h"
 #include "shared/core/error.h"
 #include "shared/map/map_definition.h"
 #include "shared/protocol/messages.h"

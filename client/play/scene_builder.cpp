@@ -159,8 +159,8 @@ Scene picture(const Sight& sight, const Interface& interface, const FrameFacts& 
   scene.scores = score_rows(sight);
   scene.hud.fps = facts.fps;
   scene.hud.players = static_cast<int>(scene.scores.size());
-  scene.hud.bots = static_cast<int>(std::count_if(scene.scores.begin(), scene.scores.end(),
-                                                  [](const ScoreRow& r) { return r.kind == LouseKind::kBot; }));
+  scene.hud.bots = static_cast<int>(std::count_if(
+      scene.scores.begin(), scene.scores.end(), [](const ScoreRow& r) { return r.kind == LouseKind::kBot; }));
   return scene;
 }
 

@@ -3,10 +3,10 @@
 
 #include <vector>
 
+#include "client/drawing/scene.h"
 #include "client/play/chat_entry.h"
 #include "client/play/interface.h"
 #include "client/play/room_view.h"
-#include "client/drawing/scene.h"
 #include "client/play/session.h"
 
 namespace woodlouse::client {

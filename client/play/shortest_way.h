@@ -1,12 +1,12 @@
-// The shorter way between two places of a map: where the edges wrap, it may lead over a seam. For whatever is drawn or
-// compared between two positions of one louse.
+// The shorter way between two places of a map: where the edges wrap, it may lead over a seam. For whatever is
+// drawn or compared between two positions of one louse.
 #pragma once
 
 #include <optional>
 
 #include "shared/core/vec2.h"
-#include "shared/state/parameters.h"
 #include "shared/physics/rim.h"
+#include "shared/state/parameters.h"
 #include "shared/terrain/surface.h"
 
 namespace woodlouse::client {
@@ -28,7 +28,9 @@ class Ways {
   }
 
   /// `to`, or its copy a period away that is nearer to `from`.
-  [[nodiscard]] core::Vec2 beside(core::Vec2 from, core::Vec2 to) const { return rim_ ? from + way(from, to) : to; }
+  [[nodiscard]] core::Vec2 beside(core::Vec2 from, core::Vec2 to) const {
+    return rim_ ? from + way(from, to) : to;
+  }
 
   /// The place that a way from a place leads to.
   [[nodiscard]] core::Vec2 place(core::Vec2 p) const { return rim_ ? rim_->inside(p) : p; }

@@ -11,9 +11,9 @@
 
 #include "client/play/chat_entry.h"
 #include "client/play/key_bindings.h"
+#include "client/play/session.h"
 #include "client/terminal/key_input.h"
 #include "client/terminal/outcome.h"
-#include "client/play/session.h"
 
 namespace woodlouse::client {
 

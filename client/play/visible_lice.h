@@ -22,10 +22,10 @@ struct Present {
 
 /// Refers to what a room view or a recording's view holds; valid until that runs on.
 struct Sight {
-  const map::Map* map = nullptr;               ///< null until it has come
+  const map::Map* map = nullptr;                 ///< null until it has come
   const std::map<std::uint32_t, Present>& lice;  ///< by id
   const std::map<std::uint32_t, Trail>& trails;
-  const Pilot* pilot = nullptr;                ///< of your own louse; null without one
+  const Pilot* pilot = nullptr;  ///< of your own louse; null without one
 };
 
 }  // namespace woodlouse::client

@@ -6,7 +6,7 @@
 namespace woodlouse::client {
 
 inline constexpr int kExitFine = 0;
-inline constexpr int kExitDiffers = 1;        ///< a verified state was not what was stated
+inline constexpr int kExitDiffers = 1;  ///< a verified state was not what was stated
 inline constexpr int kExitUsage = 2;
 inline constexpr int kExitUnreachable = 69;   ///< EX_UNAVAILABLE
 inline constexpr int kExitIo = 74;            ///< EX_IOERR

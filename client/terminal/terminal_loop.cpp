@@ -16,8 +16,8 @@ constexpr std::chrono::milliseconds kHurriedGap{10};  // between frames that key
 
 }  // namespace
 
-TerminalLoop::TerminalLoop(boost::asio::io_context& context, TerminalGuard& guard, int keys, TerminalScreen& screen,
-                           int fps, Performance& performance)
+TerminalLoop::TerminalLoop(boost::asio::io_context& context, TerminalGuard& guard, int keys,
+                           TerminalScreen& screen, int fps, Performance& performance)
     : context_(context),
       guard_(guard),
       screen_(screen),

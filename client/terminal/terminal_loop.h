@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "client/drawing/compose.h"
+#include "client/drawing/scene.h"
 #include "client/terminal/key_input.h"
 #include "client/terminal/outcome.h"
-#include "client/drawing/scene.h"
 #include "client/terminal/terminal_guard.h"
 #include "client/terminal/terminal_screen.h"
 
@@ -21,16 +21,16 @@ class Performance {
  public:
   virtual ~Performance() = default;
   virtual void on_input(const TerminalInput& input) = 0;
-  /// Runs on to now and says what is seen then. fps: the frames shown in the last second. What is returned after
-  /// finish() is not shown.
+  /// Runs on to now and says what is seen then. fps: the frames shown in the last second. What is returned
+  /// after finish() is not shown.
   virtual Scene scene(TimePoint now, double fps) = 0;
 };
 
 class TerminalLoop {
  public:
   /// keys: the terminal to read, taken over. All but keys outlive the loop.
-  TerminalLoop(boost::asio::io_context& context, TerminalGuard& guard, int keys, TerminalScreen& screen, int fps,
-               Performance& performance);
+  TerminalLoop(boost::asio::io_context& context, TerminalGuard& guard, int keys, TerminalScreen& screen,
+               int fps, Performance& performance);
 
   /// Until finish().
   Outcome run();

@@ -12,7 +12,8 @@ PlayClock::PlayClock(std::uint64_t first, std::uint64_t last, std::uint32_t tick
 }
 
 void PlayClock::update(TimePoint now) {
-  const auto passed = updated_ ? std::min<TimePoint::duration>(now - *updated_, kLongestGap) : TimePoint::duration{};
+  const auto passed =
+      updated_ ? std::min<TimePoint::duration>(now - *updated_, kLongestGap) : TimePoint::duration{};
   updated_ = now;
   if (!playing_) return;
   place(position_ + std::chrono::duration<double>(passed).count() * speed() * tick_hz_);

@@ -47,7 +47,9 @@ class PlayClock {
 
  private:
   void place(double position);
-  [[nodiscard]] double seconds_of(std::uint64_t tick) const { return static_cast<double>(tick - first_) / tick_hz_; }
+  [[nodiscard]] double seconds_of(std::uint64_t tick) const {
+    return static_cast<double>(tick - first_) / tick_hz_;
+  }
 
   std::uint64_t first_;
   std::uint64_t last_;

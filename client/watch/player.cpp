@@ -38,7 +38,8 @@ void fill_thrust_numbers(const physics::Louse& louse, double tick_hz, HudNumbers
 Screening::Screening(RecordingView& recording, std::string name, View view)
     : recording_(recording),
       name_(std::move(name)),
-      clock_(recording.archive().first_tick(), recording.archive().last_tick(), recording.archive().header().tick_hz) {
+      clock_(recording.archive().first_tick(), recording.archive().last_tick(),
+             recording.archive().header().tick_hz) {
   interface_.view = view;
   std::vector<EventMark> marks;
   for (const replay::Mark& mark : recording.archive().marks()) {
@@ -113,9 +114,9 @@ void Screening::go_to_previous_event() {
   // While it plays on, the event that was just gone to is no longer the previous one.
   const std::uint64_t margin = clock_.is_playing() ? recording_.archive().header().tick_hz : 0;
   const auto marks = recording_.archive().marks();
-  const auto after = std::partition_point(marks.begin(), marks.end(), [this, margin](const replay::Mark& mark) {
-    return shown_at(mark) + margin < clock_.tick();
-  });
+  const auto after = std::partition_point(
+      marks.begin(), marks.end(),
+      [this, margin](const replay::Mark& mark) { return shown_at(mark) + margin < clock_.tick(); });
   clock_.go_to(after == marks.begin() ? clock_.first() : shown_at(*std::prev(after)));
 }
 

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "client/drawing/scene.h"
 #include "client/play/interface.h"
+#include "client/play/scene_builder.h"
 #include "client/watch/play_clock.h"
 #include "client/watch/recording_view.h"
 #include "client/watch/replay_keys.h"
-#include "client/drawing/scene.h"
-#include "client/play/scene_builder.h"
 
 namespace woodlouse::client {
 

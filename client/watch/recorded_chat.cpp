@@ -11,7 +11,8 @@ std::string name_of(const replay::PlayerLabel* label, std::uint32_t player) {
 void RecordedChat::add(std::span<const replay::ChatLine> said) {
   std::map<Place, std::vector<std::string>> fresh;
   for (const replay::ChatLine& line : said) fresh[{line.tick, line.player}].push_back(line.text);
-  for (auto& [place, texts] : fresh) said_[place] = std::move(texts);  // a tick seen again says the same again
+  for (auto& [place, texts] : fresh)
+    said_[place] = std::move(texts);  // a tick seen again says the same again
 }
 
 std::vector<ChatLine> RecordedChat::lines(std::span<const replay::Mark> marks,
@@ -31,7 +32,8 @@ std::vector<ChatLine> RecordedChat::lines(std::span<const replay::Mark> marks,
   return lines;
 }
 
-ChatLine RecordedChat::line(const replay::Mark& mark, const replay::PlayerLabel* label, std::size_t nth) const {
+ChatLine RecordedChat::line(const replay::Mark& mark, const replay::PlayerLabel* label,
+                            std::size_t nth) const {
   const std::string name = name_of(label, mark.player);
   switch (mark.kind) {
     case replay::MarkKind::kJoin:

@@ -33,7 +33,8 @@ class RecordedChat {
  private:
   using Place = std::pair<std::uint64_t, std::uint32_t>;  ///< tick and player
 
-  [[nodiscard]] ChatLine line(const replay::Mark& mark, const replay::PlayerLabel* label, std::size_t nth) const;
+  [[nodiscard]] ChatLine line(const replay::Mark& mark, const replay::PlayerLabel* label,
+                              std::size_t nth) const;
 
   std::map<Place, std::vector<std::string>> said_;
 };

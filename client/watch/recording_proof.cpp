@@ -5,8 +5,8 @@
 namespace woodlouse::client {
 
 std::string to_text(const TickDifference& difference) {
-  return "state DIFFERS at tick " + std::to_string(difference.tick) + ": " + core::to_hex(difference.recorded) +
-         " recorded, " + core::to_hex(difference.rerun) + " re-run";
+  return "state DIFFERS at tick " + std::to_string(difference.tick) + ": " +
+         core::to_hex(difference.recorded) + " recorded, " + core::to_hex(difference.rerun) + " re-run";
 }
 
 void RecordingProof::take(const replay::PlayedStep& step) {

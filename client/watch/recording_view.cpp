@@ -22,7 +22,8 @@ core::Expected<std::unique_ptr<RecordingView>> RecordingView::open(replay::Repla
 }
 
 RecordingView::RecordingView(std::shared_ptr<const replay::ReplayArchive> archive,
-                             std::unique_ptr<replay::Playback> playback, std::unique_ptr<replay::Playback> prover)
+                             std::unique_ptr<replay::Playback> playback,
+                             std::unique_ptr<replay::Playback> prover)
     : archive_(std::move(archive)),
       playback_(std::move(playback)),
       prover_(std::move(prover)),

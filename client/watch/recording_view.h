@@ -9,13 +9,13 @@
 #include <optional>
 #include <vector>
 
-#include "client/watch/recorded_chat.h"
-#include "client/watch/recording_proof.h"
 #include "client/drawing/scene.h"
 #include "client/play/visible_lice.h"
+#include "client/watch/recorded_chat.h"
+#include "client/watch/recording_proof.h"
 #include "shared/core/error.h"
-#include "shared/replay/playback.h"
 #include "shared/replay/archive.h"
+#include "shared/replay/playback.h"
 
 namespace woodlouse::client {
 
@@ -28,22 +28,24 @@ class RecordingView {
 
   /// Goes to a tick of the recording. Error: it is damaged there; the view stands at tick(), somewhere else.
   core::Expected<void> show(std::uint64_t tick);
-  /// Re-runs the recording from its beginning, beside what is shown, until `deadline` or its end: after a while
-  /// every tick is proven, wherever one looks.
+  /// Re-runs the recording from its beginning, beside what is shown, until `deadline` or its end: after a
+  /// while every tick is proven, wherever one looks.
   void prove(TimePoint deadline);
 
   [[nodiscard]] std::uint64_t tick() const { return playback_->tick(); }
   [[nodiscard]] Sight sight() const { return {archive_->map().get(), lice_, trails_, nullptr}; }
   /// The exact louse; null when it is not there.
-  [[nodiscard]] const physics::Louse* louse(std::uint32_t id) const { return playback_->match().world().find(id); }
+  [[nodiscard]] const physics::Louse* louse(std::uint32_t id) const {
+    return playback_->match().world().find(id);
+  }
   /// The newest lines up to tick().
   [[nodiscard]] std::vector<ChatLine> chat() const { return chat_.lines(archive_->marks(), labels_, tick()); }
   [[nodiscard]] const RecordingProof& proof() const { return proof_; }
   [[nodiscard]] const replay::ReplayArchive& archive() const { return *archive_; }
 
  private:
-  RecordingView(std::shared_ptr<const replay::ReplayArchive> archive, std::unique_ptr<replay::Playback> playback,
-                std::unique_ptr<replay::Playback> prover);
+  RecordingView(std::shared_ptr<const replay::ReplayArchive> archive,
+                std::unique_ptr<replay::Playback> playback, std::unique_ptr<replay::Playback> prover);
 
   core::Expected<void> run_to(std::uint64_t tick);
   void extend_trails();

@@ -7,8 +7,9 @@
 
 namespace woodlouse::client {
 
-ReplayViewer::ReplayViewer(boost::asio::io_context& context, RecordingView& recording, const std::string& name,
-                           TerminalGuard& guard, int keys, TerminalScreen& screen, const GameSettings& settings)
+ReplayViewer::ReplayViewer(boost::asio::io_context& context, RecordingView& recording,
+                           const std::string& name, TerminalGuard& guard, int keys, TerminalScreen& screen,
+                           const GameSettings& settings)
     : recording_(recording),
       guard_(guard),
       screen_(screen),

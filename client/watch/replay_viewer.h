@@ -5,15 +5,15 @@
 
 #include "client/play/game.h"
 #include "client/terminal/outcome.h"
-#include "client/watch/player.h"
 #include "client/terminal/terminal_loop.h"
+#include "client/watch/player.h"
 
 namespace woodlouse::client {
 
 class ReplayViewer final : private Performance {
  public:
-  /// keys: the terminal to read, taken over. screen: where frames go. All but keys outlive the viewer. name: of
-  /// the recording's file.
+  /// keys: the terminal to read, taken over. screen: where frames go. All but keys outlive the viewer. name:
+  /// of the recording's file.
   ReplayViewer(boost::asio::io_context& context, RecordingView& recording, const std::string& name,
                TerminalGuard& guard, int keys, TerminalScreen& screen, const GameSettings& settings);
 

@@ -6,8 +6,8 @@
 
 #include "shared/core/joined.h"
 #include "shared/protocol/text_cleaning.h"
-#include "shared/replay/recorded_map.h"
 #include "shared/replay/archive.h"
+#include "shared/replay/recorded_map.h"
 
 namespace woodlouse::server {
 namespace {
@@ -18,8 +18,8 @@ using replay::ReplayArchive;
 core::Error without_tick(const ReplayArchive& archive, const ForkPoint& point) {
   const std::string last = std::to_string(archive.last_tick());
   return {point.recording.string(),
-          joined({"has no tick ", std::to_string(point.tick), ", only ", std::to_string(archive.first_tick()), " to ",
-                  last}),
+          joined({"has no tick ", std::to_string(point.tick), ", only ", std::to_string(archive.first_tick()),
+                  " to ", last}),
           joined({"try:  woodlouse-server fork ", point.recording.string(), " --tick ", last})};
 }
 
@@ -35,7 +35,8 @@ std::vector<Orphan> orphans_of(const ReplayArchive& archive, const match::Match&
     if (span == spans.end() || span->player != player.player) continue;
     std::string name = protocol::clean_text(span->label.name, protocol::kMaxNameBytes);
     if (name.empty()) continue;
-    orphans.push_back({player.player, std::move(name), span->label.role, player.last_seq ? *player.last_seq + 1 : 0});
+    orphans.push_back(
+        {player.player, std::move(name), span->label.role, player.last_seq ? *player.last_seq + 1 : 0});
   }
   return orphans;
 }
@@ -56,9 +57,10 @@ core::Expected<Opening> open_fork(const ForkPoint& point) {
   const auto playback = (*archive)->play(point.tick);
   if (!playback) return tl::unexpected(with_advice(playback.error(), point));
   if (const auto difference = (*playback)->first_difference())
-    return core::fail(point.recording.string(),
-                      joined({"differs at tick ", std::to_string(*difference), ": what follows was never played"}),
-                      joined({"take a tick before it, or ask:  woodlouse-server verify ", point.recording.string()}));
+    return core::fail(
+        point.recording.string(),
+        joined({"differs at tick ", std::to_string(*difference), ": what follows was never played"}),
+        joined({"take a tick before it, or ask:  woodlouse-server verify ", point.recording.string()}));
   const match::MatchState state = (*playback)->match().state();
   if (!state.roster.empty())
     return core::fail(point.recording.string(),

@@ -14,9 +14,9 @@ struct ForkPoint {
   std::uint64_t tick = 0;
 };
 
-/// The match at that tick, proven up to there since the keyframe before it; inputs that waited for a later tick
-/// are those that keyframe knew. Errors: no recording or a damaged one, its map is not found or another, the
-/// tick is not in it, or what was recorded is not what a re-run gives.
+/// The match at that tick, proven up to there since the keyframe before it; inputs that waited for a later
+/// tick are those that keyframe knew. Errors: no recording or a damaged one, its map is not found or another,
+/// the tick is not in it, or what was recorded is not what a re-run gives.
 core::Expected<Opening> open_fork(const ForkPoint& point);
 
 }  // namespace woodlouse::server

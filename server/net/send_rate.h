@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "server/room/frame.h"
 #include "server/room/clock.h"
+#include "server/room/frame.h"
 
 namespace woodlouse::server {
 

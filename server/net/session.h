@@ -21,11 +21,11 @@
 #include <string_view>
 
 #include "server/net/handshake.h"
-#include "server/room/lobby.h"
-#include "server/room/figures.h"
 #include "server/net/outbox.h"
-#include "server/net/send_rate.h"
 #include "server/net/rate_limiter.h"
+#include "server/net/send_rate.h"
+#include "server/room/figures.h"
+#include "server/room/lobby.h"
 #include "server/room/subscriber.h"
 #include "shared/protocol/framing.h"
 #include "shared/protocol/messages.h"

@@ -46,14 +46,14 @@ Duration DurationHistogram::quantile(double q) const {
 }
 
 std::string summary(const std::string& room, const RoomMetrics& m) {
-  const std::string ground = m.ground ? fmt::format(", tiles built {} ({} ahead), thrown out {}, read failures {}",
-                                                    m.ground->built, m.ground->ahead, m.ground->thrown_out,
-                                                    m.ground->read_failures)
-                                      : std::string();
-  const std::string shadow = m.shadow ? fmt::format(", {} ticks shadowed{}, {} differences", m.shadow->ticks,
-                                                    m.shadow->ended ? " until it was ended" : "",
-                                                    m.shadow->differences)
-                                      : std::string();
+  const std::string ground =
+      m.ground ? fmt::format(", tiles built {} ({} ahead), thrown out {}, read failures {}", m.ground->built,
+                             m.ground->ahead, m.ground->thrown_out, m.ground->read_failures)
+               : std::string();
+  const std::string shadow =
+      m.shadow ? fmt::format(", {} ticks shadowed{}, {} differences", m.shadow->ticks,
+                             m.shadow->ended ? " until it was ended" : "", m.shadow->differences)
+               : std::string();
   return fmt::format(
       "{}: ticks {}, lateness p50 {:.3f} ms p99 {:.3f} ms max {:.3f} ms, work p50 {:.3f} ms p99 {:.3f} ms, "
       "clock moves {}, frames encoded {}{}{}",

@@ -56,7 +56,7 @@ struct RoomMetrics {
   DurationHistogram lateness;  ///< start of a tick's work after its deadline
   DurationHistogram work;      ///< a tick's work, from its start
   std::uint64_t clock_moves = 0;
-  std::uint64_t frames_encoded = 0;  ///< keys and deltas, once per (room, format, fields, tick)
+  std::uint64_t frames_encoded = 0;     ///< keys and deltas, once per (room, format, fields, tick)
   std::optional<GroundMetrics> ground;  ///< of a big map
   std::optional<ShadowMetrics> shadow;
 };
@@ -69,8 +69,8 @@ struct TrafficMetrics {
 };
 
 /// `volcano: ticks 3600, lateness p50 0.06 ms p99 0.21 ms max 0.90 ms, clock moves 0, frames encoded 1200`
-/// On a big map also `, tiles built 412 (409 ahead), thrown out 0, read failures 0`; with a shadow `, 3600 ticks
-/// shadowed, 0 differences`.
+/// On a big map also `, tiles built 412 (409 ahead), thrown out 0, read failures 0`; with a shadow `, 3600
+/// ticks shadowed, 0 differences`.
 std::string summary(const std::string& room, const RoomMetrics& metrics);
 
 }  // namespace woodlouse::server

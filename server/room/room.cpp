@@ -15,8 +15,8 @@ namespace woodlouse::server {
 
 namespace asio = boost::asio;
 
-Room::Room(asio::io_context& ticks, asio::io_context& io, RoomSettings settings, Opening opening, RoomStaff staff,
-           std::shared_ptr<spdlog::logger> log)
+Room::Room(asio::io_context& ticks, asio::io_context& io, RoomSettings settings, Opening opening,
+           RoomStaff staff, std::shared_ptr<spdlog::logger> log)
     : settings_(std::move(settings)),
       log_(std::move(log)),
       strand_(asio::make_strand(ticks)),
@@ -147,8 +147,10 @@ void Room::look_ahead() {
   if (ground.read_failures == 0) return;
   metrics_.ground = ground;
   log_->error(
-      "room {}: the map's file can't be read any more ({} reads failed; {}). Where it could not, ground without data "
-      "stands in: the game goes on, its recording may not verify. Check the disk, and that nobody changed the file",
+      "room {}: the map's file can't be read any more ({} reads failed; {}). Where it could not, ground "
+      "without data "
+      "stands in: the game goes on, its recording may not verify. Check the disk, and that nobody changed "
+      "the file",
       settings_.name, ground.read_failures, map_file_);
 }
 

@@ -18,17 +18,17 @@
 #include <optional>
 #include <string>
 
-#include "server/room/pending_acks.h"
 #include "server/room/broadcaster.h"
 #include "server/room/channels.h"
-#include "server/watchers/ground_ahead.h"
 #include "server/room/figures.h"
-#include "server/room/start.h"
-#include "server/watchers/recorder.h"
+#include "server/room/pending_acks.h"
 #include "server/room/seats.h"
-#include "server/watchers/shadow.h"
+#include "server/room/start.h"
 #include "server/room/subscriber.h"
 #include "server/room/tick_clock.h"
+#include "server/watchers/ground_ahead.h"
+#include "server/watchers/recorder.h"
+#include "server/watchers/shadow.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
 

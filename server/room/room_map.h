@@ -6,7 +6,8 @@
 
 namespace woodlouse::server {
 
-/// The `map` message: the definition, the knots where it only names a function, and an overview where it names a file.
+/// The `map` message: the definition, the knots where it only names a function, and an overview where it
+/// names a file.
 Line encode_map_line(const map::Map& map);
 
 }  // namespace woodlouse::server

@@ -87,7 +87,8 @@ match::PlayerId Room::give_louse(Member& member) {
   const std::optional<Orphan> taken = roster_.take_over(member.name);
   if (!taken) return match_.join();
   member.first_seq = taken->first_seq;
-  log_->info("room {}: \"{}\" takes over louse {} of the recording", settings_.name, member.name, taken->louse);
+  log_->info("room {}: \"{}\" takes over louse {} of the recording", settings_.name, member.name,
+             taken->louse);
   return taken->louse;
 }
 

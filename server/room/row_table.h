@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "shared/state/louse.h"
 #include "shared/protocol/messages.h"
+#include "shared/state/louse.h"
 #include "shared/terrain/terrain.h"
 
 namespace woodlouse::server {

@@ -28,7 +28,8 @@ struct Member {
   protocol::Role role = protocol::Role::kPlayer;
   match::PlayerId louse = 0;  ///< 0: a spectator
   ChannelId channel = 0;
-  std::uint32_t first_seq = 0;  ///< what the match adds to the member's own count: a louse taken over has used some
+  std::uint32_t first_seq =
+      0;  ///< what the match adds to the member's own count: a louse taken over has used some
 };
 
 struct HouseMember {
@@ -44,8 +45,8 @@ struct Roster {
 
   /// The first orphan of that name, which is none any more; nothing where there is none.
   std::optional<Orphan> take_over(std::string_view name) {
-    const auto found =
-        std::find_if(orphans.begin(), orphans.end(), [name](const Orphan& orphan) { return orphan.name == name; });
+    const auto found = std::find_if(orphans.begin(), orphans.end(),
+                                    [name](const Orphan& orphan) { return orphan.name == name; });
     if (found == orphans.end()) return std::nullopt;
     Orphan taken = std::move(*found);
     orphans.erase(found);

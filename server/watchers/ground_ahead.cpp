@@ -21,7 +21,9 @@ std::unique_ptr<GroundAhead> GroundAhead::make(const map::Map& map, boost::asio:
 
 GroundAhead::GroundAhead(const terrain::TiledGround& ground, const physics::Parameters& physics,
                          boost::asio::thread_pool& worker)
-    : worker_(worker), shared_(std::make_shared<Shared>(ground)), push_(physics.thrust_max + physics.gravity) {}
+    : worker_(worker),
+      shared_(std::make_shared<Shared>(ground)),
+      push_(physics.thrust_max + physics.gravity) {}
 
 GroundAhead::~GroundAhead() { shared_->stopping = true; }
 
@@ -32,7 +34,8 @@ void GroundAhead::look(std::span<const physics::Louse> lice) {
   for (std::size_t i = turn_; i < lice.size(); i += kTurns) {
     const physics::Louse& louse = lice[i];
     if (louse.phase == physics::Phase::kResting) continue;
-    const double reach = kAheadSeconds * (std::sqrt(dot(louse.velocity, louse.velocity)) + 0.5 * kAheadSeconds * push_);
+    const double reach =
+        kAheadSeconds * (std::sqrt(dot(louse.velocity, louse.velocity)) + 0.5 * kAheadSeconds * push_);
     add_around(louse.position, std::min(reach, farthest));
   }
   build();
@@ -66,7 +69,8 @@ void GroundAhead::build() {
 GroundMetrics GroundAhead::metrics() const {
   const terrain::TileStore& tiles = shared_->ground.tiles();
   const terrain::TileStore::Counters counters = tiles.counters();
-  return {counters.live, counters.built, counters.prepared, counters.thrown_out, tiles.source().read_failures()};
+  return {counters.live, counters.built, counters.prepared, counters.thrown_out,
+          tiles.source().read_failures()};
 }
 
 }  // namespace woodlouse::server

@@ -1,11 +1,11 @@
-// Builds the tiles of a big map around lice before they get there, on a thread of its own, so that a tick seldom waits
-// for one (0.3 ms from the page cache, as long as 124 reads take from a disk). What a tick computes is the same
-// whether a tile was there or not (terrain/tile_store.h).
+// Builds the tiles of a big map around lice before they get there, on a thread of its own, so that a tick
+// seldom waits for one (0.3 ms from the page cache, as long as 124 reads take from a disk). What a tick
+// computes is the same whether a tile was there or not (terrain/tile_store.h).
 //
-// Each tick looks at a sixth of the lice, so that all are seen ten times a second: their tiles within kAheadSeconds at
-// their speed and the largest push, at most one tile's side away.
-// Bounded: one batch of tiles at work; while it is, looks are left out. A batch has at most half as many tiles as the
-// map keeps; what is over that the ticks build themselves.
+// Each tick looks at a sixth of the lice, so that all are seen ten times a second: their tiles within
+// kAheadSeconds at their speed and the largest push, at most one tile's side away. Bounded: one batch of
+// tiles at work; while it is, looks are left out. A batch has at most half as many tiles as the map keeps;
+// what is over that the ticks build themselves.
 #pragma once
 
 #include <atomic>
@@ -57,7 +57,7 @@ class GroundAhead {
 
   boost::asio::thread_pool& worker_;
   std::shared_ptr<Shared> shared_;
-  double push_;                      ///< the largest acceleration that is looked ahead for [m/s^2]
+  double push_;  ///< the largest acceleration that is looked ahead for [m/s^2]
   std::size_t turn_ = 0;
   std::vector<std::size_t> wanted_;  ///< tiles of the next batch
 };

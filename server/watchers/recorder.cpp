@@ -56,7 +56,8 @@ void Recorder::step(const match::StepRecord& record, std::vector<InputMargin> ma
                     const match::Match& match) {
   if (failed_) return;
   std::shared_ptr<const match::MatchState> keyframe;
-  if (match.tick() % keyframe_ticks_ == 0) keyframe = std::make_shared<const match::MatchState>(match.state());
+  if (match.tick() % keyframe_ticks_ == 0)
+    keyframe = std::make_shared<const match::MatchState>(match.state());
   enqueue([this, record, margins = std::move(margins), keyframe = std::move(keyframe)](std::string& out) {
     for (const InputMargin& margin : margins)
       writer_.note_margin(margin.player, margin.seq, margin.microseconds);

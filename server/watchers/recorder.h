@@ -39,8 +39,8 @@ class Recorder {
   /// Half of what a killed server may lose, so that a busy machine keeps the promise too.
   static constexpr std::chrono::milliseconds kFlushEvery{500};
 
-  /// Creates the file, over one that is there; named .zst it is compressed. disk: a pool of one thread, so that
-  /// lines keep their order.
+  /// Creates the file, over one that is there; named .zst it is compressed. disk: a pool of one thread, so
+  /// that lines keep their order.
   static core::Expected<std::unique_ptr<Recorder>> open(const std::filesystem::path& file,
                                                         boost::asio::thread_pool& disk,
                                                         std::shared_ptr<spdlog::logger> log);

@@ -70,12 +70,16 @@ void Shadow::tell(const match::StepRecord& record, const match::MatchState& game
   const std::string detail = rerun_->difference_to({game, {}});
   match::StepRecord own = record;
   own.hash = shadow.hash;
-  const auto kept = [](const core::Expected<std::string>& file) { return file ? *file : file.error().text(); };
+  const auto kept = [](const core::Expected<std::string>& file) {
+    return file ? *file : file.error().text();
+  };
   const std::string game_file = kept(dump_side("game", record, game));
   const std::string shadow_file = kept(dump_side("shadow", own, shadow));
   log_->error(
-      "SHADOW DIFFERS: room {}: tick {}: {}; {}. The game's is what is called recorded, its shadow's the re-run. Both "
-      "are kept: {} and {}; ask woodlouse-server verify which of them this machine gives again. The game goes on; "
+      "SHADOW DIFFERS: room {}: tick {}: {}; {}. The game's is what is called recorded, its shadow's the "
+      "re-run. Both "
+      "are kept: {} and {}; ask woodlouse-server verify which of them this machine gives again. The game "
+      "goes on; "
       "further differences are only counted",
       room_, game.tick, what, detail.empty() ? "the states are the same" : detail, game_file, shadow_file);
 }

@@ -1,7 +1,7 @@
 // A second match beside a room's own: it re-runs each tick from what the recorder gets, on a thread of its
-// own, and compares. Where the two differ, something is broken (a flag, a compiler, the memory): it is counted,
-// told once, loudly, and both states are kept in files. Never slows the game: a shadow that falls kMaxQueued
-// steps behind is ended with one log line.
+// own, and compares. Where the two differ, something is broken (a flag, a compiler, the memory): it is
+// counted, told once, loudly, and both states are kept in files. Never slows the game: a shadow that falls
+// kMaxQueued steps behind is ended with one log line.
 #pragma once
 
 #include <spdlog/logger.h>
@@ -16,8 +16,8 @@
 #include <memory>
 #include <string>
 
-#include "server/room/figures.h"
 #include "server/room/clock.h"
+#include "server/room/figures.h"
 #include "shared/core/error.h"
 #include "shared/match/match.h"
 #include "shared/replay/rerun.h"

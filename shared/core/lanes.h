@@ -1,6 +1,7 @@
-// One template for a double and for several at once. The equations are written over T; with T = double they are
-// the scalar step, with T = Lanes4 or Lanes8 (lanes_avx2.h, lanes_avx512.h) the batched one. Each operation
-// rounds each lane as the scalar one does, and the order is the template's, so the bits are the same.
+// One template for a double and for several at once. The equations are written over T; with T = double they
+// are the scalar step, with T = Lanes4 or Lanes8 (lanes_avx2.h, lanes_avx512.h) the batched one. Each
+// operation rounds each lane as the scalar one does, and the order is the template's, so the bits are the
+// same.
 #pragma once
 
 #include <cmath>

@@ -56,7 +56,8 @@ struct Lanes4 {
   /// to[l] = base + 16 * lane l, an integer below 2^31.
   void store_pointers(const double* base, const double** to) const {
     const __m256i bytes = _mm256_slli_epi64(_mm256_cvtepi32_epi64(_mm256_cvttpd_epi32(value)), 7);
-    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_add_epi64(bytes, _mm256_set1_epi64x(reinterpret_cast<long long>(base))));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                        _mm256_add_epi64(bytes, _mm256_set1_epi64x(reinterpret_cast<long long>(base))));
   }
 
   /// out[k] = lane l's from[l][k], k = 0..3.

@@ -75,8 +75,8 @@ struct Lanes8 {
       pairs[l + 1] = _mm512_unpackhi_pd(rows[l].value, rows[l + 1].value);  // columns 1 3 5 7
     }
     for (int odd = 0; odd < 2; ++odd) {
-      const __m512d low_a = _mm512_shuffle_f64x2(pairs[odd], pairs[2 + odd], 0x88);       // lanes 0-3, columns 0 4
-      const __m512d low_b = _mm512_shuffle_f64x2(pairs[odd], pairs[2 + odd], 0xdd);       // columns 2 6
+      const __m512d low_a = _mm512_shuffle_f64x2(pairs[odd], pairs[2 + odd], 0x88);  // lanes 0-3, columns 0 4
+      const __m512d low_b = _mm512_shuffle_f64x2(pairs[odd], pairs[2 + odd], 0xdd);  // columns 2 6
       const __m512d high_a = _mm512_shuffle_f64x2(pairs[4 + odd], pairs[6 + odd], 0x88);  // lanes 4-7
       const __m512d high_b = _mm512_shuffle_f64x2(pairs[4 + odd], pairs[6 + odd], 0xdd);
       rows[odd] = _mm512_shuffle_f64x2(low_a, high_a, 0x88);

@@ -45,7 +45,9 @@ struct Lanes1 {
     return static_cast<double>(whole < 0 ? 0 : (whole > last ? last : whole));
   }
   /// to[l] = base + 16 * lane l, an integer below 2^31.
-  void store_pointers(const double* base, const double** to) const { *to = base + 16 * static_cast<std::ptrdiff_t>(value); }
+  void store_pointers(const double* base, const double** to) const {
+    *to = base + 16 * static_cast<std::ptrdiff_t>(value);
+  }
 
   /// out[k] = lane l's from[l][k], k below kRow.
   static void load_transposed(const double* const* from, Lanes1* out) {

@@ -50,10 +50,14 @@ SinCos portable_sincos(double radians) {
   const double s = sin_kernel(r, tail);
   const double c = cos_kernel(r, tail);
   switch (quadrant & 3) {
-    case 0: return {s, c};
-    case 1: return {c, -s};
-    case 2: return {-s, -c};
-    default: return {-c, s};
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
   }
 }
 

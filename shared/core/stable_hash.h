@@ -4,8 +4,8 @@
 #pragma once
 
 #include <bit>
-#include <cstdint>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -35,16 +35,12 @@ class StableHasher {
 
   /// Appends the object's bytes. T has no padding: that is the caller's promise.
   template <typename T>
-    requires std::is_trivially_copyable_v<T>
-  void append(const T& value) {
-    append(&value, sizeof(T));
-  }
+  requires std::is_trivially_copyable_v<T>
+  void append(const T& value) { append(&value, sizeof(T)); }
 
   template <typename T>
-    requires std::is_trivially_copyable_v<T>
-  void append(std::span<const T> values) {
-    append(values.data(), values.size_bytes());
-  }
+  requires std::is_trivially_copyable_v<T>
+  void append(std::span<const T> values) { append(values.data(), values.size_bytes()); }
 
   [[nodiscard]] std::uint64_t value() const;
 

@@ -22,7 +22,9 @@ struct Pair {
 };
 
 template <typename T>
-constexpr T dot(Pair<T> a, Pair<T> b) { return a.x * b.x + a.y * b.y; }
+constexpr T dot(Pair<T> a, Pair<T> b) {
+  return a.x * b.x + a.y * b.y;
+}
 
 using Vec2 = Pair<double>;
 

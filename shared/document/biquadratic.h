@@ -13,8 +13,8 @@
 
 #include <utility>
 
-#include "shared/terrain/height_grid.h"
 #include "shared/document/nine_knots.h"
+#include "shared/terrain/height_grid.h"
 #include "shared/terrain/surface.h"
 
 namespace woodlouse::terrain {

@@ -25,8 +25,8 @@
 // NaN knots reach only the points whose stencils hold them (outside_policy.h).
 #pragma once
 
-#include "shared/terrain/height_grid.h"
 #include "shared/document/nine_knots.h"
+#include "shared/terrain/height_grid.h"
 #include "shared/terrain/surface.h"
 
 namespace woodlouse::terrain {

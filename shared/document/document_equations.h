@@ -1,4 +1,5 @@
-// The document's equations (chapters 1.1, 1.2, 2.4), for comparison only: a local plane instead of the surface.
+// The document's equations (chapters 1.1, 1.2, 2.4), for comparison only: a local plane instead of the
+// surface.
 //     (1 + zx^2) ax + zx zy ay = -g zx + fx
 //     zx zy ax + (1 + zy^2) ay = -g zy + fy
 // solved by Cramer's rule. The term v'Hv is missing from the acceleration and from the normal force; friction
@@ -20,7 +21,8 @@ struct DocumentEquations {
   static constexpr bool kExact = false;
 
   template <typename F>
-  static core::Vec2 acceleration(const terrain::SlopeSample& s, core::Vec2 v, const Drive& drive, const Parameters& p) {
+  static core::Vec2 acceleration(const terrain::SlopeSample& s, core::Vec2 v, const Drive& drive,
+                                 const Parameters& p) {
     const double zx2 = s.zx * s.zx;
     const double zy2 = s.zy * s.zy;
     const double zxy = s.zx * s.zy;
@@ -50,7 +52,8 @@ struct DocumentEquations {
     }
     const double factor_x = kFactors == CramerFactors::kPutRight ? 1 + zy2 : 1 + zx2;
     const double factor_y = kFactors == CramerFactors::kPutRight ? 1 + zx2 : 1 + zy2;
-    return {(-p.gravity * s.zx + fx * factor_x - fy * zxy) / w2, (-p.gravity * s.zy + fy * factor_y - fx * zxy) / w2};
+    return {(-p.gravity * s.zx + fx * factor_x - fy * zxy) / w2,
+            (-p.gravity * s.zy + fy * factor_y - fx * zxy) / w2};
   }
 };
 

@@ -4,14 +4,15 @@
 // Prepared once (AllSpline, CofSpline): for every row the natural spline along x, four coefficients and the
 // height at each knot.
 // Each evaluation (ZxySpline, ValSpline) takes the rows' values and x-derivatives at x, builds the natural
-// spline along y through them, solves it, and evaluates: O(rows) a point, twice, once for z and zy, once for zx:
+// spline along y through them, solves it, and evaluates: O(rows) a point, twice, once for z and zy, once for
+// zx:
 //     mm[1] = 1/4,  mm[j+1] = 1/(4 - mm[j])
 //     yy[j] = 6 (z[j+1] - 2 z[j] + z[j-1]) - yy[j-1] mm[j-1]
 //     xx[j] = (yy[j] - xx[j+1]) mm[j]                            the curvatures, natural: xx = 0 at both ends
 // Kept as printed, because that is what it costs: vectors of 1001 numbers passed by value, the division table
-// mm rebuilt at each evaluation, work arrays of 1002; only the array of row pointers is not copied. Put right:
-// nothing; the comment "3 dx c3 + 2 dx c2" in ValSpline is wrong, its code is not.
-// Same numbers as BicubicSpline with natural ends, to rounding.
+// mm rebuilt at each evaluation, work arrays of 1002; only the array of row pointers is not copied. Put
+// right: nothing; the comment "3 dx c3 + 2 dx c2" in ValSpline is wrong, its code is not. Same numbers as
+// BicubicSpline with natural ends, to rounding.
 //
 // Continuity: C2; but the algorithm yields no second derivatives: has_hessian is false. Orders: 4 and 3
 // inside, 2 and 1 at the rim.

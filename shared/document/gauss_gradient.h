@@ -1,8 +1,8 @@
 // Gauss least squares (chapters 3.2 and 3.4): gradients of fitted quadratics, stored at the knots.
 //
 // Around each knot  z = a0 + a1 u + a2 v + a3 u^2 + a4 u v + a5 v^2  (u, v in knot spacings from the centre)
-// is the least-squares fit to the 3 x 3 heights z[p][q], p, q = -1, 0, 1. The normal equations have closed-form
-// weights:
+// is the least-squares fit to the 3 x 3 heights z[p][q], p, q = -1, 0, 1. The normal equations have
+// closed-form weights:
 //     a1 = sum_q (z[1][q] - z[-1][q]) / 6
 //     a2 = sum_p (z[p][1] - z[p][-1]) / 6
 //     a3 = sum_q (z[1][q] - 2 z[0][q] + z[-1][q]) / 6

@@ -5,8 +5,8 @@
 //     middle z01 z11 z21        along a row (chapter 3.3): z = z1 + a1 u + a2 u^2,
 //     south  z00 z10 z20        a1 = (z2 - z0)/2,  a2 = (z2 + z0)/2 - z1
 // The three rows' values are then joined along v by the same formula, and so are their derivatives
-// a1 + 2 a2 u; d/dv comes from the three columns. The operations stand in the order of the document's optimised code
-// (chapters 3.6.3, 4.3.1).
+// a1 + 2 a2 u; d/dv comes from the three columns. The operations stand in the order of the document's
+// optimised code (chapters 3.6.3, 4.3.1).
 #pragma once
 
 #include <cassert>

@@ -12,12 +12,12 @@
 #include <variant>
 
 #include "shared/core/error.h"
-#include "shared/terrain/bicubic_spline.h"
 #include "shared/document/biquadratic.h"
 #include "shared/document/blended_biquadratic.h"
 #include "shared/document/document_spline.h"
-#include "shared/terrain/function_surface.h"
 #include "shared/document/gauss_gradient.h"
+#include "shared/terrain/bicubic_spline.h"
+#include "shared/terrain/function_surface.h"
 #include "shared/terrain/height_grid.h"
 #include "shared/terrain/tiled_bspline.h"
 #include "shared/terrain/wrapped_surface.h"

@@ -1,6 +1,6 @@
-// A JSON text (RFC 8259), read by nlohmann's SAX parser and strictly: valid UTF-8, no NaN or Inf, no duplicate keys, bounded nesting and
-// size, integers told apart from fractions. Every value knows its place, so that an error can name line and
-// field.
+// A JSON text (RFC 8259), read by nlohmann's SAX parser and strictly: valid UTF-8, no NaN or Inf, no
+// duplicate keys, bounded nesting and size, integers told apart from fractions. Every value knows its place,
+// so that an error can name line and field.
 //
 // A document is a flat list of nodes in the order of the text: a list or object is followed by its members,
 // and `next` leads past them. A thousand rows cost one growing vector, not a thousand. Numbers stay text

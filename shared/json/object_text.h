@@ -20,9 +20,18 @@ class MessageText {
     return *this;
   }
   template <std::integral T>
-  MessageText& integer(std::string_view name, T value) { json::append_integer(key(name), value); return *this; }
-  MessageText& number(std::string_view name, double value) { json::append_double(key(name), value); return *this; }
-  MessageText& boolean(std::string_view name, bool value) { key(name) += value ? "true" : "false"; return *this; }
+  MessageText& integer(std::string_view name, T value) {
+    json::append_integer(key(name), value);
+    return *this;
+  }
+  MessageText& number(std::string_view name, double value) {
+    json::append_double(key(name), value);
+    return *this;
+  }
+  MessageText& boolean(std::string_view name, bool value) {
+    key(name) += value ? "true" : "false";
+    return *this;
+  }
   MessageText& pair(std::string_view name, core::Vec2 value) {
     json::append_double(key(name) += '[', value.x);
     json::append_double(out_ += ',', value.y);
@@ -30,7 +39,10 @@ class MessageText {
     return *this;
   }
   /// A member that is JSON already.
-  MessageText& json(std::string_view name, std::string_view value) { key(name) += value; return *this; }
+  MessageText& json(std::string_view name, std::string_view value) {
+    key(name) += value;
+    return *this;
+  }
   /// An array: write(out, element) appends each element.
   template <typename Elements, typename Write>
   MessageText& array(std::string_view name, const Elements& elements, Write write) {

@@ -36,12 +36,14 @@ bool is_of_number(char c) {
   return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.' || c == 'e' || c == 'E';
 }
 
-/// `[json.exception.parse_error.101] parse error at line 3, column 5: syntax error while ...; last read: '...'`
-/// without what the error's place tells already, and without bytes that are not plain ASCII.
+/// `[json.exception.parse_error.101] parse error at line 3, column 5: syntax error while ...; last read:
+/// '...'` without what the error's place tells already, and without bytes that are not plain ASCII.
 std::string without_place(std::string_view message) {
-  if (const auto bracket = message.find("] "); bracket != std::string_view::npos) message.remove_prefix(bracket + 2);
+  if (const auto bracket = message.find("] "); bracket != std::string_view::npos)
+    message.remove_prefix(bracket + 2);
   if (message.starts_with("parse error")) {
-    if (const auto colon = message.find(": "); colon != std::string_view::npos) message.remove_prefix(colon + 2);
+    if (const auto colon = message.find(": "); colon != std::string_view::npos)
+      message.remove_prefix(colon + 2);
   }
   message = message.substr(0, message.find("; last read"));
   std::string plain;
@@ -54,11 +56,14 @@ std::string without_place(std::string_view message) {
 /// nlohmann's SAX events made into a document.
 class Parser {
  public:
-  Parser(std::string_view text, const Limits& limits) : limits_(limits), read_(text.data()) { document_.text_ = text; }
+  Parser(std::string_view text, const Limits& limits) : limits_(limits), read_(text.data()) {
+    document_.text_ = text;
+  }
 
   tl::expected<Document, ParseError> parse() {
     const std::string_view text = document_.text_;
-    if (text.size() > kMaxBytes) return tl::unexpected(ParseError{Fault::kTooLong, 0, "longer than 2 GiB", {}});
+    if (text.size() > kMaxBytes)
+      return tl::unexpected(ParseError{Fault::kTooLong, 0, "longer than 2 GiB", {}});
     // nlohmann takes a NUL for the end and would pass over what follows it.
     if (const auto nul = text.find('\0'); nul != std::string_view::npos) {
       return tl::unexpected(ParseError{Fault::kNotJson, nul, "a NUL byte; send text", {}});
@@ -96,7 +101,8 @@ class Parser {
     constexpr std::size_t kMaxShownBytes = 40;
     const std::string_view number = std::string_view(last).substr(0, kMaxShownBytes);
     return fail(Fault::kNotJson, last_read(),
-                core::joined({"the number ", number, last.size() > kMaxShownBytes ? "..." : "", " is too large for a double"}));
+                core::joined({"the number ", number, last.size() > kMaxShownBytes ? "..." : "",
+                              " is too large for a double"}));
   }
 
  private:
@@ -116,7 +122,8 @@ class Parser {
   bool add(Kind kind, std::size_t begin) {
     auto& nodes = document_.nodes_;
     if (nodes.size() >= limits_.values) {
-      return fail(Fault::kTooManyValues, begin, core::joined({"more than ", std::to_string(limits_.values), " values"}));
+      return fail(Fault::kTooManyValues, begin,
+                  core::joined({"more than ", std::to_string(limits_.values), " values"}));
     }
     if (!open_.empty()) ++nodes[open_.back()].members;
     const auto next = static_cast<std::uint32_t>(nodes.size() + 1);
@@ -137,14 +144,16 @@ class Parser {
     std::size_t begin = end;
     while (begin > 0 && is_of_number(text[begin - 1])) --begin;
     const std::string_view digits = text.substr(begin, end - begin);
-    if (!add(digits.find_first_of(".eE") == std::string_view::npos ? Kind::kInteger : Kind::kFraction, begin)) return false;
+    if (!add(digits.find_first_of(".eE") == std::string_view::npos ? Kind::kInteger : Kind::kFraction, begin))
+      return false;
     document_.nodes_.back().size = static_cast<std::uint32_t>(digits.size());
     return true;
   }
 
   bool open(Kind kind) {
     if (open_.size() >= limits_.depth) {
-      return fail(Fault::kTooDeep, last_read(), core::joined({"nested more than ", std::to_string(limits_.depth), " deep"}));
+      return fail(Fault::kTooDeep, last_read(),
+                  core::joined({"nested more than ", std::to_string(limits_.depth), " deep"}));
     }
     if (!add(kind, last_read())) return false;
     document_.nodes_.back().next = Document::kOpen;
@@ -185,9 +194,9 @@ class Parser {
 
   Limits limits_;
   const char* read_;
-  std::vector<std::uint32_t> open_;  // containers not yet closed
-  std::uint32_t closed_ = 0;         // the last that was
-  Characters key_;                   // of the next value
+  std::vector<std::uint32_t> open_;                               // containers not yet closed
+  std::uint32_t closed_ = 0;                                      // the last that was
+  Characters key_;                                                // of the next value
   std::vector<std::pair<std::string_view, std::uint32_t>> keys_;  // of the object being closed
   Document document_;
   ParseError error_;

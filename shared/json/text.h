@@ -35,8 +35,9 @@ char* write_double(char* to, double value);
 /// Quoted and escaped; bytes that are not UTF-8 become U+FFFD, so that the text stays JSON whatever comes.
 void append_string(std::string& out, std::string_view text);
 
-/// Foreign text as an error cites it: the first max_bytes, "..." for the rest; a "?" for every control character
-/// and every byte that is not UTF-8, so that an error stays one line and says nothing to a terminal.
+/// Foreign text as an error cites it: the first max_bytes, "..." for the rest; a "?" for every control
+/// character and every byte that is not UTF-8, so that an error stays one line and says nothing to a
+/// terminal.
 std::string shown(std::string_view text, std::size_t max_bytes = 64);
 
 }  // namespace woodlouse::json

@@ -12,8 +12,8 @@ namespace woodlouse::map {
 terrain::HeightGrid knots_of(const MapDefinition& definition);
 
 /// The definition as the loader reads it back, bit for bit: every field in place, defaults included, doubles
-/// in their shortest form. Heights stand in place, but for SurfaceKind::kFunction, which keeps its function, and a
-/// TiledTerrain, which keeps its file and names its fingerprint.
+/// in their shortest form. Heights stand in place, but for SurfaceKind::kFunction, which keeps its function,
+/// and a TiledTerrain, which keeps its file and names its fingerprint.
 std::string canonical_text(const MapDefinition& definition);
 
 }  // namespace woodlouse::map

@@ -21,8 +21,8 @@ void check_heights(const json::Value& value, const terrain::HeightGrid& grid, Pr
   const auto tell = [&](double apart, std::string_view first, std::string_view last, std::string_view hint) {
     if (apart <= most) return;
     problems.add(value,
-                 core::joined({"the heights of the ", first, " and the ", last, " differ by up to ", json::double_text(apart),
-                               " m: there would be a cliff at the seam"}),
+                 core::joined({"the heights of the ", first, " and the ", last, " differ by up to ",
+                               json::double_text(apart), " m: there would be a cliff at the seam"}),
                  std::string(hint));
   };
   tell(mismatch.x, "western", "eastern rim", "make the last column the first again");
@@ -39,13 +39,15 @@ void check_function(const json::Value& value, const FunctionTerrain& terrain, Pr
   double worst = 0.0;
   for (std::size_t k = 0; k <= 2 * terrain.grid; ++k) {
     const double t = static_cast<double>(k) / static_cast<double>(terrain.grid) - 1.0;
-    worst = std::max({worst, apart(unit.sample(-1.0, t), unit.sample(1.0, t)), apart(unit.sample(t, -1.0), unit.sample(t, 1.0))});
+    worst = std::max({worst, apart(unit.sample(-1.0, t), unit.sample(1.0, t)),
+                      apart(unit.sample(t, -1.0), unit.sample(t, 1.0))});
   }
   if (worst <= kSeamTolerance) return;
-  problems.add(value,
-               core::joined({"the function ", terrain::to_text(terrain.function),
-                             " does not repeat: height, slope or curvature jump from one rim to the opposite one"}),
-               "take the function waves, or heights whose last column and row are the first again");
+  problems.add(
+      value,
+      core::joined({"the function ", terrain::to_text(terrain.function),
+                    " does not repeat: height, slope or curvature jump from one rim to the opposite one"}),
+      "take the function waves, or heights whose last column and row are the first again");
 }
 
 }  // namespace
@@ -58,17 +60,20 @@ physics::Edges read_edges(const json::Value& value, const MapDefinition& definit
   }
   if (*edges == physics::Edges::kWalls) return *edges;
   if (definition.surface == SurfaceKind::kNaturalSpline) {
-    problems.add(value, "a natural spline has ends, and edges that wrap have none", "take the surface spline");
+    problems.add(value, "a natural spline has ends, and edges that wrap have none",
+                 "take the surface spline");
   }
   if (definition.physics.central_gravity != 0.0) {
-    problems.add(value, "central gravity jumps where the edges wrap", "leave central_gravity out, or take walls");
+    problems.add(value, "central gravity jumps where the edges wrap",
+                 "leave central_gravity out, or take walls");
   }
   if (const auto* grid = std::get_if<terrain::HeightGrid>(&definition.terrain)) {
     check_heights(value, *grid, problems);
   } else if (const auto* function = std::get_if<FunctionTerrain>(&definition.terrain)) {
     check_function(value, *function, problems);
   } else {
-    problems.add(value, "a terrain that is read tile by tile has no seams that could be checked", "take walls");
+    problems.add(value, "a terrain that is read tile by tile has no seams that could be checked",
+                 "take walls");
   }
   return *edges;
 }

@@ -9,7 +9,8 @@ namespace woodlouse::map {
 
 /// What `value` asks for. Wrapping is refused where something would break at the seam:
 ///     heights       the last column (row) is not the first again within 1e-9 of the heights' range
-///     a function    its height, gradient or Hessian differ by more than 1e-9 between opposite rims, at any knot there,
+///     a function    its height, gradient or Hessian differ by more than 1e-9 between opposite rims, at any
+///     knot there,
 ///                   on the unit square
 ///     natural ends, terrain read tile by tile, central gravity (the pull would jump)
 /// REQUIRES all else of the definition read.

@@ -49,8 +49,8 @@ std::optional<TerrainDefinition> read_whole(const terrain::HeightSource& heights
 }
 
 /// The survey, if the file is the one that the map names the fingerprint of.
-std::optional<HeightSurvey> survey(const Fields& fields, const TiledTerrain& terrain, const std::string& source,
-                                   Problems& problems) {
+std::optional<HeightSurvey> survey(const Fields& fields, const TiledTerrain& terrain,
+                                   const std::string& source, Problems& problems) {
   auto result = survey_heights(*terrain.heights, terrain.fill_level, source);
   if (!result) {
     problems.add(result.error());

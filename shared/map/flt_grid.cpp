@@ -21,8 +21,8 @@
 #include <utility>
 #include <vector>
 
-#include "shared/json/text.h"
 #include "shared/core/whole_file.h"
+#include "shared/json/text.h"
 
 namespace woodlouse::map {
 namespace {
@@ -249,7 +249,8 @@ core::Expected<FltHeader> parse_flt_header(std::string_view text, const std::str
 core::Expected<std::shared_ptr<const FltGrid>> FltGrid::open(const std::filesystem::path& file) {
   std::filesystem::path header_file = file;
   header_file.replace_extension(".hdr");
-  if (std::error_code error; std::filesystem::exists(file, error) && !std::filesystem::exists(header_file, error)) {
+  if (std::error_code error;
+      std::filesystem::exists(file, error) && !std::filesystem::exists(header_file, error)) {
     return core::fail(header_file.string(), "no such file",
                       "the header of " + file.filename().string() + "; gdal_translate -of EHdr writes both");
   }
@@ -260,8 +261,9 @@ core::Expected<std::shared_ptr<const FltGrid>> FltGrid::open(const std::filesyst
 
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0)
-    return core::fail(file.string(), std::string("can't be opened: ") + std::strerror(errno),
-                      "the heights that " + header_file.filename().string() + " describes; check the path and its rights");
+    return core::fail(
+        file.string(), std::string("can't be opened: ") + std::strerror(errno),
+        "the heights that " + header_file.filename().string() + " describes; check the path and its rights");
   std::shared_ptr<const FltGrid> grid(new FltGrid(*header, descriptor));  // owns the descriptor from here on
   const auto size = size_of(descriptor, file);
   if (!size) return tl::unexpected(size.error());
@@ -271,8 +273,8 @@ core::Expected<std::shared_ptr<const FltGrid>> FltGrid::open(const std::filesyst
                       "has " + std::to_string(*size) + " bytes, its header says " + std::to_string(expected),
                       "4 bytes for each of nrows * ncols heights; compare it with " + header_file.string());
   }
-  // A tile's rows lie far apart: without this the system reads 128 KB around each, and soon holds the whole file. Advice:
-  // where it is not taken, only that happens.
+  // A tile's rows lie far apart: without this the system reads 128 KB around each, and soon holds the whole
+  // file. Advice: where it is not taken, only that happens.
   static_cast<void>(::posix_fadvise(descriptor, 0, 0, POSIX_FADV_RANDOM));
   return grid;
 }

@@ -59,7 +59,9 @@ class FltGrid final : public terrain::HeightSource {
 
   [[nodiscard]] terrain::GridFrame frame() const override { return header_.frame; }
   void read(std::size_t column, std::size_t row, std::span<double> out) const override;
-  [[nodiscard]] std::uint64_t read_failures() const override { return read_failures_.load(std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t read_failures() const override {
+    return read_failures_.load(std::memory_order_relaxed);
+  }
 
  private:
   FltGrid(const FltHeader& header, int descriptor) : header_(header), descriptor_(descriptor) {}

@@ -22,7 +22,8 @@ std::size_t surveyed(std::size_t k, std::size_t count, std::size_t knots) {
 core::Expected<void> check_read(const terrain::HeightSource& heights, const std::vector<double>& found,
                                 const std::string& source) {
   if (heights.read_failures() != 0) {
-    return core::fail(source, "can't be read to its end", "check the disk, and that nobody is writing the file");
+    return core::fail(source, "can't be read to its end",
+                      "check the disk, and that nobody is writing the file");
   }
   if (std::none_of(found.begin(), found.end(), [](double z) { return std::isfinite(z); })) {
     return core::fail(source, "has no heights, only knots without data",

@@ -1,10 +1,11 @@
-// What is known of a big map without reading all of it: an overview of its heights, and a fingerprint that tells its
-// file from others.
+// What is known of a big map without reading all of it: an overview of its heights, and a fingerprint that
+// tells its file from others.
 //
-// Both come from the same rows, kOverviewSide of them at equal distances from the southern to the northern one (2.6 %
-// of the heights of 10,001 rows): their heights go into the fingerprint whole, every columns/256-th into the
-// overview. So a start costs 257 reads, not one of the whole file. A file that differs elsewhere alone passes for the
-// same here; a recording's state hashes still tell, as soon as a louse comes near the difference.
+// Both come from the same rows, kOverviewSide of them at equal distances from the southern to the northern
+// one (2.6 % of the heights of 10,001 rows): their heights go into the fingerprint whole, every
+// columns/256-th into the overview. So a start costs 257 reads, not one of the whole file. A file that
+// differs elsewhere alone passes for the same here; a recording's state hashes still tell, as soon as a louse
+// comes near the difference.
 #pragma once
 
 #include <cstddef>
@@ -21,13 +22,13 @@ inline constexpr std::size_t kOverviewSide = 257;  ///< knots each way at most
 
 struct HeightSurvey {
   std::uint64_t fingerprint = 0;  ///< XXH64 of columns, rows, spacings and the surveyed rows' heights
-  /// Over the whole domain, at most kOverviewSide knots each way; each has the height of the source's nearest knot,
-  /// to 1/1024 m. Without data: filled (fill_missing.h), so a drawing has no holes.
+  /// Over the whole domain, at most kOverviewSide knots each way; each has the height of the source's nearest
+  /// knot, to 1/1024 m. Without data: filled (fill_missing.h), so a drawing has no holes.
   terrain::HeightGrid overview;
 };
 
-/// fill_level [m]: where there are no data near. `source` names it in errors: rows that can't be read, no data at all
-/// where it was looked.
+/// fill_level [m]: where there are no data near. `source` names it in errors: rows that can't be read, no
+/// data at all where it was looked.
 core::Expected<HeightSurvey> survey_heights(const terrain::HeightSource& heights, double fill_level,
                                             const std::string& source);
 

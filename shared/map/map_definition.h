@@ -35,23 +35,24 @@ struct FunctionTerrain {
 
 /// A grid file that is not read whole: a surface is built where lice are (terrain/tiled_bspline.h).
 struct TiledTerrain {
-  std::string file;          ///< as the map names it, in the map's folder
-  double scale = 1.0;        ///< on lengths and heights alike; applied in what follows
-  double fill_level = 0.0;   ///< [m] deep inside regions without data
-  std::uint64_t fingerprint = 0;                          ///< height_survey.h
-  std::shared_ptr<const terrain::HeightSource> heights;   ///< any thread may read
-  terrain::HeightGrid overview;                           ///< height_survey.h
+  std::string file;               ///< as the map names it, in the map's folder
+  double scale = 1.0;             ///< on lengths and heights alike; applied in what follows
+  double fill_level = 0.0;        ///< [m] deep inside regions without data
+  std::uint64_t fingerprint = 0;  ///< height_survey.h
+  std::shared_ptr<const terrain::HeightSource> heights;  ///< any thread may read
+  terrain::HeightGrid overview;                          ///< height_survey.h
 };
 
 struct SpawnPoint {
   core::Vec2 position;           ///< [m], inside the domain
   core::Vec2 heading{1.0, 0.0};  ///< unit vector
-  double speed = 0.0;  ///< over the map, along the heading [m/s]
+  double speed = 0.0;            ///< over the map, along the heading [m/s]
 };
 
 struct MapDefinition {
   std::string name;
-  std::variant<FunctionTerrain, terrain::HeightGrid, TiledTerrain> terrain;  ///< heights are in metres, scale applied
+  std::variant<FunctionTerrain, terrain::HeightGrid, TiledTerrain>
+      terrain;  ///< heights are in metres, scale applied
   SurfaceKind surface = SurfaceKind::kSpline;
   physics::Parameters physics;
   std::vector<SpawnPoint> spawns;  ///< at least one
@@ -67,7 +68,8 @@ enum class Detail {
 struct Map {
   MapDefinition definition;
   Detail detail = Detail::kExact;
-  /// The definition as one line of JSON that the loader reads back to the same map; a tiled terrain's beside its file.
+  /// The definition as one line of JSON that the loader reads back to the same map; a tiled terrain's beside
+  /// its file.
   std::string canonical;
   std::uint64_t hash = 0;  ///< stable_hash(canonical)
   std::shared_ptr<const terrain::Terrain> terrain;

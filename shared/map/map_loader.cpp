@@ -5,11 +5,11 @@
 
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
-#include "shared/json/document.h"
-#include "shared/map/canonical_map.h"
-#include "shared/json/fields.h"
-#include "shared/map/map_reader.h"
 #include "shared/core/whole_file.h"
+#include "shared/json/document.h"
+#include "shared/json/fields.h"
+#include "shared/map/canonical_map.h"
+#include "shared/map/map_reader.h"
 
 namespace woodlouse::map {
 namespace {
@@ -21,7 +21,8 @@ constexpr std::size_t kMaxValues = 2 * kMaxKnots + 100'000;
 
 terrain::SplineEnds ends_of(const MapDefinition& definition) {
   if (definition.physics.edges == physics::Edges::kWrap) return terrain::SplineEnds::kPeriodic;
-  return definition.surface == SurfaceKind::kNaturalSpline ? terrain::SplineEnds::kNatural : terrain::SplineEnds::kNotAKnot;
+  return definition.surface == SurfaceKind::kNaturalSpline ? terrain::SplineEnds::kNatural
+                                                           : terrain::SplineEnds::kNotAKnot;
 }
 
 std::shared_ptr<const Map> build(MapDefinition definition) {
@@ -41,7 +42,8 @@ std::shared_ptr<const Map> build(MapDefinition definition) {
     const terrain::HeightGrid knots = knots_of(definition);
     const auto plane = terrain::plane_through(knots);
     map->terrain = std::make_shared<const terrain::Terrain>(
-        plane ? terrain::Terrain(*plane) : terrain::Terrain(terrain::BicubicSpline(knots, ends_of(definition))));
+        plane ? terrain::Terrain(*plane)
+              : terrain::Terrain(terrain::BicubicSpline(knots, ends_of(definition))));
   }
   map->definition = std::move(definition);
   return map;

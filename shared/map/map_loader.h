@@ -22,8 +22,8 @@ inline constexpr std::size_t kMaxKnots = 4'000'000;  ///< of one terrain
 core::Expected<std::shared_ptr<const Map>> parse_map(std::string_view text, std::string_view source,
                                                      const std::filesystem::path& folder);
 
-/// A big map as a client gets it: the text of its definition, which names a file that is not here, and an overview of
-/// that file's heights. Detail::kOverview; its hash is that of the text. Errors as above.
+/// A big map as a client gets it: the text of its definition, which names a file that is not here, and an
+/// overview of that file's heights. Detail::kOverview; its hash is that of the text. Errors as above.
 core::Expected<std::shared_ptr<const Map>> parse_overview(std::string_view text, std::string_view source,
                                                           const terrain::HeightGrid& overview);
 

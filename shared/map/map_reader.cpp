@@ -58,7 +58,8 @@ void read_choice(const Fields& fields, std::string_view key, E& out, FromText fr
 
 physics::Parameters read_physics(const json::Value& value, Problems& problems) {
   const Fields fields(value,
-                      {"gravity", "drag", "friction", "thrust_max", "edge_restitution", "central_gravity", "contact", "method"},
+                      {"gravity", "drag", "friction", "thrust_max", "edge_restitution", "central_gravity",
+                       "contact", "method"},
                       problems);
   physics::Parameters result;
   result.gravity = fields.number_or("gravity", kGravity, result.gravity);
@@ -68,10 +69,13 @@ physics::Parameters read_physics(const json::Value& value, Problems& problems) {
   result.edge_restitution = fields.number_or("edge_restitution", kEdgeRestitution, result.edge_restitution);
   // "+ 0.0" turns -0.0 into 0.0: the canonical text leaves both out, and must read back the same.
   result.central_gravity = fields.number_or("central_gravity", kCentralGravity, result.central_gravity) + 0.0;
-  read_choice(fields, "contact", result.contact, physics::contact_from_text, "bilateral or unilateral", problems);
-  read_choice(fields, "method", result.method, physics::method_from_text, "standard, cheap or precise", problems);
+  read_choice(fields, "contact", result.contact, physics::contact_from_text, "bilateral or unilateral",
+              problems);
+  read_choice(fields, "method", result.method, physics::method_from_text, "standard, cheap or precise",
+              problems);
   if (result.contact == physics::SurfaceContact::kUnilateral && result.central_gravity > 0.0) {
-    problems.add(*fields.find("contact"), "flight knows no pull but gravity's", "leave central_gravity out, or take bilateral");
+    problems.add(*fields.find("contact"), "flight knows no pull but gravity's",
+                 "leave central_gravity out, or take bilateral");
   }
   return result;
 }
@@ -128,7 +132,8 @@ std::vector<SpawnPoint> read_spawns(const json::Value& value, const terrain::Rec
 /// The domain the surface will have; a spline's last knot may lie an ulp off the function's square.
 terrain::Rectangle domain_of(const MapDefinition& definition) {
   if (const auto* grid = std::get_if<terrain::HeightGrid>(&definition.terrain)) return grid->domain();
-  if (const auto* tiled = std::get_if<TiledTerrain>(&definition.terrain)) return tiled->heights->frame().domain();
+  if (const auto* tiled = std::get_if<TiledTerrain>(&definition.terrain))
+    return tiled->heights->frame().domain();
   const auto& function = std::get<FunctionTerrain>(definition.terrain);
   if (definition.surface == SurfaceKind::kFunction) {
     return terrain::FunctionSurface(function.function, function.scale).domain();
@@ -170,7 +175,8 @@ std::vector<SpawnPoint> default_spawns(const terrain::Rectangle& domain) {
   return result;
 }
 
-std::optional<MapDefinition> read_definition(const json::Value& root, const GridPlace& place, Problems& problems) {
+std::optional<MapDefinition> read_definition(const json::Value& root, const GridPlace& place,
+                                             Problems& problems) {
   const Fields fields(root, {"name", "terrain", "surface", "edges", "physics", "spawns"}, problems);
   MapDefinition result;
   if (const auto name = fields.demand("name")) {
@@ -188,8 +194,10 @@ std::optional<MapDefinition> read_definition(const json::Value& root, const Grid
       problems.add(*surface, "\"function\" needs a terrain that names a function", "take spline");
       result.surface = SurfaceKind::kSpline;
     }
-    if (terrain && result.surface == SurfaceKind::kNaturalSpline && std::holds_alternative<TiledTerrain>(result.terrain)) {
-      problems.add(*surface, "natural ends need all heights at once, and this terrain is read tile by tile", "take spline");
+    if (terrain && result.surface == SurfaceKind::kNaturalSpline &&
+        std::holds_alternative<TiledTerrain>(result.terrain)) {
+      problems.add(*surface, "natural ends need all heights at once, and this terrain is read tile by tile",
+                   "take spline");
     }
   }
   if (const auto physics = fields.find("physics")) result.physics = read_physics(*physics, problems);
@@ -197,7 +205,8 @@ std::optional<MapDefinition> read_definition(const json::Value& root, const Grid
     result.physics.edges = read_edges(*edges, result, problems);
   }
 
-  // Without a terrain, or with an overview, which may end an ulp off, spawn points are checked for all but their place.
+  // Without a terrain, or with an overview, which may end an ulp off, spawn points are checked for all but
+  // their place.
   const double anywhere = kCoordinate.max;
   const terrain::Rectangle domain = terrain && !std::holds_alternative<terrain::HeightGrid>(place)
                                         ? domain_of(result)

@@ -12,7 +12,8 @@
 
 namespace woodlouse::map {
 
-/// Heights beyond +-`highest` [m] count as without data: nobody checks every height of a map that is not read whole.
+/// Heights beyond +-`highest` [m] count as without data: nobody checks every height of a map that is not read
+/// whole.
 class ScaledHeights final : public terrain::HeightSource {
  public:
   ScaledHeights(std::shared_ptr<const terrain::HeightSource> file, double scale, double highest)

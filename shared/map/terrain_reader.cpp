@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "shared/core/joined.h"
+#include "shared/core/whole_file.h"
 #include "shared/map/esri_ascii_grid.h"
 #include "shared/map/float_grid_reader.h"
 #include "shared/map/map_loader.h"
 #include "shared/map/terrain_ranges.h"
-#include "shared/core/whole_file.h"
 
 namespace woodlouse::map {
 namespace {
@@ -27,11 +27,13 @@ FunctionTerrain read_function(const json::Value& value, const json::Value& name,
   const Fields fields(value, {"function", "grid", "scale"}, problems);
   FunctionTerrain result;
   if (!name.is(json::Kind::kString)) {
-    problems.add(name, "the name of a function is wanted", "parabolic_pot, wavy_pot, volcano, hills or waves");
+    problems.add(name, "the name of a function is wanted",
+                 "parabolic_pot, wavy_pot, volcano, hills or waves");
   } else if (const auto function = terrain::function_from_text(name.text())) {
     result.function = *function;
   } else {
-    const std::string hint = did_you_mean(name.text(), {"parabolic_pot", "wavy_pot", "volcano", "hills", "waves"});
+    const std::string hint =
+        did_you_mean(name.text(), {"parabolic_pot", "wavy_pot", "volcano", "hills", "waves"});
     problems.add(name, "is no function we have",
                  hint.empty() ? "parabolic_pot, wavy_pot, volcano, hills or waves" : hint);
   }
@@ -69,7 +71,8 @@ std::optional<std::filesystem::path> grid_path(const json::Value& name, const st
   return folder / relative;
 }
 
-/// An ESRI ASCII grid, its middle laid at the origin: real-world coordinates would cost digits and help nobody.
+/// An ESRI ASCII grid, its middle laid at the origin: real-world coordinates would cost digits and help
+/// nobody.
 std::optional<HeightGrid> read_ascii_grid(const json::Value& value, const json::Value& name,
                                           const std::filesystem::path& path, Problems& problems) {
   const Fields fields(value, {"file", "scale"}, problems);
@@ -91,8 +94,10 @@ std::optional<HeightGrid> read_ascii_grid(const json::Value& value, const json::
   return grid;
 }
 
-/// In place of a big map's heights those of its overview. How steep it is is nobody's business: nothing runs on it.
-std::optional<TerrainDefinition> read_overview(const json::Value& value, const HeightGrid& overview, Problems& problems) {
+/// In place of a big map's heights those of its overview. How steep it is is nobody's business: nothing runs
+/// on it.
+std::optional<TerrainDefinition> read_overview(const json::Value& value, const HeightGrid& overview,
+                                               Problems& problems) {
   const bool is_whole = overview.columns >= kMinKnotsEachWay && overview.rows >= kMinKnotsEachWay &&
                         overview.heights.size() == overview.columns * overview.rows;
   const bool is_placed = within(overview.dx, kSpacing) && within(overview.dy, kSpacing) &&
@@ -100,13 +105,15 @@ std::optional<TerrainDefinition> read_overview(const json::Value& value, const H
   const bool is_flat_enough = std::all_of(overview.heights.begin(), overview.heights.end(),
                                           [](double height) { return within(height, kHeight); });
   if (is_whole && is_placed && is_flat_enough) return overview;
-  problems.add(value, "the overview that came with it has a number out of range", "use a client of the server's version");
+  problems.add(value, "the overview that came with it has a number out of range",
+               "use a client of the server's version");
   return std::nullopt;
 }
 
 std::optional<TerrainDefinition> read_grid_file(const json::Value& value, const json::Value& name,
                                                 const GridPlace& place, Problems& problems) {
-  if (const auto* overview = std::get_if<HeightGrid>(&place)) return read_overview(value, *overview, problems);
+  if (const auto* overview = std::get_if<HeightGrid>(&place))
+    return read_overview(value, *overview, problems);
   const auto path = grid_path(name, std::get<std::filesystem::path>(place), problems);
   if (!path) return std::nullopt;
   if (is_float_grid(*path)) return read_float_grid(value, *path, problems);
@@ -198,7 +205,8 @@ void check_grid(const json::Value& value, const HeightGrid& grid, Problems& prob
 
 }  // namespace
 
-std::optional<TerrainDefinition> read_terrain(const json::Value& value, const GridPlace& place, Problems& problems) {
+std::optional<TerrainDefinition> read_terrain(const json::Value& value, const GridPlace& place,
+                                              Problems& problems) {
   const std::size_t problems_before = problems.count();
   const auto function = value.find("function");
   const auto file = value.find("file");
@@ -206,8 +214,8 @@ std::optional<TerrainDefinition> read_terrain(const json::Value& value, const Gr
   const int ways = (function ? 1 : 0) + (file ? 1 : 0) + (heights ? 1 : 0);
   if (ways != 1) {
     const Fields fields(value,
-                        {"function", "grid", "scale", "file", "fill_level", "storage", "fingerprint", "origin", "spacing",
-                         "heights"},
+                        {"function", "grid", "scale", "file", "fill_level", "storage", "fingerprint",
+                         "origin", "spacing", "heights"},
                         problems);
     if (value.is(json::Kind::kObject)) {
       problems.add(value, core::joined({"exactly one of function, file and heights is wanted, not ",

@@ -13,11 +13,12 @@ namespace woodlouse::map {
 
 using TerrainDefinition = std::variant<FunctionTerrain, terrain::HeightGrid, TiledTerrain>;
 
-/// Where the heights of a grid file are: in the folder that the file is looked up in (an empty one allows none), or,
-/// for a map that came over a wire, in the overview that came with it.
+/// Where the heights of a grid file are: in the folder that the file is looked up in (an empty one allows
+/// none), or, for a map that came over a wire, in the overview that came with it.
 using GridPlace = std::variant<std::filesystem::path, terrain::HeightGrid>;
 
 /// Nothing, and at least one problem, when something is wrong.
-std::optional<TerrainDefinition> read_terrain(const json::Value& value, const GridPlace& place, Problems& problems);
+std::optional<TerrainDefinition> read_terrain(const json::Value& value, const GridPlace& place,
+                                              Problems& problems);
 
 }  // namespace woodlouse::map

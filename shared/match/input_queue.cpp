@@ -21,8 +21,9 @@ Filed InputQueue::file(const Input& input, std::uint64_t next_tick) {
   player.any = true;
   player.last_seq = input.seq;
   ++player.pending;
-  waiting_.emplace(Key{tick, input.player, input.seq},
-                   AppliedInput{input.player, input.seq, input.thrust.value, input.thrust.kind, input.ticks, tick});
+  waiting_.emplace(
+      Key{tick, input.player, input.seq},
+      AppliedInput{input.player, input.seq, input.thrust.value, input.thrust.kind, input.ticks, tick});
   return {Filed::Outcome::kFiled, tick, late};
 }
 

@@ -15,10 +15,10 @@ namespace woodlouse::match {
 /// A player's thrust as the wire brought it, checked and rounded (protocol/codec.h).
 struct Input {
   physics::LouseId player = 0;
-  std::uint32_t seq = 0;             ///< the player's own count, ascending
+  std::uint32_t seq = 0;  ///< the player's own count, ascending
   physics::Thrust thrust;
   std::uint32_t ticks = physics::kHeld;  ///< how long it acts; kHeld: until the next input
-  std::uint64_t wanted_tick = 0;     ///< the tick it asks for; 0, or one that is past: the next step takes it
+  std::uint64_t wanted_tick = 0;  ///< the tick it asks for; 0, or one that is past: the next step takes it
 };
 
 /// An input as a step applied it; what the hash covers (40 bytes, no padding, in this order).
@@ -36,11 +36,11 @@ static_assert(sizeof(AppliedInput) == 40);
 /// What became of an input that was filed.
 struct Filed {
   enum class Outcome {
-    kFiled,       ///< step `tick` will apply it
-    kStaleSeq,    ///< dropped: seq is not above the player's last one
-    kQueueFull,   ///< dropped: the player has kMaxPending inputs waiting
-    kTooFar,      ///< dropped: more than 2 s ahead
-    kNoLouse,     ///< dropped: the player has no louse
+    kFiled,      ///< step `tick` will apply it
+    kStaleSeq,   ///< dropped: seq is not above the player's last one
+    kQueueFull,  ///< dropped: the player has kMaxPending inputs waiting
+    kTooFar,     ///< dropped: more than 2 s ahead
+    kNoLouse,    ///< dropped: the player has no louse
   };
   Outcome outcome = Outcome::kFiled;
   std::uint64_t tick = 0;

@@ -33,9 +33,16 @@ std::unique_ptr<Match> Match::restore(std::shared_ptr<const map::Map> map, const
 
 MatchState Match::state() const {
   const auto lice = world_.lice();
-  return {tick_,           hash_,           link_.previous,      link_.inputs,
-          random_.state(), next_player_,    inputs_.players(),   inputs_.waiting(),
-          pending_roster_, {lice.begin(), lice.end()}};
+  return {tick_,
+          hash_,
+          link_.previous,
+          link_.inputs,
+          random_.state(),
+          next_player_,
+          inputs_.players(),
+          inputs_.waiting(),
+          pending_roster_,
+          {lice.begin(), lice.end()}};
 }
 
 bool Match::file_applied(const AppliedInput& input) {

@@ -20,8 +20,8 @@
 #include "shared/map/map_definition.h"
 #include "shared/match/input_queue.h"
 #include "shared/match/match_state.h"
-#include "shared/state/state_hash.h"
 #include "shared/physics/world.h"
+#include "shared/state/state_hash.h"
 
 namespace woodlouse::match {
 
@@ -35,23 +35,23 @@ using PlayerId = physics::LouseId;
 
 /// Everything one step did; with the header, all that a replay needs.
 struct StepRecord {
-  std::uint64_t tick = 0;                ///< n: the step led from tick n to n + 1
-  std::vector<RosterChange> roster;      ///< in the order applied
-  std::vector<AppliedInput> inputs;      ///< in the order applied
-  std::uint64_t hash = 0;                ///< of the state at tick n + 1
+  std::uint64_t tick = 0;            ///< n: the step led from tick n to n + 1
+  std::vector<RosterChange> roster;  ///< in the order applied
+  std::vector<AppliedInput> inputs;  ///< in the order applied
+  std::uint64_t hash = 0;            ///< of the state at tick n + 1
 };
 
 struct MatchSettings {
-  std::uint32_t tick_hz = 60;   ///< 1..1000
+  std::uint32_t tick_hz = 60;  ///< 1..1000
   std::uint64_t seed = 0;
 };
 
 class Match {
  public:
   Match(std::shared_ptr<const map::Map> map, const MatchSettings& settings);
-  /// The match that was in that state: every further call gives what it gave there, bit for bit. settings.seed
-  /// is kept for who asks; the generator goes on from the state. REQUIRES why_not(*map, settings, state) to be
-  /// empty (match_state.h).
+  /// The match that was in that state: every further call gives what it gave there, bit for bit.
+  /// settings.seed is kept for who asks; the generator goes on from the state. REQUIRES why_not(*map,
+  /// settings, state) to be empty (match_state.h).
   static std::unique_ptr<Match> restore(std::shared_ptr<const map::Map> map, const MatchSettings& settings,
                                         const MatchState& state);
   /// All of it, between two steps.

@@ -13,13 +13,15 @@ namespace {
 
 using core::joined;
 
-constexpr double kMaxSpeed = 1e6;     // [m/s]
-constexpr double kMaxHeight = 1e9;    // [m]
-constexpr double kMaxDistance = 1e15; // [m]
+constexpr double kMaxSpeed = 1e6;      // [m/s]
+constexpr double kMaxHeight = 1e9;     // [m]
+constexpr double kMaxDistance = 1e15;  // [m]
 
 bool is_within(double value, double limit) { return value >= -limit && value <= limit; }
 
-bool is_within(core::Vec2 value, double limit) { return is_within(value.x, limit) && is_within(value.y, limit); }
+bool is_within(core::Vec2 value, double limit) {
+  return is_within(value.x, limit) && is_within(value.y, limit);
+}
 
 /// Steps leave nobody outside, but for the last bit.
 bool is_on(const terrain::Rectangle& domain, core::Vec2 at) {
@@ -75,17 +77,19 @@ std::string fault_of_players(const MatchState& state) {
 std::string fault_of_waiting(const MatchState& state, std::uint64_t horizon) {
   const AppliedInput* before = nullptr;
   for (const AppliedInput& input : state.waiting) {
-    const std::string name =
-        joined({"the waiting input of player ", std::to_string(input.player), " seq ", std::to_string(input.seq)});
+    const std::string name = joined(
+        {"the waiting input of player ", std::to_string(input.player), " seq ", std::to_string(input.seq)});
     const auto key = [](const AppliedInput& i) { return std::tuple(i.tick, i.player, i.seq); };
     if (before != nullptr && key(*before) >= key(input)) return joined({name, " is out of order"});
     before = &input;
     if (input.tick < state.tick || input.tick - state.tick > horizon) {
       return joined({name, " is for tick ", std::to_string(input.tick)});
     }
-    const auto owner = std::lower_bound(state.players.begin(), state.players.end(), input.player,
-                                        [](const PlayerSeq& p, physics::LouseId id) { return p.player < id; });
-    if (owner == state.players.end() || owner->player != input.player) return joined({name, " has no player"});
+    const auto owner =
+        std::lower_bound(state.players.begin(), state.players.end(), input.player,
+                         [](const PlayerSeq& p, physics::LouseId id) { return p.player < id; });
+    if (owner == state.players.end() || owner->player != input.player)
+      return joined({name, " has no player"});
     if (owner->last_seq < input.seq) return joined({name, " has a seq above the player's last"});
   }
   return {};
@@ -99,9 +103,10 @@ std::string why_not(const map::Map& map, const MatchSettings& settings, const Ma
   if (fault.empty()) fault = fault_of_waiting(state, kHorizonSeconds * settings.tick_hz);
   if (!fault.empty()) return fault;
   if (state.tick == 0) {
-    const bool is_beginning = state.hash == 0 && state.previous == 0 && state.inputs == 0 && state.lice.empty() &&
-                              state.generator == settings.seed;
-    return is_beginning ? std::string() : "at tick 0 there are no lice and no hash, and the generator is the seed";
+    const bool is_beginning = state.hash == 0 && state.previous == 0 && state.inputs == 0 &&
+                              state.lice.empty() && state.generator == settings.seed;
+    return is_beginning ? std::string()
+                        : "at tick 0 there are no lice and no hash, and the generator is the seed";
   }
   core::StableHasher hasher;
   const std::uint64_t hash =

@@ -12,9 +12,12 @@ BatchStep find_avx512_step(BatchGround ground, const BatchForces& forces);
 
 const char* to_text(InstructionSet set) {
   switch (set) {
-    case InstructionSet::kAvx2: return "avx2";
-    case InstructionSet::kAvx512: return "avx512";
-    default: return "scalar";
+    case InstructionSet::kAvx2:
+      return "avx2";
+    case InstructionSet::kAvx512:
+      return "avx512";
+    default:
+      return "scalar";
   }
 }
 

@@ -1,9 +1,11 @@
-// Many lice at once: the step's common case in AVX-512 (8 lanes), AVX2 (4) or plain doubles (1), chosen at run time.
+// Many lice at once: the step's common case in AVX-512 (8 lanes), AVX2 (4) or plain doubles (1), chosen at
+// run time.
 //
-// The common case is a louse that moves, away from walls and seams, whose sub-steps stay above the cap and that does
-// not halt: Nystrom-4 steps. Whoever meets anything else is left where it was then, for the scalar step (stepper.h). The
-// lanes run the very templates of the scalar step (surface_motion.h, nystrom.h, sub_step_rules.h, terrain's evaluate_cell) in its
-// order, so that the bits are the same whichever way a louse was stepped.
+// The common case is a louse that moves, away from walls and seams, whose sub-steps stay above the cap and
+// that does not halt: Nystrom-4 steps. Whoever meets anything else is left where it was then, for the scalar
+// step (stepper.h). The lanes run the very templates of the scalar step (surface_motion.h, nystrom.h,
+// sub_step_rules.h, terrain's evaluate_cell) in its order, so that the bits are the same whichever way a
+// louse was stepped.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +13,10 @@
 #include <span>
 #include <vector>
 
-#include "shared/state/louse.h"
-#include "shared/state/parameters.h"
 #include "shared/physics/step_counters.h"
 #include "shared/physics/sub_step_rules.h"
+#include "shared/state/louse.h"
+#include "shared/state/parameters.h"
 #include "shared/terrain/bicubic_spline.h"
 
 namespace woodlouse::physics {
@@ -51,11 +53,12 @@ struct BatchContext {
   SubStepRules rules;
 };
 
-/// Steps lice[i] for each i of `moving`, none of them resting, through a tick, where the common case holds; the
-/// others are left where they were then, in lists.left.
+/// Steps lice[i] for each i of `moving`, none of them resting, through a tick, where the common case holds;
+/// the others are left where they were then, in lists.left.
 struct BatchStep {
   int width = 0;  ///< lanes; 0: no batched step
-  void (*advance)(const BatchContext&, Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists, StepCounters& counters) = nullptr;
+  void (*advance)(const BatchContext&, Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists,
+                  StepCounters& counters) = nullptr;
 };
 
 /// The grounds that have a batched step.

@@ -2,9 +2,10 @@
 // compiled for one instruction set. Everything here is inlined or depends on L, so that no code that another
 // file may share is compiled for it.
 //
-// A step is one long chain of operations that wait for each other: four accelerations and three samples. So a block
-// of lice goes through it stage by stage, the state between two stages in a few arrays that stay in the nearest
-// cache: within a stage the lice do not wait for each other, and the processor works on several at a time.
+// A step is one long chain of operations that wait for each other: four accelerations and three samples. So a
+// block of lice goes through it stage by stage, the state between two stages in a few arrays that stay in the
+// nearest cache: within a stage the lice do not wait for each other, and the processor works on several at a
+// time.
 //     load      fields of the lice, their drives; finds their cells and asks the memory for them
 //     sample, a1; the sub-step h; x2 and its cell
 //     sample, a2, a3; x4 and its cell
@@ -58,17 +59,25 @@ struct LaneFields {
 template <typename L, typename F, typename G>
 class LaneStepper {
  public:
-  explicit LaneStepper(const BatchContext& context) : context_(context), ground_(context), shortest_(context.tick / SubStepRules::kMaxSubSteps) {}
+  explicit LaneStepper(const BatchContext& context)
+      : context_(context), ground_(context), shortest_(context.tick / SubStepRules::kMaxSubSteps) {}
 
   /// See BatchStep.
-  void advance(Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists, StepCounters& counters) {
+  void advance(Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists,
+               StepCounters& counters) {
     lists.left.clear();
     lists.again.clear();
-    run(lice, moving.size(), [&](std::size_t i) { return LouseTick{moving[i], 0, context_.tick}; }, lists, counters);
+    run(
+        lice, moving.size(),
+        [&](std::size_t i) {
+          return LouseTick{moving[i], 0, context_.tick};
+        },
+        lists, counters);
     while (!lists.again.empty()) {
       lists.now.swap(lists.again);
       lists.again.clear();
-      run(lice, lists.now.size(), [&](std::size_t i) { return lists.now[i]; }, lists, counters);
+      run(
+          lice, lists.now.size(), [&](std::size_t i) { return lists.now[i]; }, lists, counters);
     }
   }
 
@@ -84,12 +93,12 @@ class LaneStepper {
     BasicDrive<L> drive;
     typename G::Place place;
     typename G::Sample s;
-    Pair<L> w;                      ///< velocity of the stage
+    Pair<L> w;  ///< velocity of the stage
     Pair<L> a1, a2, a3, a4, heading, thrust;
     L h, way, remaining;
-    L energy;                       ///< at the start; only where it is kept
+    L energy;  ///< at the start; only where it is kept
     BasicMotion<L> end;
-    unsigned active;    ///< lanes that hold a louse
+    unsigned active;  ///< lanes that hold a louse
     unsigned special;
     unsigned finished;
     Louse* lice[kCount];
@@ -135,35 +144,37 @@ class LaneStepper {
     const auto all = [&](auto stage) __attribute__((always_inline)) {
       for (std::size_t b = 0; b < batches; ++b) stage(batches_[b]);
     };
-    const auto sample = [this](Batch& batch) __attribute__((always_inline)) { batch.s = ground_.sample(batch.place); };
-    const auto accelerate = [this](Batch& batch, Pair<L>& a) __attribute__((always_inline)) {
+    const auto sample = [this](Batch & batch) __attribute__((always_inline)) {
+      batch.s = ground_.sample(batch.place);
+    };
+    const auto accelerate = [this](Batch & batch, Pair<L> & a) __attribute__((always_inline)) {
       a = acceleration<F>(batch.s, batch.w, batch.drive, context_.parameters);
     };
-    all([this](Batch& batch) __attribute__((always_inline)) { load(batch); });
+    all([this](Batch & batch) __attribute__((always_inline)) { load(batch); });
     all(sample);
-    all([&](Batch& batch) __attribute__((always_inline)) { accelerate(batch, batch.a1); });
-    all([this](Batch& batch) __attribute__((always_inline)) { depart(batch); });
+    all([&](Batch & batch) __attribute__((always_inline)) { accelerate(batch, batch.a1); });
+    all([this](Batch & batch) __attribute__((always_inline)) { depart(batch); });
     all(sample);
-    all([&](Batch& batch) __attribute__((always_inline)) {
+    all([&](Batch & batch) __attribute__((always_inline)) {
       accelerate(batch, batch.a2);
       batch.w = batch.start.velocity + (L(0.5) * batch.h) * batch.a2;
     });
-    all([&](Batch& batch) __attribute__((always_inline)) {
+    all([&](Batch & batch) __attribute__((always_inline)) {
       accelerate(batch, batch.a3);
       const L h = batch.h;
       batch.w = batch.start.velocity + h * batch.a3;
       ground_.locate(nystrom_last(batch.start, batch.a3, h), batch.place);
     });
     all(sample);
-    all([&](Batch& batch) __attribute__((always_inline)) {
+    all([&](Batch & batch) __attribute__((always_inline)) {
       accelerate(batch, batch.a4);
       arrive(batch);
     });
     if constexpr (kKeepsEnergy) {
       all(sample);
-      all([this](Batch& batch) __attribute__((always_inline)) { keep_energy(batch); });
+      all([this](Batch & batch) __attribute__((always_inline)) { keep_energy(batch); });
     }
-    all([this](Batch& batch) __attribute__((always_inline)) { write_back(batch); });
+    all([this](Batch & batch) __attribute__((always_inline)) { write_back(batch); });
   }
 
   [[gnu::always_inline]] inline void load(Batch& batch) {
@@ -187,10 +198,13 @@ class LaneStepper {
       return;
     }
     unsigned along = 0;
-    for (std::size_t l = 0; l < kCount; ++l) along |= (batch.lice[l]->thrust_kind == ThrustKind::kAlongHeading ? 1u : 0u) << l;
+    for (std::size_t l = 0; l < kCount; ++l)
+      along |= (batch.lice[l]->thrust_kind == ThrustKind::kAlongHeading ? 1u : 0u) << l;
     const auto is_along = L::Mask::of(along);
     const Pair<L> thrust = batch.thrust;
-    batch.drive = drive_of_map_vector(Pair<L>{select(is_along, L(0.0), thrust.x), select(is_along, L(0.0), thrust.y)}, context_.parameters.thrust_max);
+    batch.drive =
+        drive_of_map_vector(Pair<L>{select(is_along, L(0.0), thrust.x), select(is_along, L(0.0), thrust.y)},
+                            context_.parameters.thrust_max);
     batch.drive.along = select(is_along, thrust.x, L(0.0)) * L(context_.parameters.thrust_max);
   }
 
@@ -203,8 +217,8 @@ class LaneStepper {
     const L speed2 = squared_length_in_space(s, v);
     const L speed = square_root(speed2);
     const terrain::Rectangle& interior = context_.interior;
-    auto special = ~(speed2 > L(kStandstill2)) |
-        ~((x.x > L(interior.x_min)) & (x.x < L(interior.x_max)) & (x.y > L(interior.y_min)) & (x.y < L(interior.y_max)));
+    auto special = ~(speed2 > L(kStandstill2)) | ~((x.x > L(interior.x_min)) & (x.x < L(interior.x_max)) &
+                                                   (x.y > L(interior.y_min)) & (x.y < L(interior.y_max)));
     L h = batch.remaining;
     auto too_long = context_.rules.too_long(s, speed2, h);
     for (auto cut = too_long & (h > L(shortest_)); any(cut); cut = too_long & (h > L(shortest_))) {
@@ -241,7 +255,8 @@ class LaneStepper {
 
   [[gnu::always_inline]] inline typename L::Mask inside(Pair<L> x) const {
     const terrain::Rectangle& interior = context_.interior;
-    return (x.x >= L(interior.x_min)) & (x.x <= L(interior.x_max)) & (x.y >= L(interior.y_min)) & (x.y <= L(interior.y_max));
+    return (x.x >= L(interior.x_min)) & (x.x <= L(interior.x_max)) & (x.y >= L(interior.y_min)) &
+           (x.y <= L(interior.y_max));
   }
 
   [[gnu::always_inline]] inline void arrive(Batch& batch) {
@@ -295,24 +310,29 @@ class LaneStepper {
 };
 
 template <typename L, typename F, typename G>
-void advance_lanes(const BatchContext& context, Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists, StepCounters& counters) {
+void advance_lanes(const BatchContext& context, Louse* lice, std::span<const std::uint32_t> moving,
+                   BatchLists& lists, StepCounters& counters) {
   LaneStepper<L, F, G>(context).advance(lice, moving, lists, counters);
 }
 
 template <typename L, typename G>
 BatchStep choose_kernel(const BatchForces& forces) {
-  constexpr BatchStep kKernels[8] = {
-      {L::kCount, advance_lanes<L, Forces<false, false, false>, G>}, {L::kCount, advance_lanes<L, Forces<false, false, true>, G>},
-      {L::kCount, advance_lanes<L, Forces<false, true, false>, G>},  {L::kCount, advance_lanes<L, Forces<false, true, true>, G>},
-      {L::kCount, advance_lanes<L, Forces<true, false, false>, G>},  {L::kCount, advance_lanes<L, Forces<true, false, true>, G>},
-      {L::kCount, advance_lanes<L, Forces<true, true, false>, G>},   {L::kCount, advance_lanes<L, Forces<true, true, true>, G>}};
+  constexpr BatchStep kKernels[8] = {{L::kCount, advance_lanes<L, Forces<false, false, false>, G>},
+                                     {L::kCount, advance_lanes<L, Forces<false, false, true>, G>},
+                                     {L::kCount, advance_lanes<L, Forces<false, true, false>, G>},
+                                     {L::kCount, advance_lanes<L, Forces<false, true, true>, G>},
+                                     {L::kCount, advance_lanes<L, Forces<true, false, false>, G>},
+                                     {L::kCount, advance_lanes<L, Forces<true, false, true>, G>},
+                                     {L::kCount, advance_lanes<L, Forces<true, true, false>, G>},
+                                     {L::kCount, advance_lanes<L, Forces<true, true, true>, G>}};
   return kKernels[(forces.drag ? 4 : 0) + (forces.friction ? 2 : 0) + (forces.thrust ? 1 : 0)];
 }
 
 /// The kernel for a map's ground and forces.
 template <typename L>
 BatchStep choose_kernel(BatchGround ground, const BatchForces& forces) {
-  return ground == BatchGround::kPlane ? choose_kernel<L, PlaneLanes<L>>(forces) : choose_kernel<L, SplineLanes<L>>(forces);
+  return ground == BatchGround::kPlane ? choose_kernel<L, PlaneLanes<L>>(forces)
+                                       : choose_kernel<L, SplineLanes<L>>(forces);
 }
 
 }  // namespace woodlouse::physics

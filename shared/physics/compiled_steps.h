@@ -12,12 +12,15 @@
 
 namespace woodlouse::physics {
 
-/// What is sampled in a call: the ground itself, but for big maps, where it remembers the tiles the call was in.
+/// What is sampled in a call: the ground itself, but for big maps, where it remembers the tiles the call was
+/// in.
 template <typename S>
 const S& surface_of(const S& ground) {
   return ground;
 }
-inline terrain::TiledBSpline surface_of(const terrain::TiledGround& ground) { return terrain::TiledBSpline(ground); }
+inline terrain::TiledBSpline surface_of(const terrain::TiledGround& ground) {
+  return terrain::TiledBSpline(ground);
+}
 
 template <terrain::Surface S, typename F, typename I>
 class CompiledSteps final : public GroundSteps {
@@ -42,10 +45,12 @@ class CompiledSteps final : public GroundSteps {
  private:
   using Surface = std::remove_cvref_t<decltype(surface_of(std::declval<const S&>()))>;
   using OneStepper = Stepper<Surface, F, SurfaceEquations, I>;
-  static constexpr bool kHasLanes = std::is_same_v<S, terrain::BicubicSpline> || std::is_same_v<S, terrain::PlaneSurface>;
+  static constexpr bool kHasLanes =
+      std::is_same_v<S, terrain::BicubicSpline> || std::is_same_v<S, terrain::PlaneSurface>;
 
-  void advance_batched(const OneStepper& stepper, std::span<Louse> lice, std::span<const std::uint32_t> moving,
-                       const BatchStep& batch, BatchLists& lists, StepCounters& counters) const {
+  void advance_batched(const OneStepper& stepper, std::span<Louse> lice,
+                       std::span<const std::uint32_t> moving, const BatchStep& batch, BatchLists& lists,
+                       StepCounters& counters) const {
     // Whoever leaves the interior takes the scalar step, which knows of walls and seams.
     const terrain::Rectangle interior = Rim(rules_.walls, rules_.parameters.edges).interior();
     BatchContext context{{}, {}, rules_.parameters, interior, rules_.tick, stepper.rules()};
@@ -72,19 +77,22 @@ std::unique_ptr<const GroundSteps> with_forces(const S& ground, const StepRules&
   const auto make = [&]<typename F>(F) -> std::unique_ptr<const GroundSteps> {
     return std::make_unique<const CompiledSteps<S, F, I>>(ground, rules);
   };
-  if (p.central_gravity > 0.0) return make(Forces<true, true, true, true>{});  // what is 0 of the others does nothing
+  if (p.central_gravity > 0.0)
+    return make(Forces<true, true, true, true>{});  // what is 0 of the others does nothing
   const auto choose_thrust = [&]<bool kDrag, bool kFriction>() {
-    return p.thrust_max > 0.0 ? make(Forces<kDrag, kFriction, true>{}) : make(Forces<kDrag, kFriction, false>{});
+    return p.thrust_max > 0.0 ? make(Forces<kDrag, kFriction, true>{})
+                              : make(Forces<kDrag, kFriction, false>{});
   };
   const auto choose_friction = [&]<bool kDrag>() {
     return p.friction > 0.0 ? choose_thrust.template operator()<kDrag, true>()
                             : choose_thrust.template operator()<kDrag, false>();
   };
-  return p.drag > 0.0 ? choose_friction.template operator()<true>() : choose_friction.template operator()<false>();
+  return p.drag > 0.0 ? choose_friction.template operator()<true>()
+                      : choose_friction.template operator()<false>();
 }
 
-/// The same with fewer choices, for what is rarely run: friction, which has rules of its own, is compiled out, and
-/// all of them where energy is kept.
+/// The same with fewer choices, for what is rarely run: friction, which has rules of its own, is compiled
+/// out, and all of them where energy is kept.
 template <typename I, typename S>
 std::unique_ptr<const GroundSteps> with_main_forces(const S& ground, const StepRules& rules) {
   if (rules.parameters.central_gravity > 0.0) {
@@ -99,13 +107,17 @@ std::unique_ptr<const GroundSteps> with_main_forces(const S& ground, const StepR
   return std::make_unique<const CompiledSteps<S, Forces<true, false, true>, I>>(ground, rules);
 }
 
-/// For the grounds of most maps: the default method in every combination of forces, the others in the main ones.
+/// For the grounds of most maps: the default method in every combination of forces, the others in the main
+/// ones.
 template <typename S>
 std::unique_ptr<const GroundSteps> steps_with_every_force(const S& ground, const StepRules& rules) {
   switch (rules.parameters.method) {
-    case Method::kCheap: return with_main_forces<VerletQ>(ground, rules);
-    case Method::kPrecise: return with_main_forces<Precise>(ground, rules);
-    case Method::kStandard: break;
+    case Method::kCheap:
+      return with_main_forces<VerletQ>(ground, rules);
+    case Method::kPrecise:
+      return with_main_forces<Precise>(ground, rules);
+    case Method::kStandard:
+      break;
   }
   return with_forces<Nystrom4>(ground, rules);
 }

@@ -1,16 +1,17 @@
-// Energy kept by projection, where nothing but gravity acts: the end of a step is moved, by the little that the
-// integrator erred, to the energy that it started with.
+// Energy kept by projection, where nothing but gravity acts: the end of a step is moved, by the little that
+// the integrator erred, to the energy that it started with.
 //
 //     E(x, v) = |v|3^2 / 2 + g z,   A = dE/dv = v + vz G,   B = dE/dx = g G + vz H v,   both per unit mass
-//     along G:   v -= lambda (A.G) G,   x -= lambda h^2 (B.G) G,   lambda = (E - E0) / ((A.G)^2 + h^2 (B.G)^2)
-//     nearest:   v -= lambda A,         x -= lambda h^2 B,         lambda = (E - E0) / (A.A + h^2 B.B)
-// One step of Newton's method; h weighs a metre against a metre per second. The force acts along G, and so does the
-// correction where that way is about as short as the nearest: what a symmetric terrain conserves besides (the velocity
-// along a gutter, the angular momentum in a bowl) is left alone.
+//     along G:   v -= lambda (A.G) G,   x -= lambda h^2 (B.G) G,   lambda = (E - E0) / ((A.G)^2 + h^2
+//     (B.G)^2) nearest:   v -= lambda A,         x -= lambda h^2 B,         lambda = (E - E0) / (A.A + h^2
+//     B.B)
+// One step of Newton's method; h weighs a metre against a metre per second. The force acts along G, and so
+// does the correction where that way is about as short as the nearest: what a symmetric terrain conserves
+// besides (the velocity along a gutter, the angular momentum in a bowl) is left alone.
 //
-// It acts only where the energy errs by more than a small share a second: there it keeps errors from adding up over
-// thousands of waves, while on smooth ground the integrator's own small error is better than any correction.
-// Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, IV.4.
+// It acts only where the energy errs by more than a small share a second: there it keeps errors from adding
+// up over thousands of waves, while on smooth ground the integrator's own small error is better than any
+// correction. Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, IV.4.
 //
 // + - * / only, in the order written. T: double, or several at once (core/lanes.h).
 #pragma once
@@ -44,17 +45,18 @@ struct EnergyKept {
 
 /// `end`, moved to the energy `energy0`; s: the surface at end; h: the step's length.
 template <typename T>
-[[gnu::always_inline]] inline EnergyKept<T> with_energy(T energy0, const BasicSurfaceSample<T>& s, const BasicMotion<T>& end, T h,
-                                                        double gravity) {
+[[gnu::always_inline]] inline EnergyKept<T> with_energy(T energy0, const BasicSurfaceSample<T>& s,
+                                                        const BasicMotion<T>& end, T h, double gravity) {
   using core::select;
   using Truth = decltype(T{} < T{});
   const Pair<T> v = end.velocity;
   const Pair<T> gradient{s.zx, s.zy};
   const T gradient2 = dot(gradient, gradient);
   const T vz = dot(gradient, v);
-  const Pair<T> by_velocity{v.x + vz * s.zx, v.y + vz * s.zy};                     // A
+  const Pair<T> by_velocity{v.x + vz * s.zx, v.y + vz * s.zy};  // A
   const Pair<T> turned = curvature_times(s, v);
-  const Pair<T> by_place{h * (T(gravity) * s.zx + vz * turned.x), h * (T(gravity) * s.zy + vz * turned.y)};  // h B
+  const Pair<T> by_place{h * (T(gravity) * s.zx + vz * turned.x),
+                         h * (T(gravity) * s.zy + vz * turned.y)};  // h B
   const T speed2 = dot(v, v) + vz * vz;
   const T excess = T(0.5) * speed2 + T(gravity) * s.z - energy0;
   const T excess2 = excess * excess;
@@ -69,13 +71,16 @@ template <typename T>
   const T slope_along = v_share * v_share + x_share * x_share;
   const Truth along = slope_along > T(0.5) * gradient2 * nearest;  // at most sqrt(2) times as long
   const T slope = select(along, slope_along, nearest);
-  const T scale2 = dot(v, v) + h * h * (T(gravity * gravity) * gradient2);  // what v is, and what gravity makes of it in h
+  const T scale2 =
+      dot(v, v) + h * h * (T(gravity * gravity) * gradient2);  // what v is, and what gravity makes of it in h
   constexpr double kFar = 1e-3;
   const Truth near = excess2 < T(kFar * kFar) * nearest * scale2;
   const Truth moves = near & errs;
   const T lambda = select(moves, excess / select(moves, slope, T(1.0)), T(0.0));
-  const Pair<T> dv{select(along, v_share * gradient.x, by_velocity.x), select(along, v_share * gradient.y, by_velocity.y)};
-  const Pair<T> dx{select(along, x_share * gradient.x, by_place.x), select(along, x_share * gradient.y, by_place.y)};
+  const Pair<T> dv{select(along, v_share * gradient.x, by_velocity.x),
+                   select(along, v_share * gradient.y, by_velocity.y)};
+  const Pair<T> dx{select(along, x_share * gradient.x, by_place.x),
+                   select(along, x_share * gradient.y, by_place.y)};
   return {{end.position - (lambda * h) * dx, v - lambda * dv}, static_cast<Truth>(near | is_kept)};
 }
 

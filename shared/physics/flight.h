@@ -15,9 +15,9 @@
 #include <cmath>
 
 #include "shared/physics/nystrom.h"
-#include "shared/state/parameters.h"
 #include "shared/physics/rim.h"
 #include "shared/physics/surface_motion.h"
+#include "shared/state/parameters.h"
 #include "shared/terrain/surface.h"
 
 namespace woodlouse::physics {
@@ -52,12 +52,15 @@ template <terrain::Surface S>
 class Flyer {
  public:
   Flyer(const S& surface, const Parameters& parameters, const Rim& rim, double tick)
-      : surface_(surface), parameters_(parameters), rim_(rim), longest_(std::isfinite(surface.cell()) ? tick : tick / 32.0) {}
+      : surface_(surface),
+        parameters_(parameters),
+        rim_(rim),
+        longest_(std::isfinite(surface.cell()) ? tick : tick / 32.0) {}
 
   struct Piece {
-    double time = 0.0;    ///< [s], > 0
-    bool landed = false;  ///< the flight is at the ground: take landed_velocity there
-    bool bounced = false; ///< off a wall
+    double time = 0.0;     ///< [s], > 0
+    bool landed = false;   ///< the flight is at the ground: take landed_velocity there
+    bool bounced = false;  ///< off a wall
   };
 
   /// Flies on for at most `remaining` seconds, up to a landing, a wall or the end of a piece.
@@ -108,7 +111,9 @@ class Flyer {
  private:
   [[nodiscard]] Flight after(const Flight& f, double t) const {
     const double g = parameters_.gravity;
-    return {{f.over.position + t * f.over.velocity, f.over.velocity}, f.height + t * f.climb - 0.5 * g * t * t, f.climb - g * t};
+    return {{f.over.position + t * f.over.velocity, f.over.velocity},
+            f.height + t * f.climb - 0.5 * g * t * t,
+            f.climb - g * t};
   }
 
   [[nodiscard]] double clearance(const Flight& f) const {

@@ -1,14 +1,15 @@
-// What acts on a louse at a place: the surface's sample there, the equations E with the map's forces F, and the walls
-// that it leans on. An integrator (integrators.h) asks for it through a Field, one for each sub-step.
+// What acts on a louse at a place: the surface's sample there, the equations E with the map's forces F, and
+// the walls that it leans on. An integrator (integrators.h) asks for it through a Field, one for each
+// sub-step.
 #pragma once
 
 #include <type_traits>
 #include <utility>
 
 #include "shared/physics/nystrom.h"
-#include "shared/state/parameters.h"
 #include "shared/physics/surface_motion.h"
 #include "shared/physics/walls.h"
+#include "shared/state/parameters.h"
 #include "shared/terrain/surface.h"
 
 namespace woodlouse::physics {
@@ -47,18 +48,19 @@ class Ground {
     }
   }
 
-  [[nodiscard, gnu::always_inline]] inline Site site(core::Vec2 x) const { return site_of(surface_.sample(x.x, x.y), x); }
+  [[nodiscard, gnu::always_inline]] inline Site site(core::Vec2 x) const {
+    return site_of(surface_.sample(x.x, x.y), x);
+  }
 
-  [[nodiscard, gnu::always_inline]] inline core::Vec2 accelerate(const Site& s, core::Vec2 v, const Drive& drive,
-                                                                 Contact contact) const {
+  [[nodiscard, gnu::always_inline]] inline core::Vec2 accelerate(const Site& s, core::Vec2 v,
+                                                                 const Drive& drive, Contact contact) const {
     const core::Vec2 a = E::template acceleration<F>(s, v, drive_at(s, drive), parameters_);
     return contact.any() ? supported(s, contact, a) : a;
   }
 
   /// v after the implicit half kick v' = v + k a(s, v').
-  [[nodiscard]] core::Vec2 kick(const Site& s, core::Vec2 v, double k, const Drive& drive, Contact contact) const
-    requires E::kExact
-  {
+  [[nodiscard]] core::Vec2 kick(const Site& s, core::Vec2 v, double k, const Drive& drive,
+                                Contact contact) const requires E::kExact {
     const core::Vec2 kicked = implicit_kick<F>(s, v, k, drive_at(s, drive), parameters_);
     return contact.any() ? bounced(s, contact, kicked, 0.0) : kicked;
   }
@@ -99,7 +101,8 @@ struct Field {
   [[nodiscard, gnu::always_inline]] inline auto at(const typename Ground::Sample& s, core::Vec2 x) const {
     return ground.site_of(s, x);
   }
-  [[nodiscard, gnu::always_inline]] inline core::Vec2 accelerate(const typename Ground::Site& s, core::Vec2 v) const {
+  [[nodiscard, gnu::always_inline]] inline core::Vec2 accelerate(const typename Ground::Site& s,
+                                                                 core::Vec2 v) const {
     return ground.accelerate(s, v, drive, start.contact);
   }
   [[nodiscard]] core::Vec2 kick(const typename Ground::Site& s, core::Vec2 v, double k) const {

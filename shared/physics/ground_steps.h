@@ -1,5 +1,6 @@
-// The steps on one kind of ground behind one indirect call per tick: each kind is compiled in a file of its own
-// (steps_on_*.cpp, from compiled_steps.h), so that they build side by side and the world knows none of them.
+// The steps on one kind of ground behind one indirect call per tick: each kind is compiled in a file of its
+// own (steps_on_*.cpp, from compiled_steps.h), so that they build side by side and the world knows none of
+// them.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +8,9 @@
 #include <span>
 
 #include "shared/physics/batch.h"
+#include "shared/physics/step_counters.h"
 #include "shared/state/louse.h"
 #include "shared/state/parameters.h"
-#include "shared/physics/step_counters.h"
 #include "shared/terrain/terrain.h"
 
 namespace woodlouse::physics {
@@ -22,8 +23,9 @@ class GroundSteps {
   GroundSteps& operator=(const GroundSteps&) = delete;
   virtual ~GroundSteps() = default;
 
-  /// Moves lice[moving[0]], lice[moving[1]], ..., none of them resting, through one tick. batch: for as many at
-  /// once as it can; width 0: none, and so REQUIRED of every ground but the bicubic spline and the plane. lists: room for it.
+  /// Moves lice[moving[0]], lice[moving[1]], ..., none of them resting, through one tick. batch: for as many
+  /// at once as it can; width 0: none, and so REQUIRED of every ground but the bicubic spline and the plane.
+  /// lists: room for it.
   virtual void advance(std::span<Louse> lice, std::span<const std::uint32_t> moving, const BatchStep& batch,
                        BatchLists& lists, StepCounters& counters) const = 0;
   /// Whether friction, brake and walls hold this louse where it is.
@@ -37,9 +39,13 @@ struct StepRules {
   double tick = 0.0;  ///< [s]
 };
 
-std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::BicubicSpline& ground, const StepRules& rules);
-std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::FunctionSurface& ground, const StepRules& rules);
-std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::TiledGround& ground, const StepRules& rules);
-std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::PlaneSurface& ground, const StepRules& rules);
+std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::BicubicSpline& ground,
+                                                     const StepRules& rules);
+std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::FunctionSurface& ground,
+                                                     const StepRules& rules);
+std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::TiledGround& ground,
+                                                     const StepRules& rules);
+std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::PlaneSurface& ground,
+                                                     const StepRules& rules);
 
 }  // namespace woodlouse::physics

@@ -5,10 +5,10 @@
 //     field.kick(s, v, k)         v after the implicit half kick v' = v + k a(s, v')
 // A step says how much of h it used: all, or up to where it chose to stop.
 //
-// kSubSteps: whether the sub-step rules and the friction stop apply (stepper.h); the document's Euler methods run
-// bare, as printed. kKeepsEnergy: whether the ends of its steps are projected where nothing but gravity acts
-// (energy_projection.h); the others show what they do by themselves. Orders are for smooth surfaces; a C2 spline caps them at about 2 where a step crosses a knot
-// line, which `Precise` cures.
+// kSubSteps: whether the sub-step rules and the friction stop apply (stepper.h); the document's Euler methods
+// run bare, as printed. kKeepsEnergy: whether the ends of its steps are projected where nothing but gravity
+// acts (energy_projection.h); the others show what they do by themselves. Orders are for smooth surfaces; a
+// C2 spline caps them at about 2 where a step crosses a knot line, which `Precise` cures.
 #pragma once
 
 #include "shared/physics/nystrom.h"
@@ -113,7 +113,8 @@ struct Nystrom4 {
   }
 };
 
-/// Dormand and Prince's fifth-order formula at a fixed step (J. Comput. Appl. Math. 6, 1980), six surface calls.
+/// Dormand and Prince's fifth-order formula at a fixed step (J. Comput. Appl. Math. 6, 1980), six surface
+/// calls.
 struct DormandPrince5 {
   static constexpr bool kSubSteps = true;
   static constexpr bool kKeepsEnergy = false;
@@ -122,24 +123,28 @@ struct DormandPrince5 {
     const core::Vec2 x = start.at.position;
     const core::Vec2 v = start.at.velocity;
     const core::Vec2 a1 = start.acceleration;
-    const auto at = [&](core::Vec2 dx, core::Vec2 w) { return field.accelerate(field.sample(x + h * dx), w); };
+    const auto at = [&](core::Vec2 dx, core::Vec2 w) {
+      return field.accelerate(field.sample(x + h * dx), w);
+    };
     const core::Vec2 v2 = v + (h / 5.0) * a1;
     const core::Vec2 a2 = at(0.2 * v, v2);
     const core::Vec2 v3 = v + h * ((3.0 / 40.0) * a1 + (9.0 / 40.0) * a2);
     const core::Vec2 a3 = at((3.0 / 40.0) * v + (9.0 / 40.0) * v2, v3);
     const core::Vec2 v4 = v + h * ((44.0 / 45.0) * a1 - (56.0 / 15.0) * a2 + (32.0 / 9.0) * a3);
     const core::Vec2 a4 = at((44.0 / 45.0) * v - (56.0 / 15.0) * v2 + (32.0 / 9.0) * v3, v4);
-    const core::Vec2 v5 = v + h * ((19372.0 / 6561.0) * a1 - (25360.0 / 2187.0) * a2 + (64448.0 / 6561.0) * a3 -
-                                   (212.0 / 729.0) * a4);
-    const core::Vec2 a5 = at((19372.0 / 6561.0) * v - (25360.0 / 2187.0) * v2 + (64448.0 / 6561.0) * v3 -
-                                 (212.0 / 729.0) * v4, v5);
+    const core::Vec2 v5 = v + h * ((19372.0 / 6561.0) * a1 - (25360.0 / 2187.0) * a2 +
+                                   (64448.0 / 6561.0) * a3 - (212.0 / 729.0) * a4);
+    const core::Vec2 a5 =
+        at((19372.0 / 6561.0) * v - (25360.0 / 2187.0) * v2 + (64448.0 / 6561.0) * v3 - (212.0 / 729.0) * v4,
+           v5);
     const core::Vec2 v6 = v + h * ((9017.0 / 3168.0) * a1 - (355.0 / 33.0) * a2 + (46732.0 / 5247.0) * a3 +
                                    (49.0 / 176.0) * a4 - (5103.0 / 18656.0) * a5);
     const core::Vec2 a6 = at((9017.0 / 3168.0) * v - (355.0 / 33.0) * v2 + (46732.0 / 5247.0) * v3 +
-                                 (49.0 / 176.0) * v4 - (5103.0 / 18656.0) * v5, v6);
+                                 (49.0 / 176.0) * v4 - (5103.0 / 18656.0) * v5,
+                             v6);
     const auto sum = [&](core::Vec2 k1, core::Vec2 k3, core::Vec2 k4, core::Vec2 k5, core::Vec2 k6) {
-      return h * ((35.0 / 384.0) * k1 + (500.0 / 1113.0) * k3 + (125.0 / 192.0) * k4 - (2187.0 / 6784.0) * k5 +
-                  (11.0 / 84.0) * k6);
+      return h * ((35.0 / 384.0) * k1 + (500.0 / 1113.0) * k3 + (125.0 / 192.0) * k4 -
+                  (2187.0 / 6784.0) * k5 + (11.0 / 84.0) * k6);
     };
     return {{x + sum(v, v3, v4, v5, v6), v + sum(a1, a3, a4, a5, a6)}, h};
   }

@@ -1,5 +1,5 @@
-// The grounds of a batched step over a lane type L: where lanes are on them, and the sample there. Under the rules of
-// batch_kernel.h.
+// The grounds of a batched step over a lane type L: where lanes are on them, and the sample there. Under the
+// rules of batch_kernel.h.
 #pragma once
 
 #include "shared/physics/batch.h"
@@ -58,7 +58,8 @@ class PlaneLanes {
   using Sample = BasicSlopeSample<L>;
   struct Place {};
 
-  explicit PlaneLanes(const BatchContext& context) : sample_{L(0.0), L(context.slope.x), L(context.slope.y)} {}
+  explicit PlaneLanes(const BatchContext& context)
+      : sample_{L(0.0), L(context.slope.x), L(context.slope.y)} {}
 
   [[gnu::always_inline]] inline void locate(Pair<L>, Place&) const {}
   [[gnu::always_inline]] inline Sample sample(Place) const { return sample_; }

@@ -21,7 +21,8 @@ using Motion = BasicMotion<double>;
 
 /// x2, where a2 and a3 are taken.
 template <typename T>
-[[gnu::always_inline]] inline core::Pair<T> nystrom_middle(const BasicMotion<T>& start, core::Pair<T> a1, T h) {
+[[gnu::always_inline]] inline core::Pair<T> nystrom_middle(const BasicMotion<T>& start, core::Pair<T> a1,
+                                                           T h) {
   const T half = T(0.5) * h;
   return start.position + half * start.velocity + (T(0.5) * half * half) * a1;
 }
@@ -33,8 +34,9 @@ template <typename T>
 }
 
 template <typename T>
-[[gnu::always_inline]] inline BasicMotion<T> nystrom_end(const BasicMotion<T>& start, core::Pair<T> a1, core::Pair<T> a2,
-                                                         core::Pair<T> a3, core::Pair<T> a4, T h) {
+[[gnu::always_inline]] inline BasicMotion<T> nystrom_end(const BasicMotion<T>& start, core::Pair<T> a1,
+                                                         core::Pair<T> a2, core::Pair<T> a3, core::Pair<T> a4,
+                                                         T h) {
   const T sixth = h * T(1.0 / 6.0);
   return {start.position + h * start.velocity + (h * sixth) * (a1 + a2 + a3),
           start.velocity + sixth * (a1 + T(2.0) * (a2 + a3) + a4)};

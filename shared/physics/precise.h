@@ -1,9 +1,9 @@
-// `precise`: Nystrom-4 that keeps to one cell's polynomial through a step and ends the step where it leaves the
-// cell. A C2 spline's third derivative jumps at knot lines, which caps any order at about 2 where a step crosses
-// one; within a cell the surface is a polynomial and the order is 4.
+// `precise`: Nystrom-4 that keeps to one cell's polynomial through a step and ends the step where it leaves
+// the cell. A C2 spline's third derivative jumps at knot lines, which caps any order at about 2 where a step
+// crosses one; within a cell the surface is a polynomial and the order is 4.
 //
-// The crossing is the first root of the cubic Hermite of the step's ends in time; the polynomials of both cells
-// agree to second order at the line, so an error e of the root costs of the order e^3.
+// The crossing is the first root of the cubic Hermite of the step's ends in time; the polynomials of both
+// cells agree to second order at the line, so an error e of the root costs of the order e^3.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,9 @@ class Precise {
       if (!known_) cell_ = spline.cell_at(start.at.position.x, start.at.position.y);
       const auto sample = [&](core::Vec2 x) { return field.at(spline.sample_in(cell_, x.x, x.y), x); };
       const auto accelerate = [&](const auto& s, core::Vec2 v) { return field.accelerate(s, v); };
-      const auto run = [&](double t) { return nystrom4(start.at, start.acceleration, t, sample, accelerate); };
+      const auto run = [&](double t) {
+        return nystrom4(start.at, start.acceleration, t, sample, accelerate);
+      };
       Motion end = run(h);
       const Exit exit = first_exit(spline.bounds(cell_), start.at, end, h);
       next_ = cell_;
@@ -49,8 +51,9 @@ class Precise {
 
   /// The louse was carried over a seam by whole periods: the cell that it is in goes along.
   template <terrain::Surface S>
-  void carried(const S& surface, Turns turns)
-    requires requires { surface.cells(); }
+  void carried(const S& surface, Turns turns) requires requires {
+    surface.cells();
+  }
   {
     cell_.column -= turns.x * surface.cells().column;
     cell_.row -= turns.y * surface.cells().row;
@@ -68,8 +71,9 @@ class Precise {
     double from, from_velocity, to, to_velocity;
   };
 
-  /// When the cubic through these ends reaches `line`, which its end lies beyond: Newton's method from that end,
-  /// inside a bracket. It doubles its digits with each turn, so one that moved by kNear is as exact as doubles are.
+  /// When the cubic through these ends reaches `line`, which its end lies beyond: Newton's method from that
+  /// end, inside a bracket. It doubles its digits with each turn, so one that moved by kNear is as exact as
+  /// doubles are.
   static double crossing(const Way& way, double line, double h) {
     constexpr double kNear = 1e-8;
     const double sign = way.to > line ? 1.0 : -1.0;  // p < 0 before the line

@@ -1,8 +1,9 @@
-// The rim of the map, where lice are kept: four walls, or seams where the edges wrap and the map goes on at the
-// opposite rim. Here is where it stands, when a louse meets it, and the state at that moment; what walls do to a louse:
-// walls.h.
+// The rim of the map, where lice are kept: four walls, or seams where the edges wrap and the map goes on at
+// the opposite rim. Here is where it stands, when a louse meets it, and the state at that moment; what walls
+// do to a louse: walls.h.
 //
-// Positions on a map that wraps lie in [min, max): a louse that has run over a seam is moved by whole periods.
+// Positions on a map that wraps lie in [min, max): a louse that has run over a seam is moved by whole
+// periods.
 #pragma once
 
 #include <bit>
@@ -12,8 +13,8 @@
 
 #include "shared/core/vec2.h"
 #include "shared/physics/nystrom.h"
-#include "shared/state/parameters.h"
 #include "shared/physics/walls.h"
+#include "shared/state/parameters.h"
 #include "shared/terrain/surface.h"
 
 namespace woodlouse::physics {
@@ -31,7 +32,8 @@ class Rim {
       : domain_(domain),
         interior_(domain),
         walls_(domain),
-        tolerance_(1e-13 * (finite_extent(domain.x_min, domain.x_max) + finite_extent(domain.y_min, domain.y_max))),
+        tolerance_(1e-13 *
+                   (finite_extent(domain.x_min, domain.x_max) + finite_extent(domain.y_min, domain.y_max))),
         edges_(edges) {
     if (edges == Edges::kWalls) return;
     constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -49,9 +51,11 @@ class Rim {
   /// Whether no wall is met on the way to p.
   [[nodiscard]] bool lets_pass(core::Vec2 p) const { return walls_.contains(p.x, p.y); }
   [[nodiscard]] Contact touching(core::Vec2 p) const { return physics::touching(walls_, p); }
-  /// Whether p can be made a position again: within the walls, or not absurdly many periods away. False for NaN.
+  /// Whether p can be made a position again: within the walls, or not absurdly many periods away. False for
+  /// NaN.
   [[nodiscard]] bool admits(core::Vec2 p) const {
-    return wraps() ? turns_are_few(p.x, domain_.x_min, domain_.x_max) && turns_are_few(p.y, domain_.y_min, domain_.y_max)
+    return wraps() ? turns_are_few(p.x, domain_.x_min, domain_.x_max) &&
+                         turns_are_few(p.y, domain_.y_min, domain_.y_max)
                    : walls_.contains(p.x, p.y);
   }
 
@@ -72,10 +76,10 @@ class Rim {
   /// The same for where a louse stops or turns back: within rounding of a wall it has not left it.
   [[nodiscard]] core::Vec2 stopped(core::Vec2 p) const { return wraps() ? inside(p) : onto(p); }
 
-  /// The time after which a motion that is at `end` after h, beyond a wall, meets it on its way out; `end` becomes the
-  /// state there. again(t) is the motion after t instead: Newton's method inside a bracket repeats the sub-step, so
-  /// that the state is the integrator's own. A wall that the louse slides along, or has just bounced off, is none that
-  /// it meets, near as it is.
+  /// The time after which a motion that is at `end` after h, beyond a wall, meets it on its way out; `end`
+  /// becomes the state there. again(t) is the motion after t instead: Newton's method inside a bracket
+  /// repeats the sub-step, so that the state is the integrator's own. A wall that the louse slides along, or
+  /// has just bounced off, is none that it meets, near as it is.
   template <typename Again>
   double reach(double h, Motion& end, const Again& again) const {
     const Contact met = passed(end.position);
@@ -96,7 +100,8 @@ class Rim {
 
   /// After what time a straight flight from p at v meets a wall, per axis; 1e300 or more: never.
   [[nodiscard]] core::Vec2 flight_times(core::Vec2 p, core::Vec2 v) const {
-    return {flight_time(p.x, v.x, walls_.x_min, walls_.x_max), flight_time(p.y, v.y, walls_.y_min, walls_.y_max)};
+    return {flight_time(p.x, v.x, walls_.x_min, walls_.x_max),
+            flight_time(p.y, v.y, walls_.y_min, walls_.y_max)};
   }
   /// The coordinates of the walls that a motion with velocity v runs towards.
   [[nodiscard]] core::Vec2 ahead(core::Vec2 v) const {
@@ -137,7 +142,8 @@ class Rim {
 
   /// The walls that p lies beyond, as touching() tells those it touches.
   [[nodiscard]] Contact passed(core::Vec2 p) const {
-    return {p.x < walls_.x_min ? -1 : (p.x > walls_.x_max ? 1 : 0), p.y < walls_.y_min ? -1 : (p.y > walls_.y_max ? 1 : 0)};
+    return {p.x < walls_.x_min ? -1 : (p.x > walls_.x_max ? 1 : 0),
+            p.y < walls_.y_min ? -1 : (p.y > walls_.y_max ? 1 : 0)};
   }
 
   struct Beyond {
@@ -145,7 +151,8 @@ class Rim {
     double leaving;   ///< [m/s], outwards
   };
 
-  /// Where a state is to the wall that it lies the furthest beyond, of those `met` and any that it is clearly beyond.
+  /// Where a state is to the wall that it lies the furthest beyond, of those `met` and any that it is clearly
+  /// beyond.
   [[nodiscard]] Beyond beyond(const Motion& s, Contact met) const {
     Beyond most{-std::numeric_limits<double>::infinity(), 0.0};
     const auto look = [&](bool counts, double distance, double leaving) {

@@ -4,19 +4,18 @@
 // A sub-step is halved at most to 1/256 of the tick; one that wanted to be shorter still is counted, and its
 // energy bounded.
 //
-// Stop: where friction can hold at v = 0 (the stick test) and |v| + h at <= 0, or v is too small for the shortest
-// sub-step to resolve its direction, the louse halts after |v|/(-at).
-// Where it can't hold, it slows, turns and goes on; only when v and a are exactly opposite is v = 0 passed, by
-// splitting the sub-step there.
+// Stop: where friction can hold at v = 0 (the stick test) and |v| + h at <= 0, or v is too small for the
+// shortest sub-step to resolve its direction, the louse halts after |v|/(-at). Where it can't hold, it slows,
+// turns and goes on; only when v and a are exactly opposite is v = 0 passed, by splitting the sub-step there.
 //
-// Flight: on a unilateral map the moment at which the normal force ends is located within the sub-step; from there
-// the louse flies (flight.h).
+// Flight: on a unilateral map the moment at which the normal force ends is located within the sub-step; from
+// there the louse flies (flight.h).
 //
-// Edges that wrap: there are no walls; the sub-step runs over the seam (the surface goes on for some cells beyond
-// it), and then the louse is at the opposite rim.
+// Edges that wrap: there are no walls; the sub-step runs over the seam (the surface goes on for some cells
+// beyond it), and then the louse is at the opposite rim.
 //
-// Walls: the crossing is located within the sub-step, the louse bounces and the rest of the tick goes on; after
-// kMaxBounces in a tick it keeps no outward velocity and slides.
+// Walls: the crossing is located within the sub-step, the louse bounces and the rest of the tick goes on;
+// after kMaxBounces in a tick it keeps no outward velocity and slides.
 #pragma once
 
 #include <cmath>
@@ -32,9 +31,9 @@
 
 namespace woodlouse::physics {
 
-/// S: the surface; F: the Forces the map has; E: the equations; I: the integrator. Equations that are not exact
-/// and integrators without sub-steps run bare: no sub-steps, no stop, no rest. Cheap to make, one per batch;
-/// refers to `surface`.
+/// S: the surface; F: the Forces the map has; E: the equations; I: the integrator. Equations that are not
+/// exact and integrators without sub-steps run bare: no sub-steps, no stop, no rest. Cheap to make, one per
+/// batch; refers to `surface`.
 template <terrain::Surface S, typename F, typename E = SurfaceEquations, typename I = Nystrom4>
 class Stepper {
   static_assert(!E::kExact || terrain::kHasHessian<S>, "the exact equations need the surface's Hessian");
@@ -197,9 +196,9 @@ class Stepper {
     return start;
   }
 
-  /// Of the walls that are touched, leaves those in `contact` that the louse leans on: no velocity along their normals.
-  /// One that it leaves so slowly that it is back within rounding of the wall, it has not left: without that, a louse
-  /// in a corner would bounce off two walls without end.
+  /// Of the walls that are touched, leaves those in `contact` that the louse leans on: no velocity along
+  /// their normals. One that it leaves so slowly that it is back within rounding of the wall, it has not
+  /// left: without that, a louse in a corner would bounce off two walls without end.
   void lean_on(Start& start, const Drive& drive) const {
     const Contact touched = start.contact;
     core::Vec2& v = start.at.velocity;
@@ -237,7 +236,8 @@ class Stepper {
 
   [[nodiscard]] bool is_too_long(const Start& start, double h) const {
     if constexpr (F::central) {
-      if (SubStepRules::swings_too_far(central_pull(start.at.position, parameters_.central_gravity), h)) return true;
+      if (SubStepRules::swings_too_far(central_pull(start.at.position, parameters_.central_gravity), h))
+        return true;
     }
     return rules_.too_long(start.sample, start.speed2, h);
   }
@@ -256,8 +256,8 @@ class Stepper {
     return (dot(v, a) + vz * (s.zx * a.x + s.zy * a.y + curvature_along(s, v))) / speed;
   }
 
-  /// Halves h until v's direction can be trusted, or the shortest sub-step is reached (false); speeding up, only what
-  /// acts across v swings it.
+  /// Halves h until v's direction can be trusted, or the shortest sub-step is reached (false); speeding up,
+  /// only what acts across v swings it.
   [[nodiscard]] bool limit_turn(const Start& start, const Drive& drive, double rate, double& h) const {
     double a2 = squared_length_in_space(start.sample, start.acceleration) + rules_.stiffness2(drive.along);
     if (rate > 0.0) a2 -= rate * rate;
@@ -265,11 +265,11 @@ class Stepper {
     return !SubStepRules::turns_too_far(a2, start.speed2, h);
   }
 
-  /// resolved: as limit_turn says. A louse that is slower than that, and can be held, is at its end; a fast one whose
-  /// friction turns with the ground's curvature is not, and friction that holds at v = 0 tells it apart: by itself it
-  /// makes |a| at most twice itself.
-  [[nodiscard]] Halt halts(const Start& start, double speed, double rate, double h, bool resolved, core::Vec2 heading,
-                           const Drive& drive) const {
+  /// resolved: as limit_turn says. A louse that is slower than that, and can be held, is at its end; a fast
+  /// one whose friction turns with the ground's curvature is not, and friction that holds at v = 0 tells it
+  /// apart: by itself it makes |a| at most twice itself.
+  [[nodiscard]] Halt halts(const Start& start, double speed, double rate, double h, bool resolved,
+                           core::Vec2 heading, const Drive& drive) const {
     const bool stops = !(speed + h * rate > 0.0);
     if (!stops && resolved) return Halt::kNo;
     const RestingBalance balance = ground_.balance(start, heading, drive);
@@ -326,7 +326,8 @@ class Stepper {
   }
 
   /// The end, put right to the energy of the start; one at a wall stays there.
-  [[nodiscard]] Motion energy_kept(const Start& start, const Drive& drive, double h, const Motion& end, bool at_wall) const {
+  [[nodiscard]] Motion energy_kept(const Start& start, const Drive& drive, double h, const Motion& end,
+                                   bool at_wall) const {
     if (at_wall) return energy_bounded(start, drive, h, end);
     const double energy0 = energy(start.sample, start.at.velocity, parameters_.gravity);
     const auto s = surface_.sample(end.position.x, end.position.y);
@@ -334,16 +335,17 @@ class Stepper {
     return kept.near && rim_.lets_pass(kept.end.position) ? kept.end : energy_bounded(start, drive, h, end);
   }
 
-  /// For a sub-step longer than the rules ask, or far off: a finite end that has no energy from nothing, and where energy is kept,
-  /// all of it. Where there is none on its way, the louse turns back.
-  [[nodiscard]] Motion energy_bounded(const Start& start, const Drive& drive, double h, const Motion& end) const {
+  /// For a sub-step longer than the rules ask, or far off: a finite end that has no energy from nothing, and
+  /// where energy is kept, all of it. Where there is none on its way, the louse turns back.
+  [[nodiscard]] Motion energy_bounded(const Start& start, const Drive& drive, double h,
+                                      const Motion& end) const {
     const Motion back{start.at.position, -start.at.velocity};
     if (!rim_.admits(end.position)) return back;  // also NaN
     const core::Vec2 place = rim_.inside(end.position);
     const double speed = std::sqrt(start.speed2);
     const double push = drive.push + std::fabs(drive.along);
-    const double most = 0.5 * start.speed2 + parameters_.gravity * start.sample.z +
-                        push * (h * speed + 0.5 * h * h * push);
+    const double most =
+        0.5 * start.speed2 + parameters_.gravity * start.sample.z + push * (h * speed + 0.5 * h * h * push);
     const auto s = surface_.sample(place.x, place.y);
     const double kinetic = most - parameters_.gravity * s.z;
     const double speed2 = squared_length_in_space(s, end.velocity);

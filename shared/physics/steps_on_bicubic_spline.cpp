@@ -2,7 +2,8 @@
 
 namespace woodlouse::physics {
 
-std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::BicubicSpline& ground, const StepRules& rules) {
+std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::BicubicSpline& ground,
+                                                     const StepRules& rules) {
   return steps_with_every_force(ground, rules);
 }
 

@@ -2,11 +2,15 @@
 
 namespace woodlouse::physics {
 
-std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::TiledGround& ground, const StepRules& rules) {
+std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::TiledGround& ground,
+                                                     const StepRules& rules) {
   switch (rules.parameters.method) {
-    case Method::kCheap: return with_main_forces<VerletQ>(ground, rules);
-    case Method::kPrecise: return with_main_forces<Precise>(ground, rules);
-    case Method::kStandard: break;
+    case Method::kCheap:
+      return with_main_forces<VerletQ>(ground, rules);
+    case Method::kPrecise:
+      return with_main_forces<Precise>(ground, rules);
+    case Method::kStandard:
+      break;
   }
   return with_main_forces<Nystrom4>(ground, rules);
 }

@@ -1,15 +1,17 @@
 // When a step is too long, as functions of the state alone. A sub-step h is halved while
-//     h |v| |H|_F > kBend   or   h sqrt(g |H|_F) > kSwing   or   h sqrt(k / r^3) > kOrbit   or   h d > kDecay   or
-//     h |v| > one cell (where energy is kept: half a cell; two knot lines in a step err beyond what one projection mends),
-// and, where a force turns with v (friction, a drive along the heading), while h |a| > kTurn |v|: near a stop the
-// direction of v swings. What holds against v, friction and brake of b m/s^2 in all, draws that direction to the pull's
-// at a rate of b / |v|, though |a| may be small: that counts as if |a|^2 were greater by (b kTurn / 2)^2, which keeps
-// h b below 2 |v|. Slope is no limit; curvature times speed, and gravity times curvature, are.
-// The comparisons are between squares and fourth powers: no roots. T is double, or several at once.
+//     h |v| |H|_F > kBend   or   h sqrt(g |H|_F) > kSwing   or   h sqrt(k / r^3) > kOrbit   or   h d > kDecay
+//     or h |v| > one cell (where energy is kept: half a cell; two knot lines in a step err beyond what one
+//     projection mends),
+// and, where a force turns with v (friction, a drive along the heading), while h |a| > kTurn |v|: near a stop
+// the direction of v swings. What holds against v, friction and brake of b m/s^2 in all, draws that direction
+// to the pull's at a rate of b / |v|, though |a| may be small: that counts as if |a|^2 were greater by (b
+// kTurn / 2)^2, which keeps h b below 2 |v|. Slope is no limit; curvature times speed, and gravity times
+// curvature, are. The comparisons are between squares and fourth powers: no roots. T is double, or several at
+// once.
 #pragma once
 
-#include "shared/state/parameters.h"
 #include "shared/physics/surface_motion.h"
+#include "shared/state/parameters.h"
 
 namespace woodlouse::physics {
 
@@ -41,13 +43,15 @@ class SubStepRules {
   /// Whether central gravity asks for less than h; pull: k / r^3 [1/s^2].
   [[nodiscard]] static bool swings_too_far(double pull, double h) { return h * h * pull > kOrbit * kOrbit; }
 
-  /// Whether v may turn too far within h; only where some force turns with v. acceleration2: with stiffness2() in it.
+  /// Whether v may turn too far within h; only where some force turns with v. acceleration2: with
+  /// stiffness2() in it.
   template <typename T>
   [[gnu::always_inline, nodiscard]] static inline auto turns_too_far(T acceleration2, T speed2, T h) {
     return h * h * acceleration2 > T(kTurn * kTurn) * speed2;
   }
 
-  /// What friction and a drive along v add to |a|^2 in turns_too_far. along: of the drive [m/s^2]; negative brakes.
+  /// What friction and a drive along v add to |a|^2 in turns_too_far. along: of the drive [m/s^2]; negative
+  /// brakes.
   template <typename T>
   [[gnu::always_inline, nodiscard]] inline T stiffness2(T along) const {
     return squared(T(0.5 * kTurn) * (T(grip_) + core::select(along < T(0.0), -along, T(0.0))));

@@ -3,19 +3,19 @@
 // G = (zx, zy) gradient, H Hessian, v map-plane velocity, vz = G.v, |v|3^2 = v.v + vz^2, w^2 = 1 + |G|^2:
 //     s = (g + v'Hv) / w^2,   N = s w                          normal force, centripetal term included
 //     a = -s G - (d + mu |N| / |v|3) v + f h / |h|3            gravity and curvature, drag, friction, thrust
-// Another force F in the map plane adds F - G (G.F) / w^2 to a and (G.F) / w to N: central gravity, F = -k x / r^3
-// (chapter 2.3), k / r^2 inside of kCoreRadius growing linearly from 0 instead.
-// with h the unit map direction of the thrust and |h|3^2 = 1 + (G.h)^2: a push f along the tangent over h.
-// From the Lagrangian of chapter 1.1 of the document with its two errors put right (the factors of Cramer's
-// rule, and v'Hv, which a local plane has not); tangential forces need no matrix, the mass matrix cancels.
-// Contact is bilateral: where v'Hv < -g the bead stays on the wire and friction takes |N|.
+// Another force F in the map plane adds F - G (G.F) / w^2 to a and (G.F) / w to N: central gravity, F = -k x
+// / r^3 (chapter 2.3), k / r^2 inside of kCoreRadius growing linearly from 0 instead. with h the unit map
+// direction of the thrust and |h|3^2 = 1 + (G.h)^2: a push f along the tangent over h. From the Lagrangian of
+// chapter 1.1 of the document with its two errors put right (the factors of Cramer's rule, and v'Hv, which a
+// local plane has not); tangential forces need no matrix, the mass matrix cancels. Contact is bilateral:
+// where v'Hv < -g the bead stays on the wire and friction takes |N|.
 //
 // A thrust along the heading acts along v, so it is friction with the other sign (a brake adds to friction).
 // At v = 0 friction and brake hold against up to mu g / w + brake: the stick test.
 // |u|_M = sqrt(u.u + (G.u)^2) is the length in space of a tangent whose map projection is u.
 //
-// + - * / and sqrt only, in the order written: these are the simulation's bits. T is double, or several at once
-// (core/lanes.h).
+// + - * / and sqrt only, in the order written: these are the simulation's bits. T is double, or several at
+// once (core/lanes.h).
 #pragma once
 
 #include "shared/core/lanes.h"
@@ -54,11 +54,11 @@ inline double central_pull(core::Vec2 x, double k) {
 /// A louse's thrust made ready for the equations, once per tick.
 template <typename T>
 struct BasicDrive {
-  Pair<T> direction{};          ///< h of a map vector, of any length
-  T size2 = 1.0;                ///< h.h; 1 where there is none
-  T push = 0.0;                 ///< along h [m/s^2], >= 0
-  T along = 0.0;                ///< along v [m/s^2]; negative brakes
-  Pair<T> pull{};               ///< central gravity where the louse is [m/s^2]; only with Forces::central
+  Pair<T> direction{};  ///< h of a map vector, of any length
+  T size2 = 1.0;        ///< h.h; 1 where there is none
+  T push = 0.0;         ///< along h [m/s^2], >= 0
+  T along = 0.0;        ///< along v [m/s^2]; negative brakes
+  Pair<T> pull{};       ///< central gravity where the louse is [m/s^2]; only with Forces::central
 };
 using Drive = BasicDrive<double>;
 
@@ -71,7 +71,11 @@ template <typename T>
 template <typename T>
 [[gnu::always_inline]] inline BasicDrive<T> drive_of_map_vector(Pair<T> thrust, double thrust_max) {
   const T size2 = dot(thrust, thrust);
-  return {thrust, core::select(size2 > T(0.0), size2, T(1.0)), core::square_root(size2) * T(thrust_max), T(0.0), {}};
+  return {thrust,
+          core::select(size2 > T(0.0), size2, T(1.0)),
+          core::square_root(size2) * T(thrust_max),
+          T(0.0),
+          {}};
 }
 
 inline Drive drive_of(const Louse& louse, double thrust_max) {
@@ -109,7 +113,8 @@ template <typename Sample, typename T>
 
 /// f h / |h|3.
 template <typename T>
-[[gnu::always_inline]] inline Pair<T> push_over_tangent(const BasicSlopeSample<T>& s, Pair<T> direction, T push) {
+[[gnu::always_inline]] inline Pair<T> push_over_tangent(const BasicSlopeSample<T>& s, Pair<T> direction,
+                                                        T push) {
   return (push / core::square_root(squared_length_in_space(s, direction))) * direction;
 }
 
@@ -125,10 +130,11 @@ inline constexpr double kStandstill2 = 1e-200;
 
 /// a at velocity v; at a standstill without friction and drive along the heading (see resting_balance).
 ///
-/// w^2, |v|3^2 and |h|3^2 divide; their quotients come from one division by the product, that waits for no root:
-/// divisions and roots are most of what a step waits for.
+/// w^2, |v|3^2 and |h|3^2 divide; their quotients come from one division by the product, that waits for no
+/// root: divisions and roots are most of what a step waits for.
 template <typename F, typename Sample, typename T>
-[[gnu::always_inline]] inline Pair<T> acceleration(const Sample& s, Pair<T> v, const BasicDrive<T>& drive, const Parameters& p) {
+[[gnu::always_inline]] inline Pair<T> acceleration(const Sample& s, Pair<T> v, const BasicDrive<T>& drive,
+                                                   const Parameters& p) {
   using core::any, core::magnitude, core::select, core::square_root;
   const T w2 = T(1.0) + s.zx * s.zx + s.zy * s.zy;
   const T lift = T(p.gravity) + curvature_along(s, v);
@@ -138,7 +144,8 @@ template <typename F, typename Sample, typename T>
   [[maybe_unused]] const T true_speed2 = squared_length_in_space(s, v);
   [[maybe_unused]] const auto moves = true_speed2 > T(kStandstill2);
   [[maybe_unused]] const T speed2 = select(moves, true_speed2, T(1.0));
-  [[maybe_unused]] const T length2 = drive.size2 + squared(s.zx * drive.direction.x + s.zy * drive.direction.y);  // |h|3^2
+  [[maybe_unused]] const T length2 =
+      drive.size2 + squared(s.zx * drive.direction.x + s.zy * drive.direction.y);  // |h|3^2
   T w2_speed2 = w2;  // for mu |N| / |v|3 with N = load / w: one root serves both lengths
   if constexpr (F::friction) w2_speed2 = w2 * speed2;
   T inverse, inverse_w2_speed2;
@@ -157,7 +164,8 @@ template <typename F, typename Sample, typename T>
   if constexpr (F::drag) a = a - T(p.drag) * v;
   if constexpr (F::singular) {
     T resistance = 0.0;
-    if constexpr (F::friction) resistance = T(p.friction) * magnitude(load) * square_root(w2_speed2) * inverse_w2_speed2;
+    if constexpr (F::friction)
+      resistance = T(p.friction) * magnitude(load) * square_root(w2_speed2) * inverse_w2_speed2;
     if constexpr (F::thrust) {
       if (any(drive.along != T(0.0))) resistance = resistance - drive.along / square_root(speed2);
     }
@@ -172,8 +180,8 @@ template <typename F, typename Sample, typename T>
 struct SurfaceEquations {
   static constexpr bool kExact = true;
   template <typename F, typename Sample, typename T>
-  [[gnu::always_inline]] static inline Pair<T> acceleration(const Sample& s, Pair<T> v, const BasicDrive<T>& drive,
-                                                            const Parameters& p) {
+  [[gnu::always_inline]] static inline Pair<T> acceleration(const Sample& s, Pair<T> v,
+                                                            const BasicDrive<T>& drive, const Parameters& p) {
     return physics::acceleration<F>(s, v, drive, p);
   }
 };
@@ -204,7 +212,8 @@ core::Vec2 implicit_kick(const Sample& s, core::Vec2 v, double k, const Drive& d
       const double speed2 = squared_length_in_space(s, result);
       if (speed2 > 0.0) {
         if constexpr (F::friction) {
-          resistance += p.friction * core::magnitude(p.gravity + extra_load + curvature_along(s, result)) / core::square_root(w2 * speed2);
+          resistance += p.friction * core::magnitude(p.gravity + extra_load + curvature_along(s, result)) /
+                        core::square_root(w2 * speed2);
         }
         if constexpr (F::thrust) resistance -= drive.along / core::square_root(speed2);
       }

@@ -1,10 +1,10 @@
 // The vertical walls at the domain's edge.
 //
 // A wall's reaction lies in the tangent plane: at a wall x = const it is along (1, -zx zy / (1 + zy^2)), the
-// tangent whose dot product in space with the wall's own direction is zero; likewise at y = const. So an impact
-// with restitution e changes v by -(1 + e) vx (1, -zx zy / (1 + zy^2)) and takes energy or leaves it, never
-// gives; a plain vx -> -vx makes energy on a slope. Pressed against a wall with no normal velocity, a louse
-// slides: the same reaction cancels the outward acceleration. A corner is both walls.
+// tangent whose dot product in space with the wall's own direction is zero; likewise at y = const. So an
+// impact with restitution e changes v by -(1 + e) vx (1, -zx zy / (1 + zy^2)) and takes energy or leaves it,
+// never gives; a plain vx -> -vx makes energy on a slope. Pressed against a wall with no normal velocity, a
+// louse slides: the same reaction cancels the outward acceleration. A corner is both walls.
 #pragma once
 
 #include "shared/core/vec2.h"

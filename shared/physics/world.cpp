@@ -24,12 +24,16 @@ List list_of(const Louse& louse) {
   return louse.thrust_ticks != 0 && louse.thrust_ticks != kHeld ? List::kWaiting : List::kNone;
 }
 
-/// The lanes' ground for a map, if they can step it: flight, central gravity and the other methods are not in them.
+/// The lanes' ground for a map, if they can step it: flight, central gravity and the other methods are not in
+/// them.
 std::optional<BatchGround> batch_ground(const terrain::Terrain& terrain, const Parameters& p) {
   if (p.central_gravity > 0.0 || p.method == Method::kCheap) return std::nullopt;
   if (p.contact == SurfaceContact::kUnilateral) return std::nullopt;
-  if (std::holds_alternative<terrain::PlaneSurface>(terrain.surface())) return BatchGround::kPlane;  // nothing to split
-  return p.method == Method::kStandard && std::holds_alternative<terrain::BicubicSpline>(terrain.surface()) ? std::optional(BatchGround::kBicubicSpline) : std::nullopt;
+  if (std::holds_alternative<terrain::PlaneSurface>(terrain.surface()))
+    return BatchGround::kPlane;  // nothing to split
+  return p.method == Method::kStandard && std::holds_alternative<terrain::BicubicSpline>(terrain.surface())
+             ? std::optional(BatchGround::kBicubicSpline)
+             : std::nullopt;
 }
 
 void clear_thrust(Louse& louse) {
@@ -48,7 +52,10 @@ World::World(std::shared_ptr<const terrain::Terrain> terrain, const Parameters& 
     : terrain_(std::move(terrain)), parameters_(parameters), step_(step), walls_(walls) {
   assert(terrain_ != nullptr && step > 0.0);
   ground_steps_ = std::visit(
-      [&](const auto& ground) { return make_ground_steps(ground, {parameters_, walls_, step_}); }, terrain_->surface());
+      [&](const auto& ground) {
+        return make_ground_steps(ground, {parameters_, walls_, step_});
+      },
+      terrain_->surface());
   use(best_instruction_set());
 }
 

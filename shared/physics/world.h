@@ -17,9 +17,9 @@
 
 #include "shared/core/vec2.h"
 #include "shared/physics/batch.h"
+#include "shared/physics/step_counters.h"
 #include "shared/state/louse.h"
 #include "shared/state/parameters.h"
-#include "shared/physics/step_counters.h"
 #include "shared/terrain/terrain.h"
 
 namespace woodlouse::physics {
@@ -38,8 +38,9 @@ class World {
   /// The best one is chosen from the start.
   void use(InstructionSet set);
 
-  /// Adds a louse; its position is moved into the domain where it lies outside (by whole periods where the edges wrap). REQUIRES a fresh id and
-  /// finite fields. A louse at rest that the terrain or its thrust would move is woken.
+  /// Adds a louse; its position is moved into the domain where it lies outside (by whole periods where the
+  /// edges wrap). REQUIRES a fresh id and finite fields. A louse at rest that the terrain or its thrust would
+  /// move is woken.
   void insert(const Louse& louse);
   /// Replaces all lice by these, bit for bit: none is moved, woken or put to rest. REQUIRES ascending ids and
   /// a state that a step of such a world left.
@@ -74,10 +75,10 @@ class World {
   double step_;
   terrain::Rectangle walls_;
   std::shared_ptr<const GroundSteps> ground_steps_;  ///< compiled for the terrain, the method and the forces
-  std::vector<Louse> lice_;               ///< ascending id
-  std::vector<std::uint32_t> moving_;     ///< indices into lice_ of whom a step moves, ascending
-  std::vector<std::uint32_t> waiting_;    ///< of those at rest whose thrust is to be counted down
-  bool lists_are_stale_ = false;          ///< lice_ or who is in which list changed since they were made
+  std::vector<Louse> lice_;                          ///< ascending id
+  std::vector<std::uint32_t> moving_;                ///< indices into lice_ of whom a step moves, ascending
+  std::vector<std::uint32_t> waiting_;               ///< of those at rest whose thrust is to be counted down
+  bool lists_are_stale_ = false;  ///< lice_ or who is in which list changed since they were made
   BatchStep batch_;
   BatchLists batch_lists_;
   StepCounters counters_;

@@ -24,10 +24,10 @@ struct DecodeError {
 
 tl::expected<ClientMessage, DecodeError> decode_client(std::string_view line);
 
-/// Server messages. `fields` and `format` are the Welcome's, for rows; ignored for other messages. A type, or an
-/// event's kind, of a later version has the code unknown_type: pass over it.
-tl::expected<ServerMessage, DecodeError> decode_server(std::string_view line, const std::vector<Column>& fields,
-                                                       Format format);
+/// Server messages. `fields` and `format` are the Welcome's, for rows; ignored for other messages. A type, or
+/// an event's kind, of a later version has the code unknown_type: pass over it.
+tl::expected<ServerMessage, DecodeError> decode_server(std::string_view line,
+                                                       const std::vector<Column>& fields, Format format);
 
 /// One line each, newline included.
 std::string encode(const ClientMessage& message);
@@ -37,9 +37,9 @@ std::string encode(const ServerMessage& message);
 std::string encode_map(const MapMessage& message, std::string_view knots_json);
 
 inline constexpr std::size_t kMaxValueChars = 24;
-/// A column's value of a row, given in units (m, m/s, rad), as text at `to`, which has room for kMaxValueChars: the
-/// nearest multiple of its quantum, as that integer (of two as near, the even one), or the shortest double that reads
-/// back the same. Returns the end. REQUIRES a finite value, below 2^53 quanta.
+/// A column's value of a row, given in units (m, m/s, rad), as text at `to`, which has room for
+/// kMaxValueChars: the nearest multiple of its quantum, as that integer (of two as near, the even one), or
+/// the shortest double that reads back the same. Returns the end. REQUIRES a finite value, below 2^53 quanta.
 char* write_value(char* to, double value, Column column, Format format);
 
 }  // namespace woodlouse::protocol

@@ -2,8 +2,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "shared/protocol/codec.h"
 #include "shared/json/text.h"
+#include "shared/protocol/codec.h"
 
 namespace woodlouse::protocol {
 

@@ -36,18 +36,21 @@ void clamp_pair(core::Vec2 value, Input& input) {
 }
 
 void read_thrust(FieldReader& reader, Input& input) {
-  constexpr std::string_view kWants = "a number from -1 to 1 (along the heading) or a pair [x, y] of length at most 1";
+  constexpr std::string_view kWants =
+      "a number from -1 to 1 (along the heading) or a pair [x, y] of length at most 1";
   const auto value = reader.field("thrust", kWants, Presence::kRequired);
   if (!value) return;
   if (value->is_number()) return clamp_number(value->number(), input);
-  if (value->kind() != json::Kind::kArray || value->size() != 2) return reader.refuse("thrust", *value, kWants);
+  if (value->kind() != json::Kind::kArray || value->size() != 2)
+    return reader.refuse("thrust", *value, kWants);
   core::Vec2 pair;
   reader.pair("thrust", pair);
   input.is_pair = true;
   clamp_pair(pair, input);
 }
 
-void append_column(FieldReader& reader, json::Value element, std::size_t index, std::vector<Column>& columns) {
+void append_column(FieldReader& reader, json::Value element, std::size_t index,
+                   std::vector<Column>& columns) {
   const auto column = element.kind() == json::Kind::kString ? column_from_text(element.text()) : std::nullopt;
   if (!column) return reader.refuse("fields", index, element, "one of: " + column_names());
   if (std::find(columns.begin(), columns.end(), *column) != columns.end()) {
@@ -79,8 +82,8 @@ Decoded read_join(FieldReader& reader) {
   Join join;
   reader.integer("protocol", join.protocol, kAnyUint32);
   if (!reader.failed() && join.protocol != kProtocolVersion) {
-    reader.fail(code::kBadProtocol, "join.protocol is " + std::to_string(join.protocol) + "; this server speaks " +
-                                        std::to_string(kProtocolVersion));
+    reader.fail(code::kBadProtocol, "join.protocol is " + std::to_string(join.protocol) +
+                                        "; this server speaks " + std::to_string(kProtocolVersion));
   }
   reader.choice("role", join.role, kRoleTexts, role_from_text, Presence::kOptional);
   reader.cleaned_text("name", join.name, {1, kMaxNameBytes});

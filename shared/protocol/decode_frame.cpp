@@ -17,13 +17,16 @@ std::optional<double> cell_number(json::Value cell, Column column, bool is_integ
   if (!is_integer) return cell.is_number() ? std::optional(cell.number()) : std::nullopt;
   const auto integer = cell.integer();
   const std::int64_t lowest = column == Column::kId ? 1 : 0;
-  const bool in_range = integer && (!holds_integers(column) || (*integer >= lowest && *integer <= 0xffff'ffff));
+  const bool in_range =
+      integer && (!holds_integers(column) || (*integer >= lowest && *integer <= 0xffff'ffff));
   return in_range ? std::optional(static_cast<double>(*integer)) : std::nullopt;
 }
 
-void read_row(FieldReader& reader, json::Value row, std::size_t index, const FrameContext& context, Frame& frame) {
+void read_row(FieldReader& reader, json::Value row, std::size_t index, const FrameContext& context,
+              Frame& frame) {
   if (row.kind() != json::Kind::kArray || row.size() != context.fields.size()) {
-    return reader.refuse("louse", index, row, "an array of " + std::to_string(context.fields.size()) + " numbers");
+    return reader.refuse("louse", index, row,
+                         "an array of " + std::to_string(context.fields.size()) + " numbers");
   }
   std::size_t place = 0;
   row.for_each([&](json::Value cell) {
@@ -31,8 +34,8 @@ void read_row(FieldReader& reader, json::Value row, std::size_t index, const Fra
     const bool is_integer = context.format == Format::kQuantized || holds_integers(column);
     const auto number = cell_number(cell, column, is_integer);
     if (!number) {
-      reader.fail(code::kBadField, "louse[" + std::to_string(index) + "]: " + std::string(to_text(column)) + " is " +
-                                       description(cell) + "; it must be " +
+      reader.fail(code::kBadField, "louse[" + std::to_string(index) + "]: " + std::string(to_text(column)) +
+                                       " is " + description(cell) + "; it must be " +
                                        (is_integer ? "an integer in range" : "a number"));
       return false;
     }
@@ -44,10 +47,10 @@ void read_row(FieldReader& reader, json::Value row, std::size_t index, const Fra
 
 void read_rows(FieldReader& reader, const FrameContext& context, Frame& frame) {
   frame.columns = context.fields.size();
-  if (frame.columns == 0) return reader.fail(code::kNotJoined, "a frame came before the welcome that names its columns");
-  reader.array("louse", "an array of rows", [&](json::Value row, std::size_t index) {
-    read_row(reader, row, index, context, frame);
-  });
+  if (frame.columns == 0)
+    return reader.fail(code::kNotJoined, "a frame came before the welcome that names its columns");
+  reader.array("louse", "an array of rows",
+               [&](json::Value row, std::size_t index) { read_row(reader, row, index, context, frame); });
 }
 
 }  // namespace
@@ -76,14 +79,18 @@ Decoded read_delta(FieldReader& reader, const FrameContext& context) {
   reader.integer("tick", frame.tick, kAnyTick);
   reader.integer("base", frame.base, kAnyTick);
   if (!reader.failed() && frame.base > frame.tick) {
-    reader.fail(code::kBadField, "delta.base is " + std::to_string(frame.base) + "; it must not be after delta.tick");
+    reader.fail(code::kBadField,
+                "delta.base is " + std::to_string(frame.base) + "; it must not be after delta.tick");
   }
   read_rows(reader, context, frame);
-  reader.array("gone", "an array of ids", [&](json::Value element, std::size_t index) {
-    const auto id = element.integer();
-    if (!id || *id < 1 || *id > 0xffff'ffff) return reader.refuse("gone", index, element, "an id");
-    frame.gone.push_back(static_cast<std::uint32_t>(*id));
-  }, Presence::kOptional);
+  reader.array(
+      "gone", "an array of ids",
+      [&](json::Value element, std::size_t index) {
+        const auto id = element.integer();
+        if (!id || *id < 1 || *id > 0xffff'ffff) return reader.refuse("gone", index, element, "an id");
+        frame.gone.push_back(static_cast<std::uint32_t>(*id));
+      },
+      Presence::kOptional);
   return reader.finish<ServerMessage>(std::move(frame));
 }
 

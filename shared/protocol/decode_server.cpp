@@ -49,7 +49,8 @@ Decoded read_hello(FieldReader& reader, const Context&) {
 
 void read_columns(FieldReader& reader, Welcome& welcome) {
   reader.array("fields", "an array of column names", [&](json::Value element, std::size_t index) {
-    const auto column = element.kind() == json::Kind::kString ? column_from_text(element.text()) : std::nullopt;
+    const auto column =
+        element.kind() == json::Kind::kString ? column_from_text(element.text()) : std::nullopt;
     if (!column) return reader.refuse("fields", index, element, "one of: " + column_names());
     if ((index == 0) != (*column == Column::kId)) {
       return reader.refuse("fields", index, element, "id in the first place and there alone");
@@ -86,7 +87,8 @@ void read_extent(FieldReader& reader, std::array<double, 4>& extent) {
     extent[index] = element.number();
   });
   const bool is_a_rectangle = extent[0] < extent[2] && extent[1] < extent[3];
-  if (!reader.failed() && !is_a_rectangle) reader.refuse("extent", *value, "a rectangle with x_min < x_max, y_min < y_max");
+  if (!reader.failed() && !is_a_rectangle)
+    reader.refuse("extent", *value, "a rectangle with x_min < x_max, y_min < y_max");
 }
 
 Decoded read_welcome(FieldReader& reader, const Context&) {
@@ -132,24 +134,27 @@ Decoded read_ack(FieldReader& reader, const Context&) {
   reader.boolean("late", ack.late);
   reader.boolean("dropped", ack.dropped);
   reader.boolean("clamped", ack.clamped);
-  reader.object("you", [&](FieldReader& you) {
-    ExactState state;
-    you.integer("tick", state.tick, kAnyTick);
-    you.integer("id", state.id, kPositiveUint32);
-    you.number("x", state.position.x);
-    you.number("y", state.position.y);
-    you.number("vx", state.velocity.x);
-    you.number("vy", state.velocity.y);
-    you.pair("heading", state.heading);
-    you.pair("thrust", state.thrust);
-    you.integer("thrust_kind", state.thrust_kind, {0, 2});
-    you.integer("thrust_ticks", state.thrust_ticks, kAnyUint32);
-    you.integer("phase", state.phase, {0, 2});
-    you.number("flight_z", state.flight_z);
-    you.number("flight_vz", state.flight_vz);
-    you.number("distance", state.distance);
-    ack.you = state;
-  }, Presence::kOptional);
+  reader.object(
+      "you",
+      [&](FieldReader& you) {
+        ExactState state;
+        you.integer("tick", state.tick, kAnyTick);
+        you.integer("id", state.id, kPositiveUint32);
+        you.number("x", state.position.x);
+        you.number("y", state.position.y);
+        you.number("vx", state.velocity.x);
+        you.number("vy", state.velocity.y);
+        you.pair("heading", state.heading);
+        you.pair("thrust", state.thrust);
+        you.integer("thrust_kind", state.thrust_kind, {0, 2});
+        you.integer("thrust_ticks", state.thrust_ticks, kAnyUint32);
+        you.integer("phase", state.phase, {0, 2});
+        you.number("flight_z", state.flight_z);
+        you.number("flight_vz", state.flight_vz);
+        you.number("distance", state.distance);
+        ack.you = state;
+      },
+      Presence::kOptional);
   return reader.finish<ServerMessage>(ack);
 }
 
@@ -161,7 +166,8 @@ void read_kind(FieldReader& reader, EventKind& out) {
   if (value->kind() != json::Kind::kString) return reader.refuse("kind", *value, kWants);
   const auto kind = event_kind_from_text(value->text());
   if (!kind) {
-    return reader.fail(code::kUnknownType, "event.kind is " + description(*value) + "; known are " + std::string(kWants));
+    return reader.fail(code::kUnknownType,
+                       "event.kind is " + description(*value) + "; known are " + std::string(kWants));
   }
   out = *kind;
 }
@@ -255,7 +261,8 @@ Decoded read_map(FieldReader& reader, const Context&) {
   }
   bool is_overview = false;
   if (reader.field("overview", "true or false", Presence::kOptional)) reader.boolean("overview", is_overview);
-  if (is_overview) reader.object("knots", [&](FieldReader& knots) { read_overview(knots, map.overview.emplace()); });
+  if (is_overview)
+    reader.object("knots", [&](FieldReader& knots) { read_overview(knots, map.overview.emplace()); });
   return reader.finish<ServerMessage>(std::move(map));
 }
 

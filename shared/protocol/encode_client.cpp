@@ -1,5 +1,5 @@
-#include "shared/protocol/codec.h"
 #include "shared/json/object_text.h"
+#include "shared/protocol/codec.h"
 
 namespace woodlouse::protocol {
 namespace {
@@ -29,7 +29,9 @@ std::string line_of(const Input& input) {
   return std::move(text).line();
 }
 
-std::string line_of(const Chat& chat) { return std::move(MessageText("chat").text("text", chat.text)).line(); }
+std::string line_of(const Chat& chat) {
+  return std::move(MessageText("chat").text("text", chat.text)).line();
+}
 std::string line_of(const List&) { return MessageText("list").line(); }
 std::string line_of(const GetMap&) { return MessageText("get_map").line(); }
 std::string line_of(const Resync&) { return MessageText("resync").line(); }

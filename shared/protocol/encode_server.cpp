@@ -1,8 +1,8 @@
 #include <cassert>
 
 #include "shared/core/stable_hash.h"
-#include "shared/protocol/codec.h"
 #include "shared/json/object_text.h"
+#include "shared/protocol/codec.h"
 
 namespace woodlouse::protocol {
 namespace {
@@ -21,11 +21,13 @@ std::string line_of(const Hello& hello) {
   MessageText text("hello");
   text.integer("protocol", hello.protocol).integer("behavior", hello.behavior);
   text.text("server", hello.server).text("session", hello.session);
-  text.array("rooms", hello.rooms, json::append_string).array("features", hello.features, json::append_string);
+  text.array("rooms", hello.rooms, json::append_string)
+      .array("features", hello.features, json::append_string);
   text.object("limits", [&](MessageText& limits) {
     limits.integer("line", hello.limits.line).integer("depth", hello.limits.depth);
     limits.integer("messages_per_s", hello.limits.messages_per_s).integer("burst", hello.limits.burst);
-    limits.integer("outbox_bytes", hello.limits.outbox_bytes).integer("handshake_s", hello.limits.handshake_s);
+    limits.integer("outbox_bytes", hello.limits.outbox_bytes)
+        .integer("handshake_s", hello.limits.handshake_s);
     limits.integer("idle_s", hello.limits.idle_s).integer("per_address", hello.limits.per_address);
     limits.integer("per_room", hello.limits.per_room);
   });
@@ -35,10 +37,11 @@ std::string line_of(const Hello& hello) {
 std::string line_of(const Welcome& welcome) {
   MessageText text("welcome");
   text.integer("id", welcome.id).text("resume_token", welcome.resume_token).text("room", welcome.room);
-  text.integer("tick", welcome.tick).integer("tick_hz", welcome.tick_hz).integer("state_hz", welcome.state_hz);
-  text.array("fields", welcome.fields, [](std::string& out, Column column) {
-    json::append_string(out, to_text(column));
-  });
+  text.integer("tick", welcome.tick)
+      .integer("tick_hz", welcome.tick_hz)
+      .integer("state_hz", welcome.state_hz);
+  text.array("fields", welcome.fields,
+             [](std::string& out, Column column) { json::append_string(out, to_text(column)); });
   text.array("quantum", welcome.fields, [&](std::string& out, Column column) {
     json::append_double(out, welcome.format == Format::kExact ? 1.0 : quantum(column));
   });
@@ -78,7 +81,9 @@ std::string line_of(const Ack& ack) {
       you.number("vx", ack.you->velocity.x).number("vy", ack.you->velocity.y);
       you.pair("heading", ack.you->heading).pair("thrust", ack.you->thrust);
       you.integer("thrust_kind", ack.you->thrust_kind).integer("thrust_ticks", ack.you->thrust_ticks);
-      you.integer("phase", ack.you->phase).number("flight_z", ack.you->flight_z).number("flight_vz", ack.you->flight_vz);
+      you.integer("phase", ack.you->phase)
+          .number("flight_z", ack.you->flight_z)
+          .number("flight_vz", ack.you->flight_vz);
       you.number("distance", ack.you->distance);
     });
   }
@@ -136,7 +141,9 @@ std::string encode(const ServerMessage& message) {
 
 std::string encode_map(const MapMessage& message, std::string_view knots_json) {
   MessageText text("map");
-  text.text("name", message.name).text("hash", core::to_hex(message.hash)).json("definition", message.definition);
+  text.text("name", message.name)
+      .text("hash", core::to_hex(message.hash))
+      .json("definition", message.definition);
   if (!knots_json.empty()) text.json("knots", knots_json);
   if (message.overview) {
     text.boolean("overview", true).object("knots", [&](MessageText& knots) {

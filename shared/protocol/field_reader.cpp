@@ -14,7 +14,8 @@ std::string wants_integer(IntegerRange range) {
 
 }  // namespace
 
-std::optional<json::Value> FieldReader::field(std::string_view name, std::string_view wants, Presence presence) {
+std::optional<json::Value> FieldReader::field(std::string_view name, std::string_view wants,
+                                              Presence presence) {
   if (error_) return std::nullopt;
   const auto value = object_.find(name);
   if (!value && presence == Presence::kRequired) {
@@ -70,7 +71,8 @@ void FieldReader::hash(std::string_view name, std::uint64_t& out) {
   if (!value) return;
   if (value->kind() != json::Kind::kString) return refuse(name, *value, kWants);
   const std::string_view text = value->text();
-  const bool lower_hex = text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+  const bool lower_hex =
+      text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
   if (!lower_hex) return refuse(name, *value, kWants);
   std::from_chars(text.data(), text.data() + text.size(), out, 16);
 }
@@ -90,8 +92,10 @@ void FieldReader::refuse(std::string_view name, json::Value found, std::string_v
        path_ + "." + std::string(name) + " is " + description(found) + "; it must be " + std::string(wants));
 }
 
-void FieldReader::refuse(std::string_view name, std::size_t index, json::Value found, std::string_view wants) {
-  fail(code::kBadField, element_path(name, index) + " is " + description(found) + "; it must be " + std::string(wants));
+void FieldReader::refuse(std::string_view name, std::size_t index, json::Value found,
+                         std::string_view wants) {
+  fail(code::kBadField,
+       element_path(name, index) + " is " + description(found) + "; it must be " + std::string(wants));
 }
 
 void FieldReader::fail(std::string_view error_code, std::string text) {

@@ -1,5 +1,5 @@
-// Takes the fields of one message out of its JSON object and checks each against its kind and range. The first
-// fault is kept and says which field, what was found and what is allowed; after it, reads do nothing.
+// Takes the fields of one message out of its JSON object and checks each against its kind and range. The
+// first fault is kept and says which field, what was found and what is allowed; after it, reads do nothing.
 #pragma once
 
 #include <concepts>
@@ -14,8 +14,12 @@ namespace woodlouse::protocol {
 
 enum class Presence : std::uint8_t { kRequired, kOptional };
 
-struct IntegerRange { std::int64_t low = 0, high = kMaxInteger; };
-struct ByteRange { std::size_t low = 0, high = 0; };
+struct IntegerRange {
+  std::int64_t low = 0, high = kMaxInteger;
+};
+struct ByteRange {
+  std::size_t low = 0, high = 0;
+};
 
 inline constexpr IntegerRange kAnyTick{};
 inline constexpr IntegerRange kAnyUint32{0, 0xffff'ffff};
@@ -26,7 +30,8 @@ class FieldReader {
   /// `path` begins the fields' names in errors: "join" gives "join.name".
   FieldReader(json::Value object, std::string path) : object_(object), path_(std::move(path)) {}
 
-  /// The field itself, whatever its kind. `wants` describes it, for the error when it is required and missing.
+  /// The field itself, whatever its kind. `wants` describes it, for the error when it is required and
+  /// missing.
   std::optional<json::Value> field(std::string_view name, std::string_view wants, Presence presence);
 
   template <std::integral T>
@@ -44,14 +49,16 @@ class FieldReader {
   /// 16 lower-case hex digits.
   void hash(std::string_view name, std::uint64_t& out);
   /// Cleaned (text_cleaning.h), then of `bytes.low` bytes at least, cut to `bytes.high`.
-  void cleaned_text(std::string_view name, std::string& out, ByteRange bytes, Presence presence = Presence::kRequired);
+  void cleaned_text(std::string_view name, std::string& out, ByteRange bytes,
+                    Presence presence = Presence::kRequired);
   /// One of the texts that `from_text` knows; `wants` lists them.
   template <typename E, typename FromText>
   void choice(std::string_view name, E& out, std::string_view wants, FromText from_text,
               Presence presence = Presence::kRequired) {
     const auto value = field(name, wants, presence);
     if (!value) return;
-    const std::optional<E> found = value->kind() == json::Kind::kString ? from_text(value->text()) : std::nullopt;
+    const std::optional<E> found =
+        value->kind() == json::Kind::kString ? from_text(value->text()) : std::nullopt;
     if (found) {
       out = *found;
     } else {
@@ -70,12 +77,16 @@ class FieldReader {
   }
   /// Calls read(value, index) for each element of an array until it fails.
   template <typename Read>
-  void array(std::string_view name, std::string_view wants, Read read, Presence presence = Presence::kRequired) {
+  void array(std::string_view name, std::string_view wants, Read read,
+             Presence presence = Presence::kRequired) {
     const auto value = field(name, wants, presence);
     if (!value) return;
     if (value->kind() != json::Kind::kArray) return refuse(name, *value, wants);
     std::size_t index = 0;
-    value->for_each([&](json::Value element) { read(element, index++); return !error_.has_value(); });
+    value->for_each([&](json::Value element) {
+      read(element, index++);
+      return !error_.has_value();
+    });
   }
   /// An array of objects: read(FieldReader&) on each.
   template <typename Read>

@@ -31,7 +31,8 @@ inline std::optional<Format> format_from_text(std::string_view text) {
 }
 
 inline std::optional<EventKind> event_kind_from_text(std::string_view text) {
-  for (const EventKind kind : {EventKind::kJoined, EventKind::kLeft, EventKind::kChat, EventKind::kRespawned}) {
+  for (const EventKind kind :
+       {EventKind::kJoined, EventKind::kLeft, EventKind::kChat, EventKind::kRespawned}) {
     if (to_text(kind) == text) return kind;
   }
   return std::nullopt;
@@ -58,11 +59,13 @@ tl::expected<const std::pair<std::string_view, Read>*, DecodeError> read_type(
   };
   const auto value = document.root().find("type");
   if (!value) {
-    return tl::unexpected(DecodeError{std::string(code::kMissingField), "type is missing; it is one of: " + known()});
+    return tl::unexpected(
+        DecodeError{std::string(code::kMissingField), "type is missing; it is one of: " + known()});
   }
   if (value->kind() != json::Kind::kString) {
-    return tl::unexpected(DecodeError{std::string(code::kBadField),
-                                      "type is " + description(*value) + "; it must be a string, one of: " + known()});
+    return tl::unexpected(
+        DecodeError{std::string(code::kBadField),
+                    "type is " + description(*value) + "; it must be a string, one of: " + known()});
   }
   for (const auto& type : types) {
     if (type.first == value->text()) return &type;

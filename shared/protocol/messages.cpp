@@ -60,8 +60,9 @@ const std::vector<Column>& default_columns() {
 
 const std::vector<Column>& all_columns() {
   static const std::vector<Column> columns = {
-      Column::kId, Column::kPhase, Column::kX, Column::kY, Column::kVx, Column::kVy, Column::kHeadingX,
-      Column::kHeadingY, Column::kTx, Column::kTy, Column::kFlightZ, Column::kFlightVz, Column::kDistance, Column::kThrustKind, Column::kTicksLeft};
+      Column::kId,      Column::kPhase,    Column::kX,        Column::kY,          Column::kVx,
+      Column::kVy,      Column::kHeadingX, Column::kHeadingY, Column::kTx,         Column::kTy,
+      Column::kFlightZ, Column::kFlightVz, Column::kDistance, Column::kThrustKind, Column::kTicksLeft};
   return columns;
 }
 
@@ -69,19 +70,26 @@ std::string_view to_text(Format format) { return format == Format::kExact ? "exa
 
 std::string_view to_text(Role role) {
   switch (role) {
-    case Role::kPlayer: return "player";
-    case Role::kBot: return "bot";
-    case Role::kSpectator: return "spectator";
+    case Role::kPlayer:
+      return "player";
+    case Role::kBot:
+      return "bot";
+    case Role::kSpectator:
+      return "spectator";
   }
   return "player";
 }
 
 std::string_view to_text(EventKind kind) {
   switch (kind) {
-    case EventKind::kJoined: return "joined";
-    case EventKind::kLeft: return "left";
-    case EventKind::kChat: return "chat";
-    case EventKind::kRespawned: return "respawned";
+    case EventKind::kJoined:
+      return "joined";
+    case EventKind::kLeft:
+      return "left";
+    case EventKind::kChat:
+      return "chat";
+    case EventKind::kRespawned:
+      return "respawned";
   }
   return "joined";
 }

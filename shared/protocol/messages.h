@@ -16,12 +16,13 @@
 namespace woodlouse::protocol {
 
 inline constexpr int kProtocolVersion = 1;
-inline constexpr std::size_t kMaxLineBytes = 4096;   ///< inbound at the server, newline excluded
-inline constexpr int kMaxDepth = 8;                  ///< nesting of an inbound line
-inline constexpr std::size_t kMaxNameBytes = 24;     ///< after cleaning
-inline constexpr std::size_t kMaxChatBytes = 400;    ///< after cleaning
-inline constexpr std::size_t kMaxRoomBytes = 64;     ///< of a room's name
-inline constexpr std::size_t kMaxTextBytes = 2048;   ///< of an error's, a notice's or a bye's text, after cleaning
+inline constexpr std::size_t kMaxLineBytes = 4096;  ///< inbound at the server, newline excluded
+inline constexpr int kMaxDepth = 8;                 ///< nesting of an inbound line
+inline constexpr std::size_t kMaxNameBytes = 24;    ///< after cleaning
+inline constexpr std::size_t kMaxChatBytes = 400;   ///< after cleaning
+inline constexpr std::size_t kMaxRoomBytes = 64;    ///< of a room's name
+inline constexpr std::size_t kMaxTextBytes =
+    2048;  ///< of an error's, a notice's or a bye's text, after cleaning
 inline constexpr std::uint32_t kMaxStateHz = 1000;
 inline constexpr std::uint32_t kMaxThrustTicks = 0xffff'fffe;
 inline constexpr std::int64_t kMaxInteger = std::int64_t{1} << 53;  ///< what every JSON reader holds exactly
@@ -32,8 +33,26 @@ inline constexpr double kThrustQuantum = 1.0 / 128.0;
 
 /// A column of a row; the names on the wire are to_text()'s. See docs/protocol.md for units and quanta.
 enum class Column : std::uint8_t {
-  kId, kX, kY, kVx, kVy, kZ, kHeadingX, kHeadingY, kYaw, kPitch, kRoll, kSpeed,
-  kTx, kTy, kThrustKind, kTicksLeft, kPhase, kFlightZ, kFlightVz, kDistance,
+  kId,
+  kX,
+  kY,
+  kVx,
+  kVy,
+  kZ,
+  kHeadingX,
+  kHeadingY,
+  kYaw,
+  kPitch,
+  kRoll,
+  kSpeed,
+  kTx,
+  kTy,
+  kThrustKind,
+  kTicksLeft,
+  kPhase,
+  kFlightZ,
+  kFlightVz,
+  kDistance,
 };
 inline constexpr std::size_t kColumnCount = 20;
 
@@ -57,9 +76,9 @@ std::string_view to_text(Role role);
 struct Join {
   int protocol = kProtocolVersion;
   Role role = Role::kPlayer;
-  std::string name;                    ///< cleaned, 1..kMaxNameBytes bytes of UTF-8
-  std::string room;                    ///< empty: the first
-  std::vector<Column> fields;          ///< as asked, default_columns() when left out; the first is always id
+  std::string name;            ///< cleaned, 1..kMaxNameBytes bytes of UTF-8
+  std::string room;            ///< empty: the first
+  std::vector<Column> fields;  ///< as asked, default_columns() when left out; the first is always id
   Format format = Format::kQuantized;
   std::optional<std::uint32_t> state_hz;  ///< frames a second; empty: the room's
   friend bool operator==(const Join&, const Join&) = default;
@@ -76,16 +95,26 @@ struct Input {
 };
 
 struct Chat {
-  std::string text;     ///< cleaned, 1..kMaxChatBytes
+  std::string text;  ///< cleaned, 1..kMaxChatBytes
   friend bool operator==(const Chat&, const Chat&) = default;
 };
-struct List { friend bool operator==(const List&, const List&) = default; };
-struct GetMap { friend bool operator==(const GetMap&, const GetMap&) = default; };
-struct Resync { friend bool operator==(const Resync&, const Resync&) = default; };
-struct Respawn { friend bool operator==(const Respawn&, const Respawn&) = default; };
-struct Leave { friend bool operator==(const Leave&, const Leave&) = default; };
+struct List {
+  friend bool operator==(const List&, const List&) = default;
+};
+struct GetMap {
+  friend bool operator==(const GetMap&, const GetMap&) = default;
+};
+struct Resync {
+  friend bool operator==(const Resync&, const Resync&) = default;
+};
+struct Respawn {
+  friend bool operator==(const Respawn&, const Respawn&) = default;
+};
+struct Leave {
+  friend bool operator==(const Leave&, const Leave&) = default;
+};
 struct Ping {
-  std::int64_t t = 0;   ///< within +-2^53; both directions
+  std::int64_t t = 0;  ///< within +-2^53; both directions
   friend bool operator==(const Ping&, const Ping&) = default;
 };
 struct Pong {
@@ -98,11 +127,11 @@ using ClientMessage = std::variant<Join, Input, Chat, List, GetMap, Resync, Resp
 // ---- server to client ----------------------------------------------------------------------------------
 
 struct Limits {
-  std::size_t line = kMaxLineBytes;    ///< bytes
+  std::size_t line = kMaxLineBytes;  ///< bytes
   int depth = kMaxDepth;
-  std::uint32_t messages_per_s = 60;   ///< sustained, per session
+  std::uint32_t messages_per_s = 60;  ///< sustained, per session
   std::uint32_t burst = 120;
-  std::size_t outbox_bytes = 4u << 20; ///< queued events and answers; frames are replaced, never queued
+  std::size_t outbox_bytes = 4u << 20;  ///< queued events and answers; frames are replaced, never queued
   std::uint32_t handshake_s = 10;
   std::uint32_t idle_s = 60;
   std::uint32_t per_address = 256;
@@ -113,8 +142,8 @@ struct Limits {
 struct Hello {
   int protocol = kProtocolVersion;
   int behavior = 0;
-  std::string server;                  ///< name and version
-  std::string session;                 ///< hex, for logs
+  std::string server;   ///< name and version
+  std::string session;  ///< hex, for logs
   std::vector<std::string> rooms;
   std::vector<std::string> features;
   Limits limits;
@@ -122,7 +151,9 @@ struct Hello {
 };
 
 struct PlayerEntry {
-  std::uint32_t id = 0; std::string name; Role role = Role::kPlayer;
+  std::uint32_t id = 0;
+  std::string name;
+  Role role = Role::kPlayer;
   friend bool operator==(const PlayerEntry&, const PlayerEntry&) = default;
 };
 
@@ -132,8 +163,8 @@ struct Physics {
 };
 
 struct Welcome {
-  std::uint32_t id = 0;                ///< the louse's; 0 for a spectator
-  std::string resume_token;            ///< secret; hex; empty for a spectator
+  std::uint32_t id = 0;      ///< the louse's; 0 for a spectator
+  std::string resume_token;  ///< secret; hex; empty for a spectator
   std::string room;
   std::uint64_t tick = 0;
   std::uint32_t tick_hz = 60;
@@ -142,19 +173,19 @@ struct Welcome {
   Format format = Format::kQuantized;
   std::string map_name;
   std::uint64_t map_hash = 0;
-  std::array<double, 4> extent{};      ///< x_min, y_min, x_max, y_max [m]
-  std::size_t map_bytes = 0;           ///< length of the `map` message's line
+  std::array<double, 4> extent{};  ///< x_min, y_min, x_max, y_max [m]
+  std::size_t map_bytes = 0;       ///< length of the `map` message's line
   Physics physics;
-  std::string mode;                    ///< "roam"
-  std::vector<PlayerEntry> players;    ///< who is there already
+  std::string mode;                  ///< "roam"
+  std::vector<PlayerEntry> players;  ///< who is there already
   friend bool operator==(const Welcome&, const Welcome&) = default;
 };
 
 /// What besides the rows went into a key's hash (docs/determinism.md).
 struct HashProof {
-  std::uint64_t previous = 0;          ///< the hash of the tick before
-  std::uint64_t inputs = 0;            ///< the hash of the inputs applied since
-  std::uint64_t generator = 0;         ///< the match's random state
+  std::uint64_t previous = 0;   ///< the hash of the tick before
+  std::uint64_t inputs = 0;     ///< the hash of the inputs applied since
+  std::uint64_t generator = 0;  ///< the match's random state
   friend bool operator==(const HashProof&, const HashProof&) = default;
 };
 
@@ -163,19 +194,19 @@ struct HashProof {
 struct Frame {
   bool is_key = true;
   std::uint64_t tick = 0;
-  std::uint64_t base = 0;              ///< a delta's key; a key's own tick
+  std::uint64_t base = 0;  ///< a delta's key; a key's own tick
   std::size_t columns = 0;
   std::vector<double> values;
-  std::vector<std::uint32_t> gone;     ///< ids that are in the key and no longer there
-  std::optional<std::uint64_t> hash;   ///< keys only
-  std::optional<HashProof> proof;      ///< keys of all_columns() in exact format only
+  std::vector<std::uint32_t> gone;    ///< ids that are in the key and no longer there
+  std::optional<std::uint64_t> hash;  ///< keys only
+  std::optional<HashProof> proof;     ///< keys of all_columns() in exact format only
   [[nodiscard]] std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
   friend bool operator==(const Frame&, const Frame&) = default;
 };
 
 /// A louse's exact state, from which a client predicts with the same World.
 struct ExactState {
-  std::uint64_t tick = 0;              ///< it is the state before this step
+  std::uint64_t tick = 0;  ///< it is the state before this step
   std::uint32_t id = 0;
   core::Vec2 position, velocity, heading, thrust;
   std::uint32_t thrust_kind = 0, thrust_ticks = 0, phase = 0;
@@ -186,12 +217,12 @@ struct ExactState {
 
 struct Ack {
   std::uint32_t seq = 0;
-  std::uint64_t tick = 0;              ///< the step that took it
-  std::int64_t margin_us = 0;          ///< how long before that step it came
-  bool late = false;                   ///< it asked for a step that was past
-  bool dropped = false;                ///< it was not applied; an `error` said why
+  std::uint64_t tick = 0;      ///< the step that took it
+  std::int64_t margin_us = 0;  ///< how long before that step it came
+  bool late = false;           ///< it asked for a step that was past
+  bool dropped = false;        ///< it was not applied; an `error` said why
   bool clamped = false;
-  std::optional<ExactState> you;       ///< after that step; none when dropped
+  std::optional<ExactState> you;  ///< after that step; none when dropped
   friend bool operator==(const Ack&, const Ack&) = default;
 };
 
@@ -199,13 +230,13 @@ enum class EventKind : std::uint8_t { kJoined, kLeft, kChat, kRespawned };
 std::string_view to_text(EventKind kind);
 
 struct Event {
-  std::uint64_t n = 0;                 ///< numbered per room from 1, without holes
+  std::uint64_t n = 0;  ///< numbered per room from 1, without holes
   std::uint64_t tick = 0;
   EventKind kind = EventKind::kJoined;
-  std::uint32_t id = 0;                ///< whose; 0 for a spectator
+  std::uint32_t id = 0;  ///< whose; 0 for a spectator
   std::string name;
-  Role role = Role::kPlayer;           ///< joined only
-  std::string text;                    ///< chat only
+  Role role = Role::kPlayer;  ///< joined only
+  std::string text;           ///< chat only
   friend bool operator==(const Event&, const Event&) = default;
 };
 
@@ -220,12 +251,14 @@ struct ErrorMessage {
   friend bool operator==(const ErrorMessage&, const ErrorMessage&) = default;
 };
 struct Bye {
-  std::string code, text; bool resumable = false;
+  std::string code, text;
+  bool resumable = false;
   friend bool operator==(const Bye&, const Bye&) = default;
 };
 
 struct RoomEntry {
-  std::string name, map; std::uint32_t players = 0, bots = 0, spectators = 0;
+  std::string name, map;
+  std::uint32_t players = 0, bots = 0, spectators = 0;
   friend bool operator==(const RoomEntry&, const RoomEntry&) = default;
 };
 struct Rooms {
@@ -233,25 +266,28 @@ struct Rooms {
   friend bool operator==(const Rooms&, const Rooms&) = default;
 };
 
-/// Heights of a map too big to be sent: the whole domain at a few knots, for drawing; nothing may be computed from it.
+/// Heights of a map too big to be sent: the whole domain at a few knots, for drawing; nothing may be computed
+/// from it.
 struct Overview {
-  core::Vec2 origin, spacing;          ///< of the south-western knot; between knots, > 0 [m]
-  std::size_t columns = 0, rows = 0;   ///< 4 to kMaxOverviewSide
-  std::vector<double> heights;         ///< row by row from the south, each from west to east [m]
+  core::Vec2 origin, spacing;         ///< of the south-western knot; between knots, > 0 [m]
+  std::size_t columns = 0, rows = 0;  ///< 4 to kMaxOverviewSide
+  std::vector<double> heights;        ///< row by row from the south, each from west to east [m]
   friend bool operator==(const Overview&, const Overview&) = default;
 };
 inline constexpr std::size_t kMaxOverviewSide = 257;
 
-/// The map: `definition` is a map file (maps/README.md) as a JSON object. Where its terrain names a function, the
-/// message also carries `knots` {origin, spacing, columns, rows, heights} for who only draws. Where it names a file,
-/// the map is too big to be sent, and `knots` are its overview.
+/// The map: `definition` is a map file (maps/README.md) as a JSON object. Where its terrain names a function,
+/// the message also carries `knots` {origin, spacing, columns, rows, heights} for who only draws. Where it
+/// names a file, the map is too big to be sent, and `knots` are its overview.
 struct MapMessage {
-  std::string name; std::uint64_t hash = 0; std::string definition;
+  std::string name;
+  std::uint64_t hash = 0;
+  std::string definition;
   std::optional<Overview> overview = std::nullopt;
   friend bool operator==(const MapMessage&, const MapMessage&) = default;
 };
 
-using ServerMessage = std::variant<Hello, Welcome, Frame, Ack, Event, Notice, ErrorMessage, Bye, Rooms,
-                                   MapMessage, Ping, Pong>;
+using ServerMessage =
+    std::variant<Hello, Welcome, Frame, Ack, Event, Notice, ErrorMessage, Bye, Rooms, MapMessage, Ping, Pong>;
 
 }  // namespace woodlouse::protocol

@@ -9,7 +9,10 @@ namespace woodlouse::replay {
 
 ReplayArchive::ReplayArchive(ReplaySource source, Header header, std::shared_ptr<const map::Map> map,
                              ReplayIndex index)
-    : source_(std::move(source)), header_(std::move(header)), map_(std::move(map)), index_(std::move(index)) {}
+    : source_(std::move(source)),
+      header_(std::move(header)),
+      map_(std::move(map)),
+      index_(std::move(index)) {}
 
 core::Expected<std::shared_ptr<const ReplayArchive>> ReplayArchive::open(const std::filesystem::path& file) {
   return open(ReplaySource::of_file(file));

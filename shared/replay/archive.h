@@ -19,9 +19,9 @@
 #include "shared/core/error.h"
 #include "shared/map/map_definition.h"
 #include "shared/match/match.h"
-#include "shared/replay/playback.h"
 #include "shared/replay/format.h"
 #include "shared/replay/index.h"
+#include "shared/replay/playback.h"
 #include "shared/replay/source.h"
 
 namespace woodlouse::replay {
@@ -48,7 +48,9 @@ class ReplayArchive : public std::enable_shared_from_this<ReplayArchive> {
   /// The server did not finish it: it has no end line. What is there is as good as ever.
   [[nodiscard]] bool is_cut_off() const { return !index_.end; }
   /// Why it ended ("SIGTERM"); empty when cut off.
-  [[nodiscard]] std::string_view end_reason() const { return index_.end ? std::string_view(index_.end->reason) : std::string_view(); }
+  [[nodiscard]] std::string_view end_reason() const {
+    return index_.end ? std::string_view(index_.end->reason) : std::string_view();
+  }
   /// Whoever played, by id, and from which tick to which.
   [[nodiscard]] std::span<const PlayerSpan> players() const { return index_.players; }
   /// Joins, leaves, respawns and chat, by tick.

@@ -63,7 +63,8 @@ Header read_header(const json::Value& root, Problems& problems) {
   Header header;
   check_kind(root, problems);
   if (problems.count() != 0) return header;
-  const Fields fields(root, {"format", "version", "behavior", "build", "seed", "tick_hz", "parent", "map"}, problems);
+  const Fields fields(root, {"format", "version", "behavior", "build", "seed", "tick_hz", "parent", "map"},
+                      problems);
   header.build = demand_text(fields, "build", problems);
   if (const auto seed = fields.demand("seed")) {
     const auto number = seed->is(json::Kind::kString) ? unsigned_text(seed->text(), 10) : std::nullopt;

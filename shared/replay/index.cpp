@@ -23,8 +23,9 @@ std::string_view to_text(MarkKind kind) {
 
 std::size_t ReplayIndex::keyframe_before(std::uint64_t tick) const {
   assert(!keyframes.empty() && tick >= keyframes.front().tick);
-  const auto after = std::upper_bound(keyframes.begin(), keyframes.end(), tick,
-                                      [](std::uint64_t t, const KeyframePlace& place) { return t < place.tick; });
+  const auto after =
+      std::upper_bound(keyframes.begin(), keyframes.end(), tick,
+                       [](std::uint64_t t, const KeyframePlace& place) { return t < place.tick; });
   return static_cast<std::size_t>(after - keyframes.begin()) - 1;
 }
 

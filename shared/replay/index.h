@@ -25,9 +25,9 @@ struct KeyframePlace {
 /// Somebody's stay.
 struct PlayerSpan {
   match::PlayerId player = 0;
-  PlayerLabel label;                         ///< an empty name: nobody gave one
-  std::uint64_t joined = 0;                  ///< the tick that first shows the louse
-  std::optional<std::uint64_t> left;         ///< the tick that no longer shows it
+  PlayerLabel label;                  ///< an empty name: nobody gave one
+  std::uint64_t joined = 0;           ///< the tick that first shows the louse
+  std::optional<std::uint64_t> left;  ///< the tick that no longer shows it
   friend bool operator==(const PlayerSpan&, const PlayerSpan&) = default;
 };
 
@@ -37,7 +37,7 @@ std::string_view to_text(MarkKind kind);
 
 /// Something to find again on a time line.
 struct Mark {
-  std::uint64_t tick = 0;      ///< the step that did it
+  std::uint64_t tick = 0;  ///< the step that did it
   MarkKind kind = MarkKind::kJoin;
   match::PlayerId player = 0;
   friend bool operator==(const Mark&, const Mark&) = default;
@@ -52,7 +52,7 @@ struct ReplayIndex {
   std::vector<Mark> marks;               ///< by tick
   std::uint64_t inputs = 0;              ///< applied in the whole recording
   std::uint64_t last_tick = 0;
-  std::optional<End> end;                ///< empty: cut off
+  std::optional<End> end;  ///< empty: cut off
 
   /// The last keyframe at or before `tick`. REQUIRES tick >= the first one's.
   [[nodiscard]] std::size_t keyframe_before(std::uint64_t tick) const;

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "shared/json/document.h"
-#include "shared/json/text.h"
 #include "shared/json/fields.h"
-#include "shared/replay/line_fields.h"
+#include "shared/json/text.h"
 #include "shared/replay/index.h"
+#include "shared/replay/line_fields.h"
 
 namespace woodlouse::replay {
 namespace {
@@ -104,7 +104,8 @@ ReplayIndex read_fields(const json::Value& root, Problems& problems) {
     index.players.push_back(std::move(player));
   });
   read_rows(fields, "marks", 3, problems, [&](const Values& row) {
-    index.marks.push_back({number(row[0], kMaxTick, problems), kind_of(row[1], problems), player_id(row[2], problems)});
+    index.marks.push_back(
+        {number(row[0], kMaxTick, problems), kind_of(row[1], problems), player_id(row[2], problems)});
   });
   return index;
 }

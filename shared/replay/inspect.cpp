@@ -54,9 +54,10 @@ int inspect_command(const InspectRequest& request, std::ostream& out, std::ostre
   if (!state) return report(state.error(), errors);
   out << state->json;
   if (!state->difference) return 0;
-  return report({request.file.string(), core::joined({"differs at tick ", std::to_string(*state->difference)}),
-                 "the state printed is the re-run's; ask verify"},
-                errors);
+  return report(
+      {request.file.string(), core::joined({"differs at tick ", std::to_string(*state->difference)}),
+       "the state printed is the re-run's; ask verify"},
+      errors);
 }
 
 }  // namespace woodlouse::replay

@@ -16,8 +16,8 @@ constexpr std::int64_t kLongestMargin = 10'000;  // [ms]; more counts as this
 struct Punctuality {
   std::uint64_t inputs = 0;
   std::uint64_t late = 0;
-  std::uint64_t known = 0;                          ///< with a margin
-  std::map<std::int64_t, std::uint64_t> margins;    ///< how many of each [ms]
+  std::uint64_t known = 0;                        ///< with a margin
+  std::map<std::int64_t, std::uint64_t> margins;  ///< how many of each [ms]
 
   void add(const std::optional<std::int64_t>& margin) {
     ++inputs;
@@ -61,27 +61,32 @@ template <typename... Values>
 std::string formatted(const char* format, Values... values) {
   char text[256];
   const int size = std::snprintf(text, sizeof text, format, values...);
-  return std::string(text, std::clamp<std::size_t>(static_cast<std::size_t>(std::max(size, 0)), 0, sizeof text - 1));
+  return std::string(
+      text, std::clamp<std::size_t>(static_cast<std::size_t>(std::max(size, 0)), 0, sizeof text - 1));
 }
 
 std::string head(const ReplayArchive& archive) {
   const Header& header = archive.header();
-  std::string out = core::joined({archive.source().name, "\nmap      ", header.map_name, " ", core::to_hex(header.map_hash),
-                                  "\nplayed   by ", header.build, ", behavior ", std::to_string(header.behavior), ", seed ",
-                                  std::to_string(header.seed), ", ", std::to_string(header.tick_hz), " ticks/s\n"});
+  std::string out =
+      core::joined({archive.source().name, "\nmap      ", header.map_name, " ", core::to_hex(header.map_hash),
+                    "\nplayed   by ", header.build, ", behavior ", std::to_string(header.behavior), ", seed ",
+                    std::to_string(header.seed), ", ", std::to_string(header.tick_hz), " ticks/s\n"});
   if (header.parent) {
-    out += core::joined({"forked   from ", header.parent->file, " at tick ", std::to_string(header.parent->tick), "\n"});
+    out += core::joined(
+        {"forked   from ", header.parent->file, " at tick ", std::to_string(header.parent->tick), "\n"});
   }
   const std::uint64_t ticks = archive.last_tick() - archive.first_tick();
-  out += core::joined({"ticks    ", std::to_string(archive.first_tick()), " to ", std::to_string(archive.last_tick()),
+  out += core::joined({"ticks    ", std::to_string(archive.first_tick()), " to ",
+                       std::to_string(archive.last_tick()),
                        formatted(", %.1f s; ", static_cast<double>(ticks) / header.tick_hz),
                        archive.is_cut_off() ? std::string("cut off, without an end")
                                             : core::joined({"ended: ", archive.end_reason()}),
                        "\n"});
   std::uint64_t counts[4] = {};
   for (const Mark& mark : archive.marks()) ++counts[static_cast<std::size_t>(mark.kind)];
-  out += core::joined({"events   ", std::to_string(counts[0]), " joins, ", std::to_string(counts[1]), " leaves, ",
-                       std::to_string(counts[2]), " respawns, ", std::to_string(counts[3]), " chats\n"});
+  out += core::joined({"events   ", std::to_string(counts[0]), " joins, ", std::to_string(counts[1]),
+                       " leaves, ", std::to_string(counts[2]), " respawns, ", std::to_string(counts[3]),
+                       " chats\n"});
   return out + core::joined({"inputs   ", std::to_string(archive.index().inputs), "\n\n"});
 }
 
@@ -94,8 +99,9 @@ std::string row(const PlayerSpan& player, const Punctuality& inputs) {
   if (inputs.known == 0) {
     out += "        -       -       -       -";
   } else {
-    out += formatted(" %8lu %7ld %7ld %7ld", static_cast<unsigned long>(inputs.late), static_cast<long>(inputs.quantile(0.5)),
-                     static_cast<long>(inputs.quantile(0.01)), static_cast<long>(inputs.margins.begin()->first));
+    out += formatted(" %8lu %7ld %7ld %7ld", static_cast<unsigned long>(inputs.late),
+                     static_cast<long>(inputs.quantile(0.5)), static_cast<long>(inputs.quantile(0.01)),
+                     static_cast<long>(inputs.margins.begin()->first));
   }
   return core::joined({out, "  ", player.label.name, "\n"});
 }

@@ -85,7 +85,8 @@ void append_hash(std::string& out, std::string_view key, std::uint64_t value) {
   out.append(key).append("\"").append(core::to_hex(value)).append("\"");
 }
 
-void append_roster(std::string& out, std::span<const match::RosterChange> roster, const PlayerLabels& labels) {
+void append_roster(std::string& out, std::span<const match::RosterChange> roster,
+                   const PlayerLabels& labels) {
   if (roster.empty()) return;
   out += ",\"roster\":";
   append_list(out, roster, [&](const match::RosterChange& change) {
@@ -224,7 +225,8 @@ void append_keyframe(std::string& out, const match::MatchState& state, const Pla
   append_hash(out, ",\"generator\":", state.generator);
   append_number(out, ",\"next_player\":", state.next_player);
   out += ",\"players\":";
-  append_list(out, state.players, [&](const match::PlayerSeq& player) { append_player(out, player, labels); });
+  append_list(out, state.players,
+              [&](const match::PlayerSeq& player) { append_player(out, player, labels); });
   append_roster(out, state.roster, labels);
   out += ",\"waiting\":";
   append_list(out, state.waiting, [&](const match::AppliedInput& input) { append_waiting(out, input); });

@@ -22,7 +22,9 @@ struct Finding {
 class Plan {
  public:
   explicit Plan(std::shared_ptr<const ReplayArchive> archive)
-      : archive_(std::move(archive)), findings_(archive_->index().keyframes.size()), first_bad_(findings_.size()) {}
+      : archive_(std::move(archive)),
+        findings_(archive_->index().keyframes.size()),
+        first_bad_(findings_.size()) {}
 
   /// Takes one stretch after the other until none is left that matters.
   void work() {

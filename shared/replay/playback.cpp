@@ -32,10 +32,12 @@ core::Expected<void> Playback::restore(std::size_t keyframe) {
   auto* found = *line ? std::get_if<Keyframe>(&**line) : nullptr;
   if (found == nullptr || found->state.tick != place.tick) {
     return core::fail(core::joined({name, ":", std::to_string(place.line)}),
-                      core::joined({"the keyframe of tick ", std::to_string(place.tick), " is not where the index has it"}));
+                      core::joined({"the keyframe of tick ", std::to_string(place.tick),
+                                    " is not where the index has it"}));
   }
   const Header& header = archive_->header();
-  auto rerun = Rerun::from(archive_->map(), {header.tick_hz, header.seed}, std::move(*found), reader->place());
+  auto rerun =
+      Rerun::from(archive_->map(), {header.tick_hz, header.seed}, std::move(*found), reader->place());
   if (!rerun) return tl::unexpected(rerun.error());
   reader_ = std::move(reader);
   rerun_ = std::move(*rerun);
@@ -58,7 +60,8 @@ core::Expected<void> Playback::seek(std::uint64_t tick) {
   while (this->tick() < tick) {
     const core::Expected<std::optional<PlayedStep>> step = advance();
     if (!step) return tl::unexpected(step.error());
-    if (!*step) return core::fail(archive_->source().name, core::joined({"ends before tick ", std::to_string(tick)}));
+    if (!*step)
+      return core::fail(archive_->source().name, core::joined({"ends before tick ", std::to_string(tick)}));
   }
   return {};
 }

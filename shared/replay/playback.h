@@ -19,9 +19,9 @@ class Rerun;
 
 /// What one step forth did.
 struct PlayedStep {
-  StepLine recorded;               ///< the roster changes and inputs applied, and the recorded hash
-  std::vector<ChatLine> chats;     ///< said since the step before
-  std::uint64_t hash = 0;          ///< of the re-run; recorded.step.hash where the two are the same
+  StepLine recorded;            ///< the roster changes and inputs applied, and the recorded hash
+  std::vector<ChatLine> chats;  ///< said since the step before
+  std::uint64_t hash = 0;       ///< of the re-run; recorded.step.hash where the two are the same
   [[nodiscard]] bool is_proven() const { return hash == recorded.step.hash; }
 };
 

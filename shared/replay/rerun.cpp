@@ -44,7 +44,9 @@ std::string first_unlike(const std::vector<T>& recorded, const std::vector<T>& r
   return {};
 }
 
-std::string too_many_lice() { return joined({"more than ", std::to_string(kMaxLice), " lice: no server plays so many"}); }
+std::string too_many_lice() {
+  return joined({"more than ", std::to_string(kMaxLice), " lice: no server plays so many"});
+}
 
 struct FieldText {
   std::string_view name;
@@ -85,7 +87,8 @@ std::string unlike_waiting(const std::vector<match::AppliedInput>& recorded,
 std::string unlike_players(const match::MatchState& recorded, std::vector<match::PlayerSeq> rerun) {
   for (const match::AppliedInput& input : recorded.waiting) {
     for (match::PlayerSeq& player : rerun) {
-      if (player.player == input.player) player.last_seq = std::max(player.last_seq, std::optional(input.seq));
+      if (player.player == input.player)
+        player.last_seq = std::max(player.last_seq, std::optional(input.seq));
     }
   }
   if (recorded.players == rerun) return {};
@@ -93,7 +96,9 @@ std::string unlike_players(const match::MatchState& recorded, std::vector<match:
   for (std::size_t k = 0; k < count; ++k) {
     const match::PlayerSeq& a = recorded.players[k];
     const match::PlayerSeq& b = rerun[k];
-    const auto seq = [](const match::PlayerSeq& p) { return p.last_seq ? std::to_string(*p.last_seq) : "none"; };
+    const auto seq = [](const match::PlayerSeq& p) {
+      return p.last_seq ? std::to_string(*p.last_seq) : "none";
+    };
     if (a == b) continue;
     if (a.player == b.player) {
       return joined({"player ", std::to_string(a.player), ", seq: ", both(seq(a), seq(b))});
@@ -131,10 +136,12 @@ core::Expected<std::unique_ptr<Rerun>> Rerun::from(std::shared_ptr<const map::Ma
   if (state.lice.size() > kMaxLice) return core::fail(place, too_many_lice());
   const std::string fault = match::why_not(*map, settings, state);
   if (!fault.empty()) {
-    return core::fail(place, joined({"keyframe ", std::to_string(state.tick), ": ", fault}), "it was altered");
+    return core::fail(place, joined({"keyframe ", std::to_string(state.tick), ": ", fault}),
+                      "it was altered");
   }
   const match::PlayerId last_joined = state.next_player - 1;
-  return std::unique_ptr<Rerun>(new Rerun(match::Match::restore(std::move(map), settings, state), last_joined));
+  return std::unique_ptr<Rerun>(
+      new Rerun(match::Match::restore(std::move(map), settings, state), last_joined));
 }
 
 core::Expected<std::optional<Difference>> Rerun::step(const StepLine& line, const std::string& place) {
@@ -173,7 +180,8 @@ core::Expected<std::optional<Difference>> Rerun::step(const StepLine& line, cons
   };
   for (const match::AppliedInput& input : recorded.inputs) {
     if (match_->file_applied(input)) continue;
-    differ(recorded.tick, joined({"the input of ", name_of(input), " can't be applied: the player has no louse"}));
+    differ(recorded.tick,
+           joined({"the input of ", name_of(input), " can't be applied: the player has no louse"}));
   }
   const match::StepRecord& rerun = match_->advance();
   const std::string step = joined({" of step ", std::to_string(recorded.tick), ": "});
@@ -202,7 +210,8 @@ std::string Rerun::difference_to(const Keyframe& keyframe) const {
   compare("previous", recorded.previous, own.previous);
   compare("inputs", recorded.inputs, own.inputs);
   if (found.empty() && recorded.next_player != own.next_player) {
-    found = joined({"next_player: ", both(std::to_string(recorded.next_player), std::to_string(own.next_player))});
+    found = joined(
+        {"next_player: ", both(std::to_string(recorded.next_player), std::to_string(own.next_player))});
   }
   if (found.empty()) found = unlike_waiting(recorded.waiting, own.waiting);
   if (found.empty()) found = unlike_players(recorded, own.players);

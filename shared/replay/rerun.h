@@ -27,7 +27,8 @@ inline constexpr std::size_t kMaxLice = 4096;
 
 class Rerun {
  public:
-  /// Errors: the keyframe is none of that map, its hash is not that of what it holds, too many lice. `place`: "FILE:LINE".
+  /// Errors: the keyframe is none of that map, its hash is not that of what it holds, too many lice. `place`:
+  /// "FILE:LINE".
   static core::Expected<std::unique_ptr<Rerun>> from(std::shared_ptr<const map::Map> map,
                                                      const match::MatchSettings& settings, Keyframe keyframe,
                                                      const std::string& place);

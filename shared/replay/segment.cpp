@@ -14,20 +14,23 @@ void compare(const Rerun& rerun, const Keyframe& keyframe, Stretch& stretch) {
   const std::uint64_t tick = keyframe.state.tick;
   const std::string found = rerun.difference_to(keyframe);
   if (!found.empty() && !stretch.difference) {
-    stretch.difference = Difference{tick, "the keyframe is another, though every hash up to it is the same", {}};
+    stretch.difference =
+        Difference{tick, "the keyframe is another, though every hash up to it is the same", {}};
   }
   if (!stretch.difference) return;
   const bool is_same = found.empty();
   stretch.difference->detail =
       joined({"keyframe ", std::to_string(tick), ": ",
-              is_same ? "the same lice, so what was altered moved none: a hash, or an input without effect" : found});
+              is_same ? "the same lice, so what was altered moved none: a hash, or an input without effect"
+                      : found});
 }
 
 core::Expected<void> check_end(ReplayReader& reader, const End& end, std::uint64_t tick) {
   if (end.tick != tick) {
-    return core::fail(joined({reader.place(), ": end"}),
-                      joined({"tick ", std::to_string(end.tick), " after step lines up to tick ", std::to_string(tick)}),
-                      "lines are missing");
+    return core::fail(
+        joined({reader.place(), ": end"}),
+        joined({"tick ", std::to_string(end.tick), " after step lines up to tick ", std::to_string(tick)}),
+        "lines are missing");
   }
   const core::Expected<std::optional<Line>> behind = reader.next();
   if (!behind) return tl::unexpected(behind.error());
@@ -55,8 +58,9 @@ core::Expected<Stretch> run_stretch(ReplayReader& reader, const std::shared_ptr<
     const std::uint64_t tick = (*rerun)->match().tick();
     if (auto* keyframe = std::get_if<Keyframe>(&**line)) {
       if (keyframe->state.tick != tick || stretch.steps == 0) {
-        return core::fail(reader.place(), joined({"a keyframe of tick ", std::to_string(keyframe->state.tick),
-                                                  " stands where tick ", std::to_string(tick), " is reached"}));
+        return core::fail(reader.place(),
+                          joined({"a keyframe of tick ", std::to_string(keyframe->state.tick),
+                                  " stands where tick ", std::to_string(tick), " is reached"}));
       }
       compare(**rerun, *keyframe, stretch);
       stretch.next = std::move(*keyframe);

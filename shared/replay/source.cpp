@@ -31,7 +31,8 @@ bool is_compressed(std::istream& in) {
   in.clear();
   in.seekg(0);
   const bool is_frame = magic == std::array<unsigned char, 4>{0x28, 0xB5, 0x2F, 0xFD};
-  const bool is_skippable = (magic[0] & 0xF0) == 0x50 && magic[1] == 0x2A && magic[2] == 0x4D && magic[3] == 0x18;
+  const bool is_skippable =
+      (magic[0] & 0xF0) == 0x50 && magic[1] == 0x2A && magic[2] == 0x4D && magic[3] == 0x18;
   return is_frame || is_skippable;
 }
 
@@ -42,7 +43,8 @@ Stream unpacked(Stream in) {
 
 core::Expected<Stream> open_file(const std::filesystem::path& file) {
   std::error_code error;
-  if (std::filesystem::is_directory(file, error)) return core::fail(file.string(), "is a folder, not a recording");
+  if (std::filesystem::is_directory(file, error))
+    return core::fail(file.string(), "is a folder, not a recording");
   errno = 0;
   auto in = std::make_unique<std::ifstream>(file, std::ios::binary);
   if (!*in) return core::fail(file.string(), std::string("can't be opened: ") + std::strerror(errno));
@@ -55,7 +57,8 @@ ReplaySource ReplaySource::of_file(const std::filesystem::path& file) {
   return {file.string(), file.parent_path(), [file] { return open_file(file); }};
 }
 
-ReplaySource ReplaySource::of_bytes(std::string bytes, std::string name, const std::filesystem::path& folder) {
+ReplaySource ReplaySource::of_bytes(std::string bytes, std::string name,
+                                    const std::filesystem::path& folder) {
   return {std::move(name), folder, [bytes = std::move(bytes)]() -> core::Expected<Stream> {
             return unpacked(std::make_unique<std::istringstream>(bytes));
           }};

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "shared/core/joined.h"
+#include "shared/replay/format.h"
 #include "shared/replay/parallel_verify.h"
 #include "shared/replay/recorded_map.h"
-#include "shared/replay/format.h"
 #include "shared/replay/segment.h"
 
 namespace woodlouse::replay {

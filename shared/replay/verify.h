@@ -1,10 +1,10 @@
 // Re-runs a recording through the same match code and compares: the proof that a game was played as recorded.
 //
-// From keyframe to keyframe: the match is restored, the recorded roster changes and inputs are applied step by
-// step, and of every step are demanded the same changes and inputs in the same order and the same state hash;
-// of the next keyframe, the same bits. So a keyframe that a stretch begins with is one that the stretch before
-// led to. After the first difference the re-run goes on to the next keyframe, to say which louse, which field
-// and by how much.
+// From keyframe to keyframe: the match is restored, the recorded roster changes and inputs are applied step
+// by step, and of every step are demanded the same changes and inputs in the same order and the same state
+// hash; of the next keyframe, the same bits. So a keyframe that a stretch begins with is one that the stretch
+// before led to. After the first difference the re-run goes on to the next keyframe, to say which louse,
+// which field and by how much.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,14 @@
 #include <vector>
 
 #include "shared/core/error.h"
-#include "shared/replay/source.h"
 #include "shared/replay/rerun.h"
+#include "shared/replay/source.h"
 
 namespace woodlouse::replay {
 
 struct Verification {
-  std::uint64_t ticks = 0;               ///< steps re-run up to the end, or to where the first difference showed
-  bool cut_off = false;                  ///< the recording has no end line: the server did not finish it
+  std::uint64_t ticks = 0;  ///< steps re-run up to the end, or to where the first difference showed
+  bool cut_off = false;     ///< the recording has no end line: the server did not finish it
   std::optional<Difference> difference;  ///< empty: the same bits throughout
   [[nodiscard]] bool ok() const { return !difference.has_value(); }
 };

@@ -10,8 +10,9 @@ namespace {
 std::int64_t milliseconds(std::int64_t us) { return us >= 0 ? us / 1000 : -((999 - us) / 1000); }
 
 bool is_player(const match::MatchState& state, match::PlayerId player) {
-  const auto at = std::lower_bound(state.players.begin(), state.players.end(), player,
-                                   [](const match::PlayerSeq& p, match::PlayerId id) { return p.player < id; });
+  const auto at =
+      std::lower_bound(state.players.begin(), state.players.end(), player,
+                       [](const match::PlayerSeq& p, match::PlayerId id) { return p.player < id; });
   return at != state.players.end() && at->player == player;
 }
 
@@ -77,7 +78,8 @@ void ReplayWriter::forget_notes(const match::StepRecord& step) {
     if (change.action != match::RosterAction::kLeave) continue;
     labels_.erase(change.player);
     // What it had filed is dropped.
-    margins_.erase(margins_.lower_bound({change.player, 0}), margins_.upper_bound({change.player, UINT32_MAX}));
+    margins_.erase(margins_.lower_bound({change.player, 0}),
+                   margins_.upper_bound({change.player, UINT32_MAX}));
   }
 }
 

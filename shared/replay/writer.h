@@ -7,10 +7,10 @@
 #include <string>
 #include <string_view>
 
-#include "shared/replay/zstd_packer.h"
-#include "shared/replay/line_writer.h"
 #include "shared/replay/format.h"
 #include "shared/replay/index.h"
+#include "shared/replay/line_writer.h"
+#include "shared/replay/zstd_packer.h"
 
 namespace woodlouse::replay {
 
@@ -23,7 +23,9 @@ enum class Encoding {
 Encoding encoding_of(const std::filesystem::path& file);
 
 /// How many ticks lie between keyframes. A keyframe is due at every multiple.
-constexpr std::uint64_t keyframe_ticks(std::uint32_t tick_hz) { return std::uint64_t{kKeyframeSeconds} * tick_hz; }
+constexpr std::uint64_t keyframe_ticks(std::uint32_t tick_hz) {
+  return std::uint64_t{kKeyframeSeconds} * tick_hz;
+}
 
 /// One writer a recording: a header, a keyframe, then steps, chats and keyframes as they happen, at last the
 /// end. Every append_ adds the bytes that are ready to `out`; of kZstd some stay behind until flush().

@@ -49,14 +49,16 @@ bool ZstdInput::unpack_some() {
     ZSTD_outBuffer out{out_.data(), out_.size(), 0};
     const std::size_t left = ZSTD_decompressStream(context_.get(), &out, &pending_);
     if (ZSTD_isError(left) != 0) {
-      fault_ = core::joined({"compressed data is damaged at byte ", std::to_string(at), ": ", ZSTD_getErrorName(left)});
+      fault_ = core::joined(
+          {"compressed data is damaged at byte ", std::to_string(at), ": ", ZSTD_getErrorName(left)});
       return false;
     }
     if (left == 0) is_frame_open_ = false;
     unpacked_end_ += out.pos;
     if (unpacked_end_ - frame_.unpacked > kMaxFrameBytes) {
-      fault_ = core::joined({"the compressed frame at byte ", std::to_string(frame_.packed), " unpacks to more than ",
-                             std::to_string(kMaxFrameBytes >> 20), " MiB: no recording"});
+      fault_ = core::joined({"the compressed frame at byte ", std::to_string(frame_.packed),
+                             " unpacks to more than ", std::to_string(kMaxFrameBytes >> 20),
+                             " MiB: no recording"});
       return false;
     }
     setg(out_.data(), out_.data(), out_.data() + out.pos);

@@ -26,7 +26,7 @@ struct ZstdFrame {
 
 class ZstdInput : public std::streambuf {
  public:
-  static constexpr int kMaxWindowLog = 23;                               ///< 8 MiB
+  static constexpr int kMaxWindowLog = 23;                                  ///< 8 MiB
   static constexpr std::uint64_t kMaxFrameBytes = std::uint64_t{64} << 20;  ///< unpacked
 
   explicit ZstdInput(std::unique_ptr<std::istream> packed);
@@ -54,14 +54,14 @@ class ZstdInput : public std::streambuf {
   std::unique_ptr<ZSTD_DCtx, Release> context_;
   std::vector<char> in_;
   std::vector<char> out_;
-  ZSTD_inBuffer pending_{};          ///< of in_, not yet unpacked
-  std::uint64_t packed_read_ = 0;    ///< bytes of the file before pending_'s end
-  std::uint64_t unpacked_end_ = 0;   ///< bytes before egptr()
-  ZstdFrame frame_;                  ///< being read
+  ZSTD_inBuffer pending_{};         ///< of in_, not yet unpacked
+  std::uint64_t packed_read_ = 0;   ///< bytes of the file before pending_'s end
+  std::uint64_t unpacked_end_ = 0;  ///< bytes before egptr()
+  ZstdFrame frame_;                 ///< being read
   bool is_frame_open_ = false;
-  bool is_drained_ = false;          ///< the file was cut off within a frame, all of which is unpacked
-  std::vector<ZstdFrame> frames_;    ///< by offset; once known
-  std::uint64_t total_ = 0;          ///< bytes unpacked; once known
+  bool is_drained_ = false;        ///< the file was cut off within a frame, all of which is unpacked
+  std::vector<ZstdFrame> frames_;  ///< by offset; once known
+  std::uint64_t total_ = 0;        ///< bytes unpacked; once known
   bool has_frames_ = false;
   std::string fault_;
 };

@@ -18,7 +18,8 @@ void FramePacker::pack(std::string& out, std::string_view text, ZSTD_EndDirectiv
   for (;;) {
     ZSTD_outBuffer packed{buffer_.data(), buffer_.size(), 0};
     const std::size_t left = ZSTD_compressStream2(context_.get(), &packed, &in, directive);
-    assert(ZSTD_isError(left) == 0);  // the parameters are sound: only memory can fail, and that throws elsewhere
+    assert(ZSTD_isError(left) ==
+           0);  // the parameters are sound: only memory can fail, and that throws elsewhere
     out.append(buffer_.data(), packed.pos);
     frame_.packed += static_cast<std::uint32_t>(packed.pos);
     const bool is_done = directive == ZSTD_e_continue ? in.pos == in.size : left == 0;

@@ -14,9 +14,10 @@ using LouseId = std::uint32_t;
 
 /// How `Thrust::value` is meant.
 enum class ThrustKind : std::uint32_t {
-  kNone = 0,          ///< no thrust
-  kAlongHeading = 1,  ///< value.x in [-1, 1]: the document's pulse; positive drives along the heading, negative brakes
-  kMapVector = 2,     ///< value of length <= 1: pushes along the tangent whose map projection is value
+  kNone = 0,  ///< no thrust
+  kAlongHeading =
+      1,  ///< value.x in [-1, 1]: the document's pulse; positive drives along the heading, negative brakes
+  kMapVector = 2,  ///< value of length <= 1: pushes along the tangent whose map projection is value
 };
 
 /// ticks_left of a thrust that holds until the next one.
@@ -39,15 +40,15 @@ enum class Phase : std::uint32_t {
 struct Louse {
   LouseId id = 0;
   Phase phase = Phase::kMoving;
-  core::Vec2 position;                ///< [m], inside the domain
-  core::Vec2 velocity;                ///< map-plane velocity [m/s]; vertical speed is gradient . velocity
-  core::Vec2 heading{1.0, 0.0};       ///< unit vector in the map plane: velocity's direction, kept at rest
-  core::Vec2 thrust;                  ///< Thrust::value
-  double flight_z = 0.0;              ///< height while flying [m]; 0 on the ground, where the surface tells it
-  double flight_vz = 0.0;             ///< vertical speed while flying [m/s]; 0 on the ground
-  double distance = 0.0;              ///< length of the path in space since the spawn [m]
+  core::Vec2 position;           ///< [m], inside the domain
+  core::Vec2 velocity;           ///< map-plane velocity [m/s]; vertical speed is gradient . velocity
+  core::Vec2 heading{1.0, 0.0};  ///< unit vector in the map plane: velocity's direction, kept at rest
+  core::Vec2 thrust;             ///< Thrust::value
+  double flight_z = 0.0;         ///< height while flying [m]; 0 on the ground, where the surface tells it
+  double flight_vz = 0.0;        ///< vertical speed while flying [m/s]; 0 on the ground
+  double distance = 0.0;         ///< length of the path in space since the spawn [m]
   ThrustKind thrust_kind = ThrustKind::kNone;
-  std::uint32_t thrust_ticks = 0;     ///< ticks the thrust still acts; kHeld: until the next one
+  std::uint32_t thrust_ticks = 0;  ///< ticks the thrust still acts; kHeld: until the next one
 };
 static_assert(sizeof(Louse) == 104 && std::is_trivially_copyable_v<Louse>);
 

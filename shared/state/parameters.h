@@ -52,13 +52,14 @@ constexpr std::optional<Method> method_from_text(std::string_view text) {
 }
 
 struct Parameters {
-  double gravity = 9.81;           ///< g [m/s^2], >= 0
-  double drag = 0.2;               ///< viscous drag d [1/s], >= 0; 0 costs nothing
-  double friction = 0.05;          ///< Coulomb coefficient mu [1], >= 0; 0 costs nothing
-  double thrust_max = 4.0;         ///< acceleration of a thrust of 1 [m/s^2], >= 0; 0 costs nothing
-  double edge_restitution = 0.5;   ///< walls at the domain's edge: 0 no bounce .. 1 elastic
+  double gravity = 9.81;          ///< g [m/s^2], >= 0
+  double drag = 0.2;              ///< viscous drag d [1/s], >= 0; 0 costs nothing
+  double friction = 0.05;         ///< Coulomb coefficient mu [1], >= 0; 0 costs nothing
+  double thrust_max = 4.0;        ///< acceleration of a thrust of 1 [m/s^2], >= 0; 0 costs nothing
+  double edge_restitution = 0.5;  ///< walls at the domain's edge: 0 no bounce .. 1 elastic
 
-  double central_gravity = 0.0;    ///< pull towards the map's origin, k / r^2 [m^3/s^2], >= 0 (chapter 2.3); 0 costs nothing
+  double central_gravity =
+      0.0;  ///< pull towards the map's origin, k / r^2 [m^3/s^2], >= 0 (chapter 2.3); 0 costs nothing
   Edges edges = Edges::kWalls;
   SurfaceContact contact = SurfaceContact::kBilateral;
   Method method = Method::kStandard;

@@ -11,7 +11,8 @@
 //   which costs two orders near the rim), or periodic (C2 over the seam too), each axis its own. Periodic:
 //   the grid holds the seam twice, its last column (row) is the first again, so that its domain is one
 //   period; wrapped_surface.h takes points of any turn.
-// Outside the domain: the edge cell's polynomial goes on (see surface.h); over a seam the surface itself goes on
+// Outside the domain: the edge cell's polynomial goes on (see surface.h); over a seam the surface itself goes
+// on
 //   for kBeyondSeam cells, whose polynomials are kept twice, and the last of them from there.
 // Memory: 128 bytes a cell. Cost: about 15 ns for z, gradient and Hessian while the cells fit the cache.
 #pragma once
@@ -82,13 +83,15 @@ class BicubicSpline {
     long long column = 0;
     long long row = 0;
   };
-  /// How many cells are kept beyond each seam of a periodic axis: a sub-step looks one cell's way past it, and as
-  /// far as the acceleration takes it.
+  /// How many cells are kept beyond each seam of a periodic axis: a sub-step looks one cell's way past it,
+  /// and as far as the acceleration takes it.
   static constexpr std::size_t kBeyondSeam = 4;
-  /// How many there are in the domain, each way. cell_at() gives the same polynomial a period on as that many cells on.
+  /// How many there are in the domain, each way. cell_at() gives the same polynomial a period on as that many
+  /// cells on.
   [[nodiscard]] CellIndex cells() const { return cells_each_way_; }
   [[nodiscard, gnu::always_inline]] inline CellIndex cell_at(double x, double y) const {
-    return nearest_cell(static_cast<long long>((x - x_origin_) * inverse_dx_), static_cast<long long>((y - y_origin_) * inverse_dy_));
+    return nearest_cell(static_cast<long long>((x - x_origin_) * inverse_dx_),
+                        static_cast<long long>((y - y_origin_) * inverse_dy_));
   }
   [[nodiscard]] Rectangle bounds(CellIndex cell) const {
     const double x = x_origin_ + static_cast<double>(cell.column) * dx_;
@@ -97,14 +100,22 @@ class BicubicSpline {
   }
   [[nodiscard, gnu::always_inline]] inline SurfaceSample sample_in(CellIndex cell, double x, double y) const {
     const CellIndex inside = nearest_cell(cell.column, cell.row);
-    return evaluate_cell(cells_[static_cast<std::size_t>(inside.row * (last_column_ + 1) + inside.column)].c.data(),
-                         x - x_origin_ - static_cast<double>(inside.column) * dx_,
-                         y - y_origin_ - static_cast<double>(inside.row) * dy_);
+    return evaluate_cell(
+        cells_[static_cast<std::size_t>(inside.row * (last_column_ + 1) + inside.column)].c.data(),
+        x - x_origin_ - static_cast<double>(inside.column) * dx_,
+        y - y_origin_ - static_cast<double>(inside.row) * dy_);
   }
 
   [[nodiscard]] View view() const {
-    return {cells_.front().c.data(), x_origin_, y_origin_, dx_, dy_, inverse_dx_, inverse_dy_,
-            static_cast<int>(last_column_), static_cast<int>(last_row_)};
+    return {cells_.front().c.data(),
+            x_origin_,
+            y_origin_,
+            dx_,
+            dy_,
+            inverse_dx_,
+            inverse_dy_,
+            static_cast<int>(last_column_),
+            static_cast<int>(last_row_)};
   }
 
  private:

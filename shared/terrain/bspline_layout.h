@@ -1,5 +1,5 @@
-// The global not-a-knot bicubic spline in B-spline form, for big maps: how a point finds its tile and cell, and what
-// the spline is there.
+// The global not-a-knot bicubic spline in B-spline form, for big maps: how a point finds its tile and cell,
+// and what the spline is there.
 //
 // In cell (i, j), u and v in [0, 1] the offsets in knot spacings:
 //     z = sum c[i-1+a][j-1+b] w_a(u) w_b(v),  a, b = 0 .. 3
@@ -72,8 +72,9 @@ class BSplineLayout {
   }
   /// Whether all four corners of a cell have data, whatever the policy. `tile`: the cell's own.
   [[nodiscard]] static bool has_ground(const BSplineTile& tile, CellIndex inside) {
-    return tile.holes == nullptr || !(*tile.holes)[static_cast<std::size_t>(inside.row) % BSplineTile::kCells * BSplineTile::kCells +
-                                                   static_cast<std::size_t>(inside.column) % BSplineTile::kCells];
+    return tile.holes == nullptr ||
+           !(*tile.holes)[static_cast<std::size_t>(inside.row) % BSplineTile::kCells * BSplineTile::kCells +
+                          static_cast<std::size_t>(inside.column) % BSplineTile::kCells];
   }
   /// The polynomial of a cell of the map, wherever asked. `tile`: the cell's own.
   [[nodiscard]] SurfaceSample evaluate(const BSplineTile& tile, CellIndex inside, double x, double y) const;
@@ -90,7 +91,8 @@ class BSplineLayout {
   NoDataPolicy no_data_;
 };
 
-inline SurfaceSample BSplineLayout::evaluate(const BSplineTile& tile, CellIndex inside, double x, double y) const {
+inline SurfaceSample BSplineLayout::evaluate(const BSplineTile& tile, CellIndex inside, double x,
+                                             double y) const {
   const std::size_t i = static_cast<std::size_t>(inside.column) % BSplineTile::kCells;
   const std::size_t j = static_cast<std::size_t>(inside.row) % BSplineTile::kCells;
   if (tile.holes != nullptr) [[unlikely]] {
@@ -100,7 +102,8 @@ inline SurfaceSample BSplineLayout::evaluate(const BSplineTile& tile, CellIndex 
     }
   }
   // The derivatives are the splines of the coefficients' differences, of one degree less for each:
-  //     6 s' = 3 (s^2 D0 + (1 + 2 s t) D1 + t^2 D2),  6 s'' = 6 (s E0 + t E1),  D = c[a+1] - c[a], E = D[a+1] - D[a].
+  //     6 s' = 3 (s^2 D0 + (1 + 2 s t) D1 + t^2 D2),  6 s'' = 6 (s E0 + t E1),  D = c[a+1] - c[a], E = D[a+1]
+  //     - D[a].
   struct Weights {
     double s, t, ss, tt, mixed;
     double w[4];

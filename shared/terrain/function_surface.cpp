@@ -30,8 +30,8 @@ SurfaceSample volcano(double x, double y) {
   const double hq2 = kHeight * q * q;
   const double ring = 1.0 - 2.0 * hq2;  // zx = x ring
   const double bend = 8.0 * hq2 * q;    // d ring / dx = x bend
-  return {{0.5 * r2 + kHeight * q, x * ring, y * ring},
-          ring + x * x * bend,    x * y * bend, ring + y * y * bend};
+  return {
+      {0.5 * r2 + kHeight * q, x * ring, y * ring}, ring + x * x * bend, x * y * bend, ring + y * y * bend};
 }
 
 SurfaceSample hills(double x, double y) {
@@ -41,8 +41,7 @@ SurfaceSample hills(double x, double y) {
   constexpr double kTwist = 0.1;
   const auto [sa, ca] = core::portable_sincos(kA * x + 0.4);
   const auto [sb, cb] = core::portable_sincos(kB * y - 0.2);
-  return {{kAmplitude * sa * cb + kTwist * x * y,
-           kAmplitude * kA * ca * cb + kTwist * y,
+  return {{kAmplitude * sa * cb + kTwist * x * y, kAmplitude * kA * ca * cb + kTwist * y,
            -kAmplitude * kB * sa * sb + kTwist * x},
           -kAmplitude * kA * kA * sa * cb,
           -kAmplitude * kA * kB * ca * sb + kTwist,
@@ -57,8 +56,7 @@ SurfaceSample waves(double x, double y) {
   const auto [sy, cy] = core::portable_sincos(kPi * y);
   const auto [s2x, c2x] = core::portable_sincos(kTwoPi * x);
   const auto [s3y, c3y] = core::portable_sincos(3.0 * kPi * y);
-  return {{kHeight * cx * cy + kRipple * s2x * s3y,
-           kPi * (2.0 * kRipple * c2x * s3y - kHeight * sx * cy),
+  return {{kHeight * cx * cy + kRipple * s2x * s3y, kPi * (2.0 * kRipple * c2x * s3y - kHeight * sx * cy),
            kPi * (3.0 * kRipple * s2x * c3y - kHeight * cx * sy)},
           -kPi * kPi * (kHeight * cx * cy + 4.0 * kRipple * s2x * s3y),
           kPi * kPi * (kHeight * sx * sy + 6.0 * kRipple * c2x * c3y),
@@ -67,11 +65,16 @@ SurfaceSample waves(double x, double y) {
 
 SurfaceSample unit_sample(FunctionName name, double x, double y) {
   switch (name) {
-    case FunctionName::kParabolicPot: return {{0.5 * (x * x + y * y), x, y}, 1.0, 0.0, 1.0};
-    case FunctionName::kWavyPot: return wavy_pot(x, y);
-    case FunctionName::kVolcano: return volcano(x, y);
-    case FunctionName::kHills: return hills(x, y);
-    case FunctionName::kWaves: return waves(x, y);
+    case FunctionName::kParabolicPot:
+      return {{0.5 * (x * x + y * y), x, y}, 1.0, 0.0, 1.0};
+    case FunctionName::kWavyPot:
+      return wavy_pot(x, y);
+    case FunctionName::kVolcano:
+      return volcano(x, y);
+    case FunctionName::kHills:
+      return hills(x, y);
+    case FunctionName::kWaves:
+      return waves(x, y);
   }
   assert(false);
   return {};
@@ -81,11 +84,16 @@ SurfaceSample unit_sample(FunctionName name, double x, double y) {
 
 std::string_view to_text(FunctionName name) {
   switch (name) {
-    case FunctionName::kParabolicPot: return "parabolic_pot";
-    case FunctionName::kWavyPot: return "wavy_pot";
-    case FunctionName::kVolcano: return "volcano";
-    case FunctionName::kHills: return "hills";
-    case FunctionName::kWaves: return "waves";
+    case FunctionName::kParabolicPot:
+      return "parabolic_pot";
+    case FunctionName::kWavyPot:
+      return "wavy_pot";
+    case FunctionName::kVolcano:
+      return "volcano";
+    case FunctionName::kHills:
+      return "hills";
+    case FunctionName::kWaves:
+      return "waves";
   }
   assert(false);
   return {};

@@ -5,7 +5,8 @@
 //     wavy_pot       0.5 r^2 + 0.03 cos(2 pi x) cos(2 pi y)           (chapter 2.2)
 //     volcano        0.5 r^2 + 0.02 / (r^2 + 0.1)                     (chapter 4.1)
 //     hills          0.3 sin(2.3 x + 0.4) cos(1.7 y - 0.2) + 0.1 x y
-//     waves          0.12 cos(pi x) cos(pi y) + 0.03 sin(2 pi x) sin(3 pi y), for maps whose edges wrap: the square
+//     waves          0.12 cos(pi x) cos(pi y) + 0.03 sin(2 pi x) sin(3 pi y), for maps whose edges wrap: the
+//     square
 //                    is a period
 // A map of scale s is similar to it: z(x, y) = s f(x/s, y/s) on [-s, s]^2, so slopes stay and curvatures
 // are divided by s. sin and cos are our own (core/portable_trigonometry.h): the same bits everywhere.

@@ -1,5 +1,5 @@
-// A plane: flat ground, level or inclined. Exact; no cells, no curvature, and its samples have none, so that nobody
-// computes with it (chapters 2.1 and 2.3 of the document move on such ground).
+// A plane: flat ground, level or inclined. Exact; no cells, no curvature, and its samples have none, so that
+// nobody computes with it (chapters 2.1 and 2.3 of the document move on such ground).
 //     z = height + slope . (p - corner)
 // Continuity: C-infinity. Outside the domain: the plane goes on.
 #pragma once
@@ -16,7 +16,8 @@ namespace woodlouse::terrain {
 class PlaneSurface {
  public:
   /// height [m]: at the domain's south-western corner.
-  PlaneSurface(const Rectangle& domain, double height, core::Vec2 slope) : domain_(domain), height_(height), slope_(slope) {}
+  PlaneSurface(const Rectangle& domain, double height, core::Vec2 slope)
+      : domain_(domain), height_(height), slope_(slope) {}
 
   [[nodiscard, gnu::always_inline]] inline SlopeSample sample(double x, double y) const {
     return {height_ + slope_.x * (x - domain_.x_min) + slope_.y * (y - domain_.y_min), slope_.x, slope_.y};
@@ -32,8 +33,8 @@ class PlaneSurface {
   core::Vec2 slope_;
 };
 
-/// The plane that all knots of a grid lie in, to the rounding of their heights; none where one does not. Every spline
-/// through such heights is this plane. REQUIRES at least 2 knots each way.
+/// The plane that all knots of a grid lie in, to the rounding of their heights; none where one does not.
+/// Every spline through such heights is this plane. REQUIRES at least 2 knots each way.
 std::optional<PlaneSurface> plane_through(const HeightGrid& grid);
 
 }  // namespace woodlouse::terrain

@@ -2,10 +2,13 @@
 //
 // The concept every surface meets, so that the equations of motion can be compiled for each without an
 // indirect call:
-//     SurfaceSample sample(double x, double y) const   z, gradient, Hessian at a map-plane point; SlopeSample of a
-//                                                       surface that is flat: whoever uses it leaves out curvature
+//     SurfaceSample sample(double x, double y) const   z, gradient, Hessian at a map-plane point; SlopeSample
+//     of a
+//                                                       surface that is flat: whoever uses it leaves out
+//                                                       curvature
 //     Rectangle domain() const                          where the surface is defined
-//     double cell() const                               side of its smallest polynomial cell [m]; infinite: none
+//     double cell() const                               side of its smallest polynomial cell [m]; infinite:
+//     none
 // sample() outside the domain continues the edge's polynomial (a step's stages look past a wall by a fraction
 // of a step); whoever takes points from outside checks domain() first.
 //
@@ -43,7 +46,9 @@ using SurfaceSample = BasicSurfaceSample<double>;
 
 /// A sample of a surface that may be curved.
 template <typename Sample>
-concept Curved = requires(const Sample& s) { s.zxx; };
+concept Curved = requires(const Sample& s) {
+  s.zxx;
+};
 
 /// A closed axis-parallel rectangle of the map plane [m].
 struct Rectangle {

@@ -6,8 +6,7 @@
 namespace woodlouse::terrain {
 
 Terrain::Terrain(Alternatives surface)
-    : surface_(std::move(surface)),
-      domain_(std::visit([](const auto& s) { return s.domain(); }, surface_)) {}
+    : surface_(std::move(surface)), domain_(std::visit([](const auto& s) { return s.domain(); }, surface_)) {}
 
 SurfaceSample Terrain::sample(double x, double y) const {
   assert(domain_.contains(x, y));

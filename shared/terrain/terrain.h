@@ -13,8 +13,8 @@
 
 namespace woodlouse::terrain {
 
-/// Immutable after construction; any thread may sample it. (What a big map keeps in memory changes, behind a lock of
-/// its own, and never shows in a sample: tile_store.h.)
+/// Immutable after construction; any thread may sample it. (What a big map keeps in memory changes, behind a
+/// lock of its own, and never shows in a sample: tile_store.h.)
 class Terrain {
  public:
   using Alternatives = std::variant<BicubicSpline, FunctionSurface, TiledGround, PlaneSurface>;

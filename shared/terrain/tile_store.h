@@ -1,12 +1,12 @@
 // The tiles of one big map that are in memory, shared by everybody who samples it.
 //
 // Which tiles there are never shows in a result: a tile is a function of its index and the heights alone
-// (bspline_tile.h), so it is the same whenever, in whichever order and by whomever it is built, and built anew
-// after it was thrown out.
+// (bspline_tile.h), so it is the same whenever, in whichever order and by whomever it is built, and built
+// anew after it was thrown out.
 //
-// Memory: at most max_tiles, 36 KB each. Overflow: a tile that nobody asked for since the last time around goes
-// (second chance, a clock). Where lice are in more tiles than that at once, tiles are built anew every tick, 0.3 ms
-// each from the page cache: slow, and nothing else. Who holds a tile that went keeps it alive.
+// Memory: at most max_tiles, 36 KB each. Overflow: a tile that nobody asked for since the last time around
+// goes (second chance, a clock). Where lice are in more tiles than that at once, tiles are built anew every
+// tick, 0.3 ms each from the page cache: slow, and nothing else. Who holds a tile that went keeps it alive.
 #pragma once
 
 #include <cstddef>
@@ -69,7 +69,7 @@ class TileStore {
   const std::size_t tiles_x_;
   const std::size_t all_tiles_;
 
-  mutable std::mutex mutex_;  ///< guards what follows
+  mutable std::mutex mutex_;                             ///< guards what follows
   std::unordered_map<std::size_t, std::size_t> places_;  ///< tile to slot; never iterated
   std::vector<Slot> slots_;
   std::size_t hand_ = 0;

@@ -1,5 +1,5 @@
-// The global not-a-knot bicubic spline in B-spline form (bspline_layout.h), for big maps: 8 bytes a knot, built tile
-// by tile where lice are.
+// The global not-a-knot bicubic spline in B-spline form (bspline_layout.h), for big maps: 8 bytes a knot,
+// built tile by tile where lice are.
 //
 // Continuity: C2; over tile lines to rounding (1e-16 of the heights). Equal to BicubicSpline with not-a-knot
 //   ends to 1e-12 of the heights' range. Exact on bicubic polynomials. Orders: height 4, gradient 3,
@@ -10,8 +10,8 @@
 // Memory: 36 KB a visited tile of 64 x 64 cells (8.8 bytes a knot), bounded by the store (tile_store.h); a
 // TiledBSpline keeps at most kPins of them alive besides, until it visits others or goes.
 // Cost: 16 loads, about 28 ns for z, gradient and Hessian at 21 as at 201 knots a side; two thirds of
-//   BicubicSpline's time where its cells are out of the cache (1001 a side, random points). The first visit to a
-//   tile 0.15 ms and the reading of its rows, another 0.15 ms from the page cache.
+//   BicubicSpline's time where its cells are out of the cache (1001 a side, random points). The first visit
+//   to a tile 0.15 ms and the reading of its rows, another 0.15 ms from the page cache.
 //
 // Determinism: a tile depends on its index and the heights alone, never on the order of visits or on what was
 //   thrown out; so the same bits whichever way the lice walk, and after a restart.
@@ -34,13 +34,15 @@ struct TiledBSplineOptions {
   std::size_t max_tiles = 4096;  ///< >= 1; 36 KB each
 };
 
-/// A big map's ground, for everybody: any thread may sample it. Copies are the same ground, with the same tiles.
+/// A big map's ground, for everybody: any thread may sample it. Copies are the same ground, with the same
+/// tiles.
 class TiledGround {
  public:
   /// REQUIRES at least 4 knots each way, spacings > 0. Reads no height.
   explicit TiledGround(std::shared_ptr<const HeightSource> source, const TiledBSplineOptions& options = {});
 
-  /// Looks its tile up under the store's lock: for a point now and then. Who samples many takes a TiledBSpline.
+  /// Looks its tile up under the store's lock: for a point now and then. Who samples many takes a
+  /// TiledBSpline.
   [[nodiscard]] SurfaceSample sample(double x, double y) const;
   [[nodiscard]] Rectangle domain() const { return layout_.domain(); }
   [[nodiscard]] double cell() const { return layout_.cell(); }
@@ -58,7 +60,8 @@ class TiledGround {
 class TiledBSpline {
  public:
   static constexpr std::size_t kPinsAcross = 16;
-  /// Tiles it remembers; one for each place in a block of 16 x 16 tiles. Overflow: the newer of two in one place.
+  /// Tiles it remembers; one for each place in a block of 16 x 16 tiles. Overflow: the newer of two in one
+  /// place.
   static constexpr std::size_t kPins = kPinsAcross * kPinsAcross;
 
   explicit TiledBSpline(const TiledGround& ground) : ground_(ground) {}

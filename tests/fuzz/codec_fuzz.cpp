@@ -1,8 +1,8 @@
-// The codec, both directions: a line is a message in range that reads back the same once written, or an error with
-// a code of the table that can itself be sent.
+// The codec, both directions: a line is a message in range that reads back the same once written, or an error
+// with a code of the table that can itself be sent.
 //
-// Input: a letter that says who reads it ('c' the server; 'q', 'e' and 'a' a client with quantized rows, exact rows and
-// all columns, exact), and the line.
+// Input: a letter that says who reads it ('c' the server; 'q', 'e' and 'a' a client with quantized rows,
+// exact rows and all columns, exact), and the line.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -28,7 +28,8 @@ void demand_one_line(const std::string& text) {
 
 void check(const DecodeError& error) {
   const auto& table = codes();
-  demand(std::any_of(table.begin(), table.end(), [&](const CodeEntry& entry) { return entry.code == error.code; }),
+  demand(std::any_of(table.begin(), table.end(),
+                     [&](const CodeEntry& entry) { return entry.code == error.code; }),
          "an error's code is in the table", error.code);
   demand_readable(error.text);
   const ServerMessage told = ErrorMessage{error.code, error.text, false, std::nullopt};
@@ -80,17 +81,20 @@ std::string frame_text(const Frame& frame, const std::vector<Column>& fields, Fo
     const std::size_t column = k % fields.size();
     const bool is_integer = quantum(fields[column]) == 1.0;
     const double value = frame.values[k];
-    if (format == Format::kQuantized && std::abs(value) / quantum(fields[column]) > static_cast<double>(kMaxInteger)) {
+    if (format == Format::kQuantized &&
+        std::abs(value) / quantum(fields[column]) > static_cast<double>(kMaxInteger)) {
       return {};
     }
     out += k == 0 ? "[" : column == 0 ? "],[" : ",";
     char number[kMaxValueChars];
-    const char* const end = write_value(number, value, fields[column], is_integer ? Format::kQuantized : format);
+    const char* const end =
+        write_value(number, value, fields[column], is_integer ? Format::kQuantized : format);
     out.append(number, static_cast<std::size_t>(end - number));
   }
   out += frame.values.empty() ? "]" : "]]";
   if (!frame.gone.empty()) {
-    for (std::size_t k = 0; k < frame.gone.size(); ++k) out += (k == 0 ? ",\"gone\":[" : ",") + std::to_string(frame.gone[k]);
+    for (std::size_t k = 0; k < frame.gone.size(); ++k)
+      out += (k == 0 ? ",\"gone\":[" : ",") + std::to_string(frame.gone[k]);
     out += ']';
   }
   const auto append_hash = [&out](std::string_view key, std::uint64_t hash) {

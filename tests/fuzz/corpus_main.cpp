@@ -1,5 +1,5 @@
-// Runs a fuzz target over files instead of under libFuzzer: every build and compiler checks the corpus, and a finding can
-// be looked at in any debugger.
+// Runs a fuzz target over files instead of under libFuzzer: every build and compiler checks the corpus, and a
+// finding can be looked at in any debugger.
 //
 //     woodlouse_corpus_TARGET FILE_OR_FOLDER...
 #include <algorithm>

@@ -1,4 +1,5 @@
-// What fuzzing has found, and bombs that are too big for a fuzzer to make: each must get an error of one line, quickly.
+// What fuzzing has found, and bombs that are too big for a fuzzer to make: each must get an error of one
+// line, quickly.
 #include <catch2/catch.hpp>
 #include <ctime>
 #include <functional>
@@ -18,7 +19,8 @@ using namespace woodlouse;
 
 namespace {
 
-/// Of processor time; what is linear takes a tenth of it, what is quadratic minutes. The sanitizers' share is in it.
+/// Of processor time; what is linear takes a tenth of it, what is quadratic minutes. The sanitizers' share is
+/// in it.
 constexpr double kMaxSeconds = 20.0;
 
 std::string repeated(std::string_view part, std::size_t times) {
@@ -80,7 +82,8 @@ std::string recording(std::string_view more) {
 }
 
 std::string recording_error(std::string bytes) {
-  const auto archive = replay::ReplayArchive::open(replay::ReplaySource::of_bytes(std::move(bytes), "r.ndjson"));
+  const auto archive =
+      replay::ReplayArchive::open(replay::ReplaySource::of_bytes(std::move(bytes), "r.ndjson"));
   if (!archive) return archive.error().text();
   const auto playback = (*archive)->play((*archive)->first_tick());
   if (!playback) return playback.error().text();
@@ -101,7 +104,8 @@ TEST_CASE("a key of any bytes is cited on one line") {
     const std::string text = "\"" + std::string(key) + "\":1";
     check_refused([&] { return map_error("{" + text + "}"); });
     check_refused([&] { return map_error("{" + text + "," + text + "}"); });
-    check_refused([&] { return map_error(R"({"name":"m","terrain":{"function":"hills"},"physics":{)" + text + "}}"); });
+    check_refused(
+        [&] { return map_error(R"({"name":"m","terrain":{"function":"hills"},"physics":{)" + text + "}}"); });
     check_refused([&] { return recording_error("{" + text + "}\n"); });
     check_refused([&] { return recording_error(recording("{\"step\":0," + text + "," + kHash + "\n")); });
     check_refused([&] { return server_line_error("{" + text + "," + text + "}"); });
@@ -114,7 +118,9 @@ TEST_CASE("a word of a grid file of any bytes is cited on one line") {
     check_refused([&] { return grid_error("ncols " + word + "\n"); });
     check_refused([&] { return map::parse_flt_header("ncols " + word + "\n", "g.hdr").error().text(); });
     check_refused([&] { return map::parse_flt_header(word + " 4\n", "g.hdr").error().text(); });
-    check_refused([&] { return map::parse_flt_header("ncols 4\nnrows 4\nnbits " + word + "\n", "g.hdr").error().text(); });
+    check_refused([&] {
+      return map::parse_flt_header("ncols 4\nnrows 4\nnbits " + word + "\n", "g.hdr").error().text();
+    });
   }
 }
 
@@ -139,8 +145,10 @@ TEST_CASE("a map without speed and pull reads back the same though it wrote -0")
 TEST_CASE("a row of heights is a list") {
   const std::string row = R"({"a":0,"b":0,"c":0,"d":0})";
   const std::string list = "[0,0,0,0]";
-  for (const std::string& rows : {row + "," + list + "," + list + "," + list, list + "," + list + "," + row + "," + list}) {
-    check_refused([&] { return map_error(R"({"name":"m","terrain":{"spacing":1,"heights":[)" + rows + "]}}"); });
+  for (const std::string& rows :
+       {row + "," + list + "," + list + "," + list, list + "," + list + "," + row + "," + list}) {
+    check_refused(
+        [&] { return map_error(R"({"name":"m","terrain":{"spacing":1,"heights":[)" + rows + "]}}"); });
   }
 }
 
@@ -182,7 +190,8 @@ TEST_CASE("bombs of keys, words and digits are refused at once") {
 TEST_CASE("a map that is wrong in every height is refused at once") {
   const std::string row = "[" + repeated("\"x\",", 999) + "7]";
   check_refused([&] {
-    return map_error(R"({"name":"m","terrain":{"spacing":1,"heights":[)" + repeated(row + ",", 999) + row + "]}}");
+    return map_error(R"({"name":"m","terrain":{"spacing":1,"heights":[)" + repeated(row + ",", 999) + row +
+                     "]}}");
   });
 }
 

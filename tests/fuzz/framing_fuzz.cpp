@@ -1,5 +1,5 @@
-// The framer, against a second, slower way to cut the same stream: whatever the limit, however the stream is cut into
-// chunks and whenever lines are taken out, the lines are the same.
+// The framer, against a second, slower way to cut the same stream: whatever the limit, however the stream is
+// cut into chunks and whenever lines are taken out, the lines are the same.
 //
 // Input: a byte for the limit, a byte that seeds the chunks' sizes, the stream.
 #include <algorithm>
@@ -57,7 +57,8 @@ std::vector<Cut> framed(std::string_view stream, std::size_t limit, std::uint64_
     const std::size_t size = std::min<std::size_t>(stream.size(), random.next() % 17);
     framer.append(stream.substr(0, size));
     stream.remove_prefix(size);
-    if (when == Drain::kAtOnce || (when == Drain::kNowAndThen && random.next() % 3 == 0)) drain(framer, limit, cuts);
+    if (when == Drain::kAtOnce || (when == Drain::kNowAndThen && random.next() % 3 == 0))
+      drain(framer, limit, cuts);
   }
   drain(framer, limit, cuts);
   return cuts;

@@ -1,5 +1,5 @@
-// Grid files: an ESRI ASCII grid, or the header of a float grid, reads back bit for bit once written anew, or is refused
-// with a place.
+// Grid files: an ESRI ASCII grid, or the header of a float grid, reads back bit for bit once written anew, or
+// is refused with a place.
 //
 // Input: a letter, 'a' for a whole ASCII grid or 'f' for a float grid's header, and the file's text.
 #include <algorithm>
@@ -63,9 +63,11 @@ void check_ascii(std::string_view text) {
   }
   map::Problems none("written.asc");
   const auto again = map::parse_esri_ascii_grid(written, none);
-  demand(again.has_value(), "what is written can be read", none.count() == 0 ? "" : none.errors().front().text());
+  demand(again.has_value(), "what is written can be read",
+         none.count() == 0 ? "" : none.errors().front().text());
   check_same_frame(*grid, *again);
-  demand(std::equal(grid->heights.begin(), grid->heights.end(), again->heights.begin(), again->heights.end(), same_bits),
+  demand(std::equal(grid->heights.begin(), grid->heights.end(), again->heights.begin(), again->heights.end(),
+                    same_bits),
          "the heights read back bit for bit");
 }
 

@@ -1,5 +1,5 @@
-// The map loader: a text is a map that its canonical text gives back bit for bit and that lice can be played on, or
-// a bounded list of problems, each with its place.
+// The map loader: a text is a map that its canonical text gives back bit for bit and that lice can be played
+// on, or a bounded list of problems, each with its place.
 //
 // Input: the map's text. Grid files are looked for in tests/fuzz/grids.
 #include <algorithm>
@@ -55,13 +55,15 @@ void check_same(const terrain::HeightGrid& a, const terrain::HeightGrid& b) {
 void check_same(const physics::Parameters& a, const physics::Parameters& b) {
   demand(same_bits(a.gravity, b.gravity) && same_bits(a.drag, b.drag) && same_bits(a.friction, b.friction) &&
              same_bits(a.thrust_max, b.thrust_max) && same_bits(a.edge_restitution, b.edge_restitution) &&
-             same_bits(a.central_gravity, b.central_gravity) && a.contact == b.contact && a.method == b.method,
+             same_bits(a.central_gravity, b.central_gravity) && a.contact == b.contact &&
+             a.method == b.method,
          "the physics reads back bit for bit");
 }
 
 void check_same(const map::SpawnPoint& a, const map::SpawnPoint& b) {
   demand(same_bits(a.position.x, b.position.x) && same_bits(a.position.y, b.position.y) &&
-             same_bits(a.heading.x, b.heading.x) && same_bits(a.heading.y, b.heading.y) && same_bits(a.speed, b.speed),
+             same_bits(a.heading.x, b.heading.x) && same_bits(a.heading.y, b.heading.y) &&
+             same_bits(a.speed, b.speed),
          "a spawn point reads back bit for bit");
 }
 
@@ -75,7 +77,8 @@ void check_canonical(const map::Map& map) {
   const map::MapDefinition& b = (*again)->definition;
   demand(a.name == b.name && a.surface == b.surface, "name and surface read back");
   if (is_tiled) {
-    demand(std::get<map::TiledTerrain>(a.terrain).fingerprint == std::get<map::TiledTerrain>(b.terrain).fingerprint,
+    demand(std::get<map::TiledTerrain>(a.terrain).fingerprint ==
+               std::get<map::TiledTerrain>(b.terrain).fingerprint,
            "a grid file's fingerprint reads back");
   } else {
     check_same(map::knots_of(a), map::knots_of(b));
@@ -99,8 +102,9 @@ void check_play(const std::shared_ptr<const map::Map>& map) {
     match.file(input);
     match.advance();
     const physics::Louse& louse = *match.world().find(player);
-    for (const double value : {louse.position.x, louse.position.y, louse.velocity.x, louse.velocity.y, louse.heading.x,
-                               louse.heading.y, louse.flight_z, louse.flight_vz, louse.distance}) {
+    for (const double value :
+         {louse.position.x, louse.position.y, louse.velocity.x, louse.velocity.y, louse.heading.x,
+          louse.heading.y, louse.flight_z, louse.flight_vz, louse.distance}) {
       demand(std::isfinite(value), "a louse's state stays finite", map->canonical);
     }
     demand(domain.contains(louse.position.x, louse.position.y), "a louse stays on the map", map->canonical);

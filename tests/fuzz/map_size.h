@@ -1,4 +1,5 @@
-// Which maps a fuzz target builds: a function sampled at four million knots is a legal map, but takes seconds.
+// Which maps a fuzz target builds: a function sampled at four million knots is a legal map, but takes
+// seconds.
 #pragma once
 
 #include <string_view>

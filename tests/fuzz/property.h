@@ -1,5 +1,5 @@
-// What a fuzz target demands of the code under test: a property that does not hold ends the program, which is how
-// libFuzzer learns of it.
+// What a fuzz target demands of the code under test: a property that does not hold ends the program, which is
+// how libFuzzer learns of it.
 #pragma once
 
 #include <bit>

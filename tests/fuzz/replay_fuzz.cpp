@@ -1,6 +1,7 @@
-// Recordings, plain or compressed: each line reads back the same once written anew or is refused with its place; the
-// archive opens, plays to its end and jumps, or says why not; and a keyframe that was altered, but whose hash was made to
-// fit, is refused or can be gone on from. The re-run is as long as the file, which the fuzzer bounds.
+// Recordings, plain or compressed: each line reads back the same once written anew or is refused with its
+// place; the archive opens, plays to its end and jumps, or says why not; and a keyframe that was altered, but
+// whose hash was made to fit, is refused or can be gone on from. The re-run is as long as the file, which the
+// fuzzer bounds.
 //
 // Input: the file.
 #include <cmath>
@@ -15,13 +16,13 @@
 
 #include "shared/core/error.h"
 #include "shared/core/stable_hash.h"
-#include "shared/state/state_hash.h"
-#include "shared/replay/line_writer.h"
-#include "shared/replay/recorded_map.h"
 #include "shared/replay/archive.h"
 #include "shared/replay/format.h"
-#include "shared/replay/source.h"
+#include "shared/replay/line_writer.h"
+#include "shared/replay/recorded_map.h"
 #include "shared/replay/rerun.h"
+#include "shared/replay/source.h"
+#include "shared/state/state_hash.h"
 #include "tests/fuzz/map_size.h"
 #include "tests/fuzz/property.h"
 
@@ -102,7 +103,8 @@ void check_round_trip(const Line& line) {
   demand(text_of(**again) == text, "a line reads back the same", text);
   if (const auto* step = std::get_if<StepLine>(&line)) {
     const auto& other = std::get<StepLine>(**again).step;
-    demand(step->step.roster == other.roster && step->step.inputs == other.inputs, "a step reads back the same", text);
+    demand(step->step.roster == other.roster && step->step.inputs == other.inputs,
+           "a step reads back the same", text);
   }
 }
 
@@ -110,8 +112,9 @@ void check_round_trip(const Line& line) {
 
 void check_finite(const match::Match& match) {
   for (const physics::Louse& louse : match.world().lice()) {
-    for (const double value : {louse.position.x, louse.position.y, louse.velocity.x, louse.velocity.y, louse.heading.x,
-                               louse.heading.y, louse.flight_z, louse.flight_vz, louse.distance}) {
+    for (const double value :
+         {louse.position.x, louse.position.y, louse.velocity.x, louse.velocity.y, louse.heading.x,
+          louse.heading.y, louse.flight_z, louse.flight_vz, louse.distance}) {
       demand(std::isfinite(value), "a louse's state stays finite");
     }
   }
@@ -123,7 +126,8 @@ void check_keyframe(const Header& header, const std::shared_ptr<const map::Map>&
   match::MatchState& state = keyframe.state;
   if (state.tick != 0) {
     core::StableHasher hasher;
-    state.hash = physics::state_hash(hasher, {state.previous, state.inputs, state.tick, state.generator}, state.lice);
+    state.hash =
+        physics::state_hash(hasher, {state.previous, state.inputs, state.tick, state.generator}, state.lice);
   }
   const std::vector<match::PlayerSeq> players = state.players;
   const auto rerun = Rerun::from(map, settings, std::move(keyframe), kSource + ":2");
@@ -187,7 +191,8 @@ void check_playback(Playback& playback, const ReplayArchive& archive) {
     if (!*step) break;
     demand(playback.tick() <= archive.last_tick(), "a recording ends at its last tick");
   }
-  for (const std::uint64_t tick : {archive.last_tick(), archive.first_tick() + (archive.last_tick() - archive.first_tick()) / 2}) {
+  for (const std::uint64_t tick :
+       {archive.last_tick(), archive.first_tick() + (archive.last_tick() - archive.first_tick()) / 2}) {
     const auto sought = playback.seek(tick);
     if (!sought) return check(sought.error());
     demand(playback.tick() == tick, "a jump ends where it was to");
@@ -206,7 +211,8 @@ void check_archive(const ReplaySource& source) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const ReplaySource source = ReplaySource::of_bytes(std::string(reinterpret_cast<const char*>(data), size), kSource);
+  const ReplaySource source =
+      ReplaySource::of_bytes(std::string(reinterpret_cast<const char*>(data), size), kSource);
   if (check_lines(source)) check_archive(source);
   return 0;
 }

@@ -1,5 +1,5 @@
-// Writes short recordings of real matches for the replay target to start from: their hashes are those of the build at hand,
-// so that they re-run to their end.
+// Writes short recordings of real matches for the replay target to start from: their hashes are those of the
+// build at hand, so that they re-run to their end.
 //
 //     woodlouse_seed_recordings FOLDER
 #include <cstdint>
@@ -25,9 +25,12 @@ struct Seed {
 };
 
 constexpr Seed kSeeds[] = {
-    {"function", R"({"name":"f","terrain":{"function":"wavy_pot","grid":2,"scale":10},"surface":"function"})", 40},
-    {"spline", R"({"name":"s","terrain":{"spacing":2,"heights":[[0,1,0,1],[1,0,0,1],[0,0,1,0],[1,0,0,0]]}})", 25},
-    {"plane", R"({"name":"p","terrain":{"spacing":2,"heights":[[0,1,2,3],[1,2,3,4],[2,3,4,5],[3,4,5,6]]}})", 25},
+    {"function", R"({"name":"f","terrain":{"function":"wavy_pot","grid":2,"scale":10},"surface":"function"})",
+     40},
+    {"spline", R"({"name":"s","terrain":{"spacing":2,"heights":[[0,1,0,1],[1,0,0,1],[0,0,1,0],[1,0,0,0]]}})",
+     25},
+    {"plane", R"({"name":"p","terrain":{"spacing":2,"heights":[[0,1,2,3],[1,2,3,4],[2,3,4,5],[3,4,5,6]]}})",
+     25},
     {"flight",
      R"({"name":"j","terrain":{"function":"hills","scale":20},"surface":"function","physics":{"gravity":2,"contact":"unilateral","method":"cheap"},"spawns":[{"position":[0,0],"speed":30}]})",
      12},

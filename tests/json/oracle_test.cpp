@@ -1,5 +1,5 @@
-// nlohmann's own document as the judge of ours, which is built from its events: what it takes and what it reads,
-// ours takes and reads, but for what a strict reader refuses.
+// nlohmann's own document as the judge of ours, which is built from its events: what it takes and what it
+// reads, ours takes and reads, but for what a strict reader refuses.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <random>

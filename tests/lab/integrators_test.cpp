@@ -16,8 +16,8 @@ using tests::moving;
 
 namespace {
 
-Louse rolled(const AnySurface& surface, Equations equations, Integrator integrator, const Parameters& p, Louse louse,
-             double rate, double seconds) {
+Louse rolled(const AnySurface& surface, Equations equations, Integrator integrator, const Parameters& p,
+             Louse louse, double rate, double seconds) {
   const auto stepper = make_stepper(surface, equations, integrator, p, tests::kNowhere, 1.0 / rate);
   REQUIRE(stepper.has_value());
   StepCounters counters;
@@ -38,15 +38,17 @@ const Parameters kFree{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .thrust_ma
 TEST_CASE("each integrator converges with its order on a smooth surface") {
   const AnySurface surface = FunctionSurface(FunctionName::kHills, 1.0);
   const Parameters p{.gravity = 9.81, .drag = 0.3, .friction = 0.0, .thrust_max = 0.0};
-  const std::map<Integrator, double> orders = {
-      {Integrator::kExplicitEuler, 1}, {Integrator::kFalseEuler, 1},   {Integrator::kVerletQ, 2},
-      {Integrator::kVerletQ4, 4},      {Integrator::kRungeKutta4, 4},  {Integrator::kNystrom4, 4},
-      {Integrator::kDormandPrince5, 5}};
+  const std::map<Integrator, double> orders = {{Integrator::kExplicitEuler, 1}, {Integrator::kFalseEuler, 1},
+                                               {Integrator::kVerletQ, 2},       {Integrator::kVerletQ4, 4},
+                                               {Integrator::kRungeKutta4, 4},   {Integrator::kNystrom4, 4},
+                                               {Integrator::kDormandPrince5, 5}};
   const Louse exact = rolled(surface, Equations::kSurface, Integrator::kDormandPrince5, p, kStart, 6400, 2);
   for (const auto& [integrator, order] : orders) {
     const double coarse_rate = order == 1 ? 3200 : (order == 5 ? 80 : 200);
-    const double coarse = apart(rolled(surface, Equations::kSurface, integrator, p, kStart, coarse_rate, 2), exact);
-    const double fine = apart(rolled(surface, Equations::kSurface, integrator, p, kStart, 4 * coarse_rate, 2), exact);
+    const double coarse =
+        apart(rolled(surface, Equations::kSurface, integrator, p, kStart, coarse_rate, 2), exact);
+    const double fine =
+        apart(rolled(surface, Equations::kSurface, integrator, p, kStart, 4 * coarse_rate, 2), exact);
     INFO(to_text(integrator) << ": " << coarse << " -> " << fine);
     CHECK(std::log2(coarse / fine) / 2 == Approx(order).margin(0.3));
   }
@@ -55,9 +57,12 @@ TEST_CASE("each integrator converges with its order on a smooth surface") {
 TEST_CASE("drag and friction keep the orders of those that treat them implicitly") {
   const AnySurface surface = FunctionSurface(FunctionName::kParabolicPot, 1.0);
   const Parameters rough{.gravity = 9.81, .drag = 0.2, .friction = 0.05, .thrust_max = 0.0};
-  const Louse exact = rolled(surface, Equations::kSurface, Integrator::kDormandPrince5, rough, kStart, 6400, 1);
-  for (const auto& [integrator, order] : std::map<Integrator, double>{{Integrator::kVerletQ, 2}, {Integrator::kNystrom4, 4}}) {
-    const double coarse = apart(rolled(surface, Equations::kSurface, integrator, rough, kStart, 100, 1), exact);
+  const Louse exact =
+      rolled(surface, Equations::kSurface, Integrator::kDormandPrince5, rough, kStart, 6400, 1);
+  for (const auto& [integrator, order] :
+       std::map<Integrator, double>{{Integrator::kVerletQ, 2}, {Integrator::kNystrom4, 4}}) {
+    const double coarse =
+        apart(rolled(surface, Equations::kSurface, integrator, rough, kStart, 100, 1), exact);
     const double fine = apart(rolled(surface, Equations::kSurface, integrator, rough, kStart, 400, 1), exact);
     INFO(to_text(integrator) << ": " << coarse << " -> " << fine);
     CHECK(std::log2(coarse / fine) / 2 == Approx(order).margin(0.3));
@@ -65,13 +70,17 @@ TEST_CASE("drag and friction keep the orders of those that treat them implicitly
 }
 
 TEST_CASE("splitting at knot lines gives the spline's own order back") {
-  const AnySurface surface = terrain::BicubicSpline(terrain::sample_function(FunctionName::kWavyPot, 1.0, 10));
+  const AnySurface surface =
+      terrain::BicubicSpline(terrain::sample_function(FunctionName::kWavyPot, 1.0, 10));
   const Louse exact = rolled(surface, Equations::kSurface, Integrator::kPrecise, kFree, kStart, 3840, 2);
-  const double coarse = apart(rolled(surface, Equations::kSurface, Integrator::kPrecise, kFree, kStart, 120, 2), exact);
-  const double fine = apart(rolled(surface, Equations::kSurface, Integrator::kPrecise, kFree, kStart, 480, 2), exact);
+  const double coarse =
+      apart(rolled(surface, Equations::kSurface, Integrator::kPrecise, kFree, kStart, 120, 2), exact);
+  const double fine =
+      apart(rolled(surface, Equations::kSurface, Integrator::kPrecise, kFree, kStart, 480, 2), exact);
   INFO(coarse << " -> " << fine);
   CHECK(std::log2(coarse / fine) / 2 > 3.5);
-  const double plain = apart(rolled(surface, Equations::kSurface, Integrator::kRungeKutta4, kFree, kStart, 120, 2), exact);
+  const double plain =
+      apart(rolled(surface, Equations::kSurface, Integrator::kRungeKutta4, kFree, kStart, 120, 2), exact);
   CHECK(coarse < 0.05 * plain);
 }
 
@@ -81,11 +90,13 @@ TEST_CASE("Dormand-Prince meets the reference trajectories without friction to 1
   for (std::size_t row = 0; row < t.rows.size(); ++row) {
     if (t.number(row, "mu") != 0.0) continue;
     const AnySurface surface = FunctionSurface(*terrain::function_from_text(t.text(row, "surface")), 1.0);
-    Louse louse = moving({t.number(row, "x0"), t.number(row, "y0")}, {t.number(row, "vx0"), t.number(row, "vy0")});
+    Louse louse =
+        moving({t.number(row, "x0"), t.number(row, "y0")}, {t.number(row, "vx0"), t.number(row, "vy0")});
     louse.thrust = {t.number(row, "thrust_x"), t.number(row, "thrust_y")};
     louse.thrust_kind = ThrustKind::kMapVector;
     const Parameters p{.gravity = 9.81, .drag = t.number(row, "drag"), .friction = 0.0, .thrust_max = 1.0};
-    const Louse end = rolled(surface, Equations::kSurface, Integrator::kDormandPrince5, p, louse, 240, t.number(row, "t"));
+    const Louse end =
+        rolled(surface, Equations::kSurface, Integrator::kDormandPrince5, p, louse, 240, t.number(row, "t"));
     INFO("row " << row);
     CHECK(std::hypot(end.position.x - t.number(row, "x"), end.position.y - t.number(row, "y")) < 1e-9);
     ++rows;
@@ -95,9 +106,10 @@ TEST_CASE("Dormand-Prince meets the reference trajectories without friction to 1
 
 TEST_CASE("the document's equations and False Euler give the document's trajectories to 1e-9") {
   const tests::CsvTable t = tests::read_reference("seed_trajectories.csv");
-  const std::map<std::string, terrain::Interpolation> surfaces = {{"spline", terrain::Interpolation::kNaturalDocument},
-                                                                  {"biquadratic", terrain::Interpolation::kBiquadratic},
-                                                                  {"blended", terrain::Interpolation::kBlendedDocument}};
+  const std::map<std::string, terrain::Interpolation> surfaces = {
+      {"spline", terrain::Interpolation::kNaturalDocument},
+      {"biquadratic", terrain::Interpolation::kBiquadratic},
+      {"blended", terrain::Interpolation::kBlendedDocument}};
   const Parameters p{.gravity = 9.81, .drag = 0.2, .friction = 0.05, .thrust_max = 0.0};
   int inside = 0;
   for (std::size_t row = 0; row < t.rows.size(); ++row) {
@@ -109,9 +121,10 @@ TEST_CASE("the document's equations and False Euler give the document's trajecto
                                                static_cast<std::size_t>(t.number(row, "g")));
     const auto surface = terrain::interpolate(surfaces.at(t.text(row, "method")), grid);
     REQUIRE(surface.has_value());
-    const Equations equations = t.number(row, "corrected_cramer") != 0 ? Equations::kLocalPlane : Equations::kAsPrinted;
-    const Louse end = rolled(*surface, equations, Integrator::kFalseEuler, p, moving({0.35, -0.2}, {0.3, 0.4}), 200,
-                             t.number(row, "step") / 200);
+    const Equations equations =
+        t.number(row, "corrected_cramer") != 0 ? Equations::kLocalPlane : Equations::kAsPrinted;
+    const Louse end = rolled(*surface, equations, Integrator::kFalseEuler, p,
+                             moving({0.35, -0.2}, {0.3, 0.4}), 200, t.number(row, "step") / 200);
     CHECK(end.position.x == Approx(t.number(row, "x")).margin(1e-9).epsilon(0));
     CHECK(end.position.y == Approx(t.number(row, "y")).margin(1e-9).epsilon(0));
     CHECK(end.velocity.x == Approx(t.number(row, "vx")).margin(1e-9).epsilon(0));
@@ -127,7 +140,8 @@ TEST_CASE("the energy error of Verlet-Q stays bounded without a trend") {
   const double before = tests::energy(wavy, kStart, 9.81) - lowest;
   double worst_early = 0.0;
   double worst_late = 0.0;
-  const auto stepper = make_stepper(surface, Equations::kSurface, Integrator::kVerletQ, kFree, tests::kNowhere, 1.0 / 120);
+  const auto stepper =
+      make_stepper(surface, Equations::kSurface, Integrator::kVerletQ, kFree, tests::kNowhere, 1.0 / 120);
   Louse louse = kStart;
   StepCounters counters;
   for (long i = 0; i < 120 * 1000; ++i) {
@@ -147,8 +161,10 @@ TEST_CASE("what can't be combined is refused by name") {
     const auto made = make_stepper(s, e, i, kFree, tests::kNowhere, 0.01);
     return made.has_value() ? std::string() : made.error().text();
   };
-  CHECK(refused(*biquadratic, Equations::kSurface, Integrator::kNystrom4).find("Hessian") != std::string::npos);
-  CHECK(refused(*biquadratic, Equations::kLocalPlane, Integrator::kVerletQ).find("exact equations") != std::string::npos);
+  CHECK(refused(*biquadratic, Equations::kSurface, Integrator::kNystrom4).find("Hessian") !=
+        std::string::npos);
+  CHECK(refused(*biquadratic, Equations::kLocalPlane, Integrator::kVerletQ).find("exact equations") !=
+        std::string::npos);
   CHECK(refused(*biquadratic, Equations::kLocalPlane, Integrator::kFalseEuler).empty());
 }
 

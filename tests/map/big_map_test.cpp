@@ -84,10 +84,13 @@ TEST_CASE("a grid of more knots than are read whole is stepped on from its file,
   CHECK(ground->tiles().counters().built == 0);
   CHECK(map->terrain->sample(12.5, -800.25).z == 0.0);
   CHECK(ground->tiles().counters().built == 1);
-  check_says(error_of(files.map(R"(,"storage":"whole")")), "hills.json:1: terrain: more than 4000000 knots can't be read whole");
+  check_says(error_of(files.map(R"(,"storage":"whole")")),
+             "hills.json:1: terrain: more than 4000000 knots can't be read whole");
 }
 
-TEST_CASE("knots without data are filled from their shores, and so are heights past 1000 km, read whole or in tiles") {
+TEST_CASE(
+    "knots without data are filled from their shores, and so are heights past 1000 km, read whole or in "
+    "tiles") {
   const auto with_holes = [](std::size_t i, std::size_t j) {
     if (i >= 40 && i < 100 && j >= 30 && j < 90) return -9999.0;
     if (i == 150 && j == 120) return 3e6;
@@ -96,7 +99,9 @@ TEST_CASE("knots without data are filled from their shores, and so are heights p
   const BigMapFiles files("holes", 201, 150, with_holes);
   const auto whole = load(files.map(R"(,"fill_level":-7)"));
   const auto tiled = load(files.map(R"(,"fill_level":-7,"storage":"tiles")"));
-  const auto at = [](const Map& map, double i, double j) { return map.terrain->sample(-100.0 + i, -74.5 + j).z; };
+  const auto at = [](const Map& map, double i, double j) {
+    return map.terrain->sample(-100.0 + i, -74.5 + j).z;
+  };
   for (const auto& map : {whole, tiled}) {
     CHECK(at(*map, 70, 60) == Approx(-7.0).margin(1e-6));
     CHECK(std::fabs(at(*map, 150, 120)) < 3.0);
@@ -119,7 +124,8 @@ TEST_CASE("the fingerprint tells another file, and a map may demand it") {
   check_says(error_of(files.map(R"(,"fingerprint":7)")), "take the file the map was made with");
 }
 
-TEST_CASE("the overview covers the whole domain with at most 257 knots a side, each of its nearest knot's height") {
+TEST_CASE(
+    "the overview covers the whole domain with at most 257 knots a side, each of its nearest knot's height") {
   const BigMapFiles files("overview", 700, 90, BigMapFiles::wave);
   const auto map = load(files.map(R"(,"storage":"tiles")"));
   const terrain::HeightGrid& overview = std::get<TiledTerrain>(map->definition.terrain).overview;
@@ -136,7 +142,9 @@ TEST_CASE("the overview covers the whole domain with at most 257 knots a side, e
   }
 }
 
-TEST_CASE("a client's map of an overview keeps the definition's text and hash, and says that it is no ground to compute on") {
+TEST_CASE(
+    "a client's map of an overview keeps the definition's text and hash, and says that it is no ground to "
+    "compute on") {
   const BigMapFiles files("client");
   const auto map = load(files.map(R"(,"storage":"tiles")"));
   const terrain::HeightGrid& overview = std::get<TiledTerrain>(map->definition.terrain).overview;
@@ -156,11 +164,13 @@ TEST_CASE("a client's map of an overview keeps the definition's text and hash, a
 
 TEST_CASE("what is wrong with a float grid is told with its place and what to do") {
   const BigMapFiles files("errors");
-  check_says(error_of(files.map(R"(,"storage":"disk")")), "terrain.storage: is none of its choices (whole or tiles");
+  check_says(error_of(files.map(R"(,"storage":"disk")")),
+             "terrain.storage: is none of its choices (whole or tiles");
   check_says(error_of(files.map(R"(,"tiles":true)")), "terrain.tiles");
   check_says(error_of(files.map(R"(,"scale":1e-5)")), "knots less than 1 mm");
   check_says(error_of(files.write("natural.json", R"({"name":"n","surface":"natural_spline",
-      "terrain":{"file":"hills.flt","storage":"tiles"}})")), "natural.json:1: surface: natural ends need all heights at once");
+      "terrain":{"file":"hills.flt","storage":"tiles"}})")),
+             "natural.json:1: surface: natural ends need all heights at once");
   std::filesystem::remove(files.file("hills.hdr"));
   check_says(error_of(files.map("")), "hills.hdr: no such file (the header of hills.flt");
   const std::string header = "ncols 201\nnrows 150\nxllcenter 0\nyllcenter 0\ncellsize 1\n";
@@ -172,10 +182,12 @@ TEST_CASE("what is wrong with a float grid is told with its place and what to do
   std::filesystem::resize_file(files.file("hills.flt"), 4 * 201 * 150 - 1);
   check_says(error_of(files.map("")), "has 120599 bytes, its header says 120600");
   const BigMapFiles empty("errors_empty", 8, 8, [](std::size_t, std::size_t) { return -9999.0; });
-  check_says(error_of(empty.map("")), "hills.flt: has no heights, only knots without data (check NODATA_value and byteorder");
+  check_says(error_of(empty.map("")),
+             "hills.flt: has no heights, only knots without data (check NODATA_value and byteorder");
   check_says(error_of(empty.map(R"(,"storage":"tiles")")), "has no heights");
   std::filesystem::remove(empty.file("hills.flt"));
-  check_says(error_of(empty.map("")), "hills.flt: can't be opened: No such file or directory (the heights that hills.hdr describes");
+  check_says(error_of(empty.map("")),
+             "hills.flt: can't be opened: No such file or directory (the heights that hills.hdr describes");
 }
 
 }  // namespace woodlouse::map

@@ -14,7 +14,8 @@ std::string error_of(const std::string& rest) {
 
 /// 5 x 4 knots; the last column is the first again, and so is the last row, but for what is said.
 std::string heights(const std::string& north_east, const std::string& north_second) {
-  return "\"terrain\":{\"spacing\":1,\"heights\":[[0,1,2,1,0],[1,2,3,2,1],[2,0,0,1,2],[0," + north_second + ",2,1," + north_east + "]]}";
+  return "\"terrain\":{\"spacing\":1,\"heights\":[[0,1,2,1,0],[1,2,3,2,1],[2,0,0,1,2],[0," + north_second +
+         ",2,1," + north_east + "]]}";
 }
 
 }  // namespace
@@ -46,18 +47,23 @@ TEST_CASE("a map with walls is the same map whether it says so or not") {
 TEST_CASE("heights that do not meet at the seam are refused with the rims and the difference") {
   const std::string east = error_of(heights("0.5", "1") + ",\n\"edges\":\"wrap\"");
   INFO(east);
-  CHECK(east.find("m.json:2: edges: the heights of the western and the eastern rim differ by up to 0.5 m") == 0);
+  CHECK(east.find("m.json:2: edges: the heights of the western and the eastern rim differ by up to 0.5 m") ==
+        0);
   CHECK(east.find("make the last column the first again") != std::string::npos);
   const std::string north = error_of(heights("0", "1.25") + ",\n\"edges\":\"wrap\"");
   INFO(north);
-  CHECK(north.find("m.json:2: edges: the heights of the southern and the northern rim differ by up to 0.25 m") == 0);
+  CHECK(north.find(
+            "m.json:2: edges: the heights of the southern and the northern rim differ by up to 0.25 m") == 0);
   CHECK(error_of(heights("1e-10", "1") + ",\"edges\":\"wrap\"") == "no error");
 }
 
-TEST_CASE("a function wraps where height, slope and curvature meet, on the function itself and on a spline through it") {
+TEST_CASE(
+    "a function wraps where height, slope and curvature meet, on the function itself and on a spline through "
+    "it") {
   for (const char* surface : {"spline", "function"}) {
     const auto error = [&](const char* function) {
-      return error_of(std::string("\"terrain\":{\"function\":\"") + function + "\"},\"surface\":\"" + surface + "\",\"edges\":\"wrap\"");
+      return error_of(std::string("\"terrain\":{\"function\":\"") + function + "\"},\"surface\":\"" +
+                      surface + "\",\"edges\":\"wrap\"");
     };
     CHECK(error("waves") == "no error");
     // The bowls' heights meet; their slopes do not.
@@ -70,10 +76,15 @@ TEST_CASE("a function wraps where height, slope and curvature meet, on the funct
 
 TEST_CASE("what has an end or a middle can't wrap, and an unknown choice is named") {
   const std::string waves = "\"terrain\":{\"function\":\"waves\"}";
-  CHECK(error_of(waves + ",\"surface\":\"natural_spline\",\"edges\":\"wrap\"").find("natural spline") != std::string::npos);
-  CHECK(error_of(waves + ",\"edges\":\"wrap\",\"physics\":{\"central_gravity\":1}").find("central gravity") != std::string::npos);
-  CHECK(error_of(waves + ",\"edges\":\"wrap\",\"physics\":{\"contact\":\"unilateral\",\"method\":\"precise\"}") == "no error");
-  CHECK(error_of(waves + ",\n\"edges\":\"round\"") == "m.json:2: edges: is none of its choices (walls or wrap)");
+  CHECK(error_of(waves + ",\"surface\":\"natural_spline\",\"edges\":\"wrap\"").find("natural spline") !=
+        std::string::npos);
+  CHECK(error_of(waves + ",\"edges\":\"wrap\",\"physics\":{\"central_gravity\":1}").find("central gravity") !=
+        std::string::npos);
+  CHECK(error_of(waves +
+                 ",\"edges\":\"wrap\",\"physics\":{\"contact\":\"unilateral\",\"method\":\"precise\"}") ==
+        "no error");
+  CHECK(error_of(waves + ",\n\"edges\":\"round\"") ==
+        "m.json:2: edges: is none of its choices (walls or wrap)");
   CHECK(error_of(waves + ",\"edges\":1").find("walls or wrap") != std::string::npos);
 }
 

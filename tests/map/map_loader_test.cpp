@@ -127,7 +127,8 @@ TEST_CASE("defaults are those of the map format") {
 }
 
 TEST_CASE("heights that lie in a plane become that plane, whatever spline is asked for") {
-  const auto flat = parse(R"({"name":"f","terrain":{"heights":[[1,1,1,1],[1,1,1,1],[1,1,1,1],[1,1,1,1]],"spacing":5}})");
+  const auto flat =
+      parse(R"({"name":"f","terrain":{"heights":[[1,1,1,1],[1,1,1,1],[1,1,1,1],[1,1,1,1]],"spacing":5}})");
   REQUIRE(std::holds_alternative<terrain::PlaneSurface>(flat->terrain->surface()));
   CHECK(flat->terrain->domain() == terrain::Rectangle{-7.5, -7.5, 7.5, 7.5});
   CHECK(flat->terrain->sample(1, 2).z == 1.0);
@@ -136,7 +137,8 @@ TEST_CASE("heights that lie in a plane become that plane, whatever spline is ask
   REQUIRE(std::holds_alternative<terrain::PlaneSurface>(ramp->terrain->surface()));
   CHECK(ramp->terrain->sample(0, 0).zx == Approx(0.1));
   CHECK(ramp->terrain->sample(0, 0).zxx == 0.0);
-  const auto dent = parse(R"({"name":"d","terrain":{"heights":[[1,1,1,1],[1,1,1,1],[1,1,1.001,1],[1,1,1,1]],"spacing":5}})");
+  const auto dent = parse(
+      R"({"name":"d","terrain":{"heights":[[1,1,1,1],[1,1,1,1],[1,1,1.001,1],[1,1,1,1]],"spacing":5}})");
   CHECK(std::holds_alternative<terrain::BicubicSpline>(dent->terrain->surface()));
 }
 
@@ -233,7 +235,8 @@ TEST_CASE("contact, method, central gravity and a spawn's speed are read, kept a
   CHECK(refusal(R"("contact":"loose")").find("m:1: physics.contact") == 0);
   CHECK(refusal(R"("contact":"loose")").find("bilateral or unilateral") != std::string::npos);
   CHECK(refusal(R"("method":1)").find("standard, cheap or precise") != std::string::npos);
-  CHECK(refusal(R"("central_gravity":1,"contact":"unilateral")").find("flight knows no pull") != std::string::npos);
+  CHECK(refusal(R"("central_gravity":1,"contact":"unilateral")").find("flight knows no pull") !=
+        std::string::npos);
   CHECK(refusal(R"("central_gravity":-1)").find("physics.central_gravity") != std::string::npos);
   CHECK(refusal("", R"(,"speed":-1)").find("spawns[0].speed") != std::string::npos);
 }

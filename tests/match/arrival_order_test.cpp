@@ -1,5 +1,6 @@
-// What decides a match is the step an input is for, its player and its number; not when in the time before, nor
-// behind whose, it came in. Only the inputs of one player keep their own order, as his connection keeps it.
+// What decides a match is the step an input is for, its player and its number; not when in the time before,
+// nor behind whose, it came in. Only the inputs of one player keep their own order, as his connection keeps
+// it.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
@@ -19,7 +20,8 @@ constexpr std::uint64_t kTicks = 240;
 constexpr PlayerId kPlayers = 7;
 
 std::shared_ptr<const map::Map> hills() {
-  const auto map = map::parse_map(R"({"name":"hills","terrain":{"function":"hills"},"physics":{"thrust_max":6}})", "hills", {});
+  const auto map = map::parse_map(
+      R"({"name":"hills","terrain":{"function":"hills"},"physics":{"thrust_max":6}})", "hills", {});
   REQUIRE(map);
   return *map;
 }
@@ -34,8 +36,10 @@ std::vector<std::vector<Input>> planned_inputs() {
         Input input;
         input.player = player;
         input.seq = static_cast<std::uint32_t>(plan[player - 1].size() + 1);
-        input.thrust = {physics::ThrustKind::kMapVector, {0.7 * random.uniform() - 0.35, 0.7 * random.uniform() - 0.35}};
-        if (random.next() % 2 == 0) input.thrust = {physics::ThrustKind::kAlongHeading, {2.0 * random.uniform() - 1.0, 0.0}};
+        input.thrust = {physics::ThrustKind::kMapVector,
+                        {0.7 * random.uniform() - 0.35, 0.7 * random.uniform() - 0.35}};
+        if (random.next() % 2 == 0)
+          input.thrust = {physics::ThrustKind::kAlongHeading, {2.0 * random.uniform() - 1.0, 0.0}};
         if (random.next() % 3 == 0) input.ticks = static_cast<std::uint32_t>(1 + random.next() % 20);
         input.wanted_tick = tick + random.next() % 20;
         plan[player - 1].push_back(input);
@@ -45,9 +49,10 @@ std::vector<std::vector<Input>> planned_inputs() {
   return plan;
 }
 
-/// The same inputs by the tick in which they come in: none after its step, each player's in their order, all else
-/// by chance.
-std::map<std::uint64_t, std::vector<Input>> shuffled(const std::vector<std::vector<Input>>& plan, std::uint64_t seed) {
+/// The same inputs by the tick in which they come in: none after its step, each player's in their order, all
+/// else by chance.
+std::map<std::uint64_t, std::vector<Input>> shuffled(const std::vector<std::vector<Input>>& plan,
+                                                     std::uint64_t seed) {
   core::Random random(seed);
   std::map<std::uint64_t, std::vector<Input>> arrivals;
   for (const std::vector<Input>& inputs : plan) {
@@ -98,8 +103,12 @@ TEST_CASE("when and in which order inputs come in before their step changes no h
     std::size_t moved = 0;
     for (const auto& [tick, inputs] : arrivals) {
       const auto found = reference_arrivals.find(tick);
-      const auto is_same = [](const Input& a, const Input& b) { return a.player == b.player && a.seq == b.seq; };
-      if (found == reference_arrivals.end() || !std::equal(inputs.begin(), inputs.end(), found->second.begin(), found->second.end(), is_same)) ++moved;
+      const auto is_same = [](const Input& a, const Input& b) {
+        return a.player == b.player && a.seq == b.seq;
+      };
+      if (found == reference_arrivals.end() ||
+          !std::equal(inputs.begin(), inputs.end(), found->second.begin(), found->second.end(), is_same))
+        ++moved;
     }
     REQUIRE(moved > kTicks / 2);
     REQUIRE(hashes_of(map, arrivals) == reference);
@@ -111,8 +120,9 @@ TEST_CASE("which of a player's own inputs comes first does change the hash") {
   auto plan = planned_inputs();
   const auto reference = hashes_of(map, shuffled(plan, 0));
   std::vector<Input>& inputs = plan.front();
-  const auto twins = std::adjacent_find(inputs.begin(), inputs.end(),
-                                        [](const Input& a, const Input& b) { return a.wanted_tick == b.wanted_tick && a.thrust != b.thrust; });
+  const auto twins = std::adjacent_find(inputs.begin(), inputs.end(), [](const Input& a, const Input& b) {
+    return a.wanted_tick == b.wanted_tick && a.thrust != b.thrust;
+  });
   REQUIRE(twins != inputs.end());
   std::swap(twins->thrust, std::next(twins)->thrust);
   CHECK(hashes_of(map, shuffled(plan, 0)) != reference);

@@ -42,7 +42,8 @@ TEST_CASE("inputs come out by player and seq, whatever order the players' inputs
   }
 }
 
-TEST_CASE("an input without a tick, or for a past one, is taken by the next step, only the past one is late") {
+TEST_CASE(
+    "an input without a tick, or for a past one, is taken by the next step, only the past one is late") {
   InputQueue queue(120);
   queue.add_player(1);
   const Filed now = queue.file(input(1, 1), 10);

@@ -32,7 +32,8 @@ std::uint64_t played(std::uint64_t shuffle) {
   core::Random order(shuffle);
   for (std::uint32_t tick = 0; tick < 300; ++tick) {
     std::vector<Input> inputs;
-    for (const PlayerId p : players) inputs.push_back(push(p, tick + 1, thrusts.uniform() - 0.5, thrusts.uniform() - 0.5));
+    for (const PlayerId p : players)
+      inputs.push_back(push(p, tick + 1, thrusts.uniform() - 0.5, thrusts.uniform() - 0.5));
     for (std::size_t i = inputs.size(); i > 1; --i) std::swap(inputs[i - 1], inputs[order.next() % i]);
     for (const Input& input : inputs) REQUIRE(match.file(input).outcome == Filed::Outcome::kFiled);
     match.advance();

@@ -14,15 +14,16 @@ using namespace woodlouse::match;
 namespace {
 
 std::shared_ptr<const map::Map> map_of(const std::string& more) {
-  const auto map = map::parse_map(R"({"name":"m","terrain":{"function":"wavy_pot","grid":6,"scale":10})" + more + "}",
-                                  "m.json", {});
+  const auto map = map::parse_map(
+      R"({"name":"m","terrain":{"function":"wavy_pot","grid":6,"scale":10})" + more + "}", "m.json", {});
   if (!map) FAIL(map.error().text());
   return *map;
 }
 
-/// Joins, leaves, respawns and inputs for now and later, the same for every match that is given the same state
-/// of the same generator.
-void stir(Match& match, core::Random& random, std::vector<PlayerId>& players, std::vector<std::uint32_t>& seqs) {
+/// Joins, leaves, respawns and inputs for now and later, the same for every match that is given the same
+/// state of the same generator.
+void stir(Match& match, core::Random& random, std::vector<PlayerId>& players,
+          std::vector<std::uint32_t>& seqs) {
   const std::uint64_t choice = random.next() % 30;
   if (choice < 2 || players.size() < 4) {
     players.push_back(match.join());
@@ -47,8 +48,8 @@ void stir(Match& match, core::Random& random, std::vector<PlayerId>& players, st
 }
 
 bool is_same(const MatchState& a, const MatchState& b) {
-  return a.hash == b.hash && a.generator == b.generator && a.next_player == b.next_player && a.players == b.players &&
-         a.waiting == b.waiting && a.roster == b.roster;
+  return a.hash == b.hash && a.generator == b.generator && a.next_player == b.next_player &&
+         a.players == b.players && a.waiting == b.waiting && a.roster == b.roster;
 }
 
 }  // namespace
@@ -109,17 +110,25 @@ TEST_CASE("states that no match can be in are refused by name") {
   CHECK(fault([](MatchState& s) { s.lice[0].position.x = 1e9; }) == "louse 1 is not on the map");
   CHECK(fault([](MatchState& s) { s.lice[0].velocity.y = 1e9; }) == "louse 1 is too fast");
   CHECK(fault([](MatchState& s) { s.lice[1].thrust.x = 2.0; }) == "louse 2 has a thrust above 1");
-  CHECK(fault([](MatchState& s) { s.lice[1].phase = physics::Phase::kFlying; }) == "louse 2 flies where nobody can");
+  CHECK(fault([](MatchState& s) { s.lice[1].phase = physics::Phase::kFlying; }) ==
+        "louse 2 flies where nobody can");
   CHECK(fault([](MatchState& s) { std::swap(s.lice[0], s.lice[1]); }) == "louse 1 is out of order");
   CHECK(fault([](MatchState& s) { s.next_player = 2; }) == "player 2 is out of order");
-  CHECK(fault([](MatchState& s) { s.waiting[0].player = 9; }) == "the waiting input of player 9 seq 1 has no player");
-  CHECK(fault([](MatchState& s) { s.waiting[0].tick = 19; }) == "the waiting input of player 1 seq 1 is for tick 19");
-  CHECK(fault([](MatchState& s) { s.waiting[0].tick = 141; }) == "the waiting input of player 1 seq 1 is for tick 141");
-  CHECK(fault([](MatchState& s) { s.waiting[0].seq = 2; }).find("a seq above the player's last") != std::string::npos);
-  CHECK(fault([](MatchState& s) { s.roster = {{RosterAction::kLeave, 7}}; }) == "a change of player 7, who never was");
-  for (const auto& change : {+[](MatchState& s) { s.generator ^= 1; }, +[](MatchState& s) { s.previous ^= 1; },
-                             +[](MatchState& s) { s.hash ^= 1; }, +[](MatchState& s) { s.inputs ^= 1; },
-                             +[](MatchState& s) { s.lice[0].distance += 1e-12; }}) {
+  CHECK(fault([](MatchState& s) { s.waiting[0].player = 9; }) ==
+        "the waiting input of player 9 seq 1 has no player");
+  CHECK(fault([](MatchState& s) { s.waiting[0].tick = 19; }) ==
+        "the waiting input of player 1 seq 1 is for tick 19");
+  CHECK(fault([](MatchState& s) { s.waiting[0].tick = 141; }) ==
+        "the waiting input of player 1 seq 1 is for tick 141");
+  CHECK(fault([](MatchState& s) { s.waiting[0].seq = 2; }).find("a seq above the player's last") !=
+        std::string::npos);
+  CHECK(fault([](MatchState& s) {
+          s.roster = {{RosterAction::kLeave, 7}};
+        }) == "a change of player 7, who never was");
+  for (const auto& change :
+       {+[](MatchState& s) { s.generator ^= 1; }, +[](MatchState& s) { s.previous ^= 1; },
+        +[](MatchState& s) { s.hash ^= 1; }, +[](MatchState& s) { s.inputs ^= 1; },
+        +[](MatchState& s) { s.lice[0].distance += 1e-12; }}) {
     CHECK(fault(change).find("its hash is ") == 0);
   }
 }

@@ -42,10 +42,11 @@ bool same_bits(const std::vector<Louse>& a, const std::vector<Louse>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Louse)) == 0;
 }
 
-/// Walls, stops, brakes, pulses, rests, sub-steps, caps and plain rolling, all in one world; each tick of it against the
-/// same tick made louse by louse.
+/// Walls, stops, brakes, pulses, rests, sub-steps, caps and plain rolling, all in one world; each tick of it
+/// against the same tick made louse by louse.
 template <typename Ground>
-void check_every_tick(InstructionSet set, const Ground& ground, const Parameters& parameters, double rate, double fastest, int ticks) {
+void check_every_tick(InstructionSet set, const Ground& ground, const Parameters& parameters, double rate,
+                      double fastest, int ticks) {
   const auto terrain = std::make_shared<const Terrain>(ground);
   World world(terrain, parameters, 1.0 / rate);
   world.use(set);
@@ -67,10 +68,18 @@ void check_every_tick(InstructionSet set, const Ground& ground, const Parameters
       const auto id = static_cast<LouseId>(1 + random.next() % kLice);
       const auto pulse = static_cast<std::uint32_t>(1 + random.next() % 90);
       switch (random.next() % 4) {
-        case 0: world.set_thrust(id, {ThrustKind::kMapVector, {0.7 * symmetric(), 0.7 * symmetric()}}, kHeld); break;
-        case 1: world.set_thrust(id, {ThrustKind::kMapVector, {0.7 * symmetric(), 0.7 * symmetric()}}, pulse); break;
-        case 2: world.set_thrust(id, {ThrustKind::kAlongHeading, {symmetric(), 0}}, pulse); break;
-        default: world.set_thrust(id, {}, 0); break;
+        case 0:
+          world.set_thrust(id, {ThrustKind::kMapVector, {0.7 * symmetric(), 0.7 * symmetric()}}, kHeld);
+          break;
+        case 1:
+          world.set_thrust(id, {ThrustKind::kMapVector, {0.7 * symmetric(), 0.7 * symmetric()}}, pulse);
+          break;
+        case 2:
+          world.set_thrust(id, {ThrustKind::kAlongHeading, {symmetric(), 0}}, pulse);
+          break;
+        default:
+          world.set_thrust(id, {}, 0);
+          break;
       }
     }
     std::vector<Louse> expected(world.lice().begin(), world.lice().end());

@@ -28,7 +28,8 @@ TEST_CASE("a circle in the bowl z = a r^2 turns with omega^2 = 2 a g at any radi
     const double t = 10.0;
     const Louse end = tests::run<Free>(bowl, frictionless(), moving({r, 0}, {0, r * omega}), 240, 2400).louse;
     CHECK(radius(end) == Approx(r).epsilon(1e-8));
-    CHECK(std::hypot(end.position.x - r * std::cos(omega * t), end.position.y - r * std::sin(omega * t)) < 2e-7 * r);
+    CHECK(std::hypot(end.position.x - r * std::cos(omega * t), end.position.y - r * std::sin(omega * t)) <
+          2e-7 * r);
   }
 }
 
@@ -37,7 +38,8 @@ TEST_CASE("a circle on the cone z = k r turns with omega^2 = g k / r") {
   const double r = 1.3;
   const double omega = std::sqrt(9.81 * cone.k / r);
   const Louse end = tests::run<Free>(cone, frictionless(), moving({r, 0}, {0, r * omega}), 240, 2400).louse;
-  CHECK(std::hypot(end.position.x - r * std::cos(omega * 10), end.position.y - r * std::sin(omega * 10)) < 1e-7);
+  CHECK(std::hypot(end.position.x - r * std::cos(omega * 10), end.position.y - r * std::sin(omega * 10)) <
+        1e-7);
 }
 
 TEST_CASE("a radial swing in the bowl has the period 4 E(-4 a^2 A^2) / sqrt(2 g a)") {
@@ -46,7 +48,8 @@ TEST_CASE("a radial swing in the bowl has the period 4 E(-4 a^2 A^2) / sqrt(2 g 
   constexpr long kPeriods = 4;
   constexpr long kTicksPerPeriod = 512;
   const Louse end = tests::run<Free>(bowl, frictionless(), moving({0.8, 0}, {}), kTicksPerPeriod / kPeriod,
-                                     kPeriods * kTicksPerPeriod).louse;
+                                     kPeriods * kTicksPerPeriod)
+                        .louse;
   CHECK(end.position.x == Approx(0.8).margin(1e-9));
   CHECK(end.velocity.x == Approx(0.0).margin(1e-7));
   CHECK(end.position.y == 0.0);
@@ -57,7 +60,8 @@ TEST_CASE("in a cycloid the period is 4 pi sqrt(R / g) at any amplitude") {
   const double period = 4 * 3.14159265358979323846 * std::sqrt(1.0 / 9.81);
   constexpr long kTicks = 1200;
   for (const double amplitude : {0.2, 1.0, 1.9}) {
-    const Louse end = tests::run<Free>(cycloid, frictionless(), moving({amplitude, 0}, {}), kTicks / period, kTicks).louse;
+    const Louse end =
+        tests::run<Free>(cycloid, frictionless(), moving({amplitude, 0}, {}), kTicks / period, kTicks).louse;
     INFO("amplitude " << amplitude);
     CHECK(end.position.x == Approx(amplitude).margin(1e-8));
     CHECK(end.velocity.x == Approx(0.0).margin(1e-7));
@@ -67,7 +71,9 @@ TEST_CASE("in a cycloid the period is 4 pi sqrt(R / g) at any amplitude") {
 TEST_CASE("the angular momentum in an axisymmetric bowl is conserved") {
   const tests::Bowl bowl;
   const Louse start = moving({0.8, 0.1}, {-0.3, 1.1});
-  const auto momentum = [](const Louse& l) { return l.position.x * l.velocity.y - l.position.y * l.velocity.x; };
+  const auto momentum = [](const Louse& l) {
+    return l.position.x * l.velocity.y - l.position.y * l.velocity.x;
+  };
   const Louse end = tests::run<Free>(bowl, frictionless(), start, 120, 12000).louse;
   CHECK(momentum(end) == Approx(momentum(start)).epsilon(1e-6));
 }
@@ -108,7 +114,8 @@ TEST_CASE("on an incline a louse stops after v^2 / (2 g (mu cos a -+ sin a)), an
       plane.slope_x = slope;
       Parameters p{.gravity = g, .drag = 0.0, .friction = 0.05};
       const double angle = std::atan(slope);
-      const Louse end = tests::run<Rough>(plane, p, moving({}, {direction * 1.5 * std::cos(angle), 0}), 60, 60000).louse;
+      const Louse end =
+          tests::run<Rough>(plane, p, moving({}, {direction * 1.5 * std::cos(angle), 0}), 60, 60000).louse;
       const double stop = 2.25 / (2 * g * (0.05 * std::cos(angle) + direction * std::sin(angle)));
       CHECK(end.phase == Phase::kResting);
       CHECK(std::fabs(end.position.x) / std::cos(angle) == Approx(stop).epsilon(1e-11));
@@ -122,7 +129,8 @@ TEST_CASE("on an incline a louse stops after v^2 / (2 g (mu cos a -+ sin a)), an
   const Louse end = tests::run<Rough>(steep, p, moving({}, {1.5 * std::cos(a), 0}), 60, 600).louse;
   const double slid = 10.0 - 1.5 / deceleration;
   CHECK(end.phase == Phase::kMoving);
-  CHECK(end.position.x / std::cos(a) == Approx(1.125 / deceleration - 0.5 * back * slid * slid).epsilon(1e-10));
+  CHECK(end.position.x / std::cos(a) ==
+        Approx(1.125 / deceleration - 0.5 * back * slid * slid).epsilon(1e-10));
 }
 
 TEST_CASE("started across an incline of tan a = mu, |v| + v_down is constant and half the speed is left") {
@@ -131,11 +139,12 @@ TEST_CASE("started across an incline of tan a = mu, |v| + v_down is constant and
   const Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.3};
   const double w = std::sqrt(1 + 0.09);
   double worst = 0.0;
-  const auto run = tests::run<Rough>(plane, p, moving({}, {0, 2.0}), 60, 6000, tests::kNowhere, [&](const Louse& l) {
-    const double speed = std::sqrt(squared_length_in_space(plane.sample(0, 0), l.velocity));
-    worst = std::fmax(worst, std::fabs(speed - l.velocity.x * w - 2.0));
-    return true;
-  });
+  const auto run =
+      tests::run<Rough>(plane, p, moving({}, {0, 2.0}), 60, 6000, tests::kNowhere, [&](const Louse& l) {
+        const double speed = std::sqrt(squared_length_in_space(plane.sample(0, 0), l.velocity));
+        worst = std::fmax(worst, std::fabs(speed - l.velocity.x * w - 2.0));
+        return true;
+      });
   CHECK(worst < 1e-6);
   CHECK(-run.louse.velocity.x * w == Approx(1.0).epsilon(1e-6));
   CHECK(run.louse.phase == Phase::kMoving);
@@ -156,14 +165,17 @@ TEST_CASE("down an incline with drag the speed approaches g (sin a - mu cos a) /
   const Parameters p{.gravity = 9.81, .drag = 0.7, .friction = 0.1};
   const double a = std::atan(0.5);
   const Louse end = tests::run<RoughInAir>(plane, p, moving({}, {0.1, 0}), 60, 6000).louse;
-  CHECK(end.velocity.x / std::cos(a) == Approx(9.81 * (std::sin(a) - 0.1 * std::cos(a)) / 0.7).epsilon(1e-12));
+  CHECK(end.velocity.x / std::cos(a) ==
+        Approx(9.81 * (std::sin(a) - 0.1 * std::cos(a)) / 0.7).epsilon(1e-12));
 }
 
 TEST_CASE("the step is of order 4 in position and energy") {
   const tests::Bowl bowl;
   const auto error = [&](double rate) {
     const double omega = std::sqrt(9.81);
-    const Louse end = tests::run<Free>(bowl, frictionless(), moving({0.5, 0}, {0, 0.5 * omega}), rate, std::lround(4 * rate)).louse;
+    const Louse end = tests::run<Free>(bowl, frictionless(), moving({0.5, 0}, {0, 0.5 * omega}), rate,
+                                       std::lround(4 * rate))
+                          .louse;
     return std::hypot(end.position.x - 0.5 * std::cos(omega * 4), end.position.y - 0.5 * std::sin(omega * 4));
   };
   CHECK(std::log2(error(100) / error(400)) / 2 == Approx(4.0).margin(0.3));

@@ -17,7 +17,11 @@ namespace {
 using Free = Forces<false, false, false>;
 
 Parameters unilateral() {
-  return {.gravity = 9.81, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .contact = SurfaceContact::kUnilateral};
+  return {.gravity = 9.81,
+          .drag = 0.0,
+          .friction = 0.0,
+          .thrust_max = 0.0,
+          .contact = SurfaceContact::kUnilateral};
 }
 
 /// The upper half of a sphere, and flat ground outside of it.
@@ -33,7 +37,8 @@ struct Sphere : tests::Unbounded {
 
 }  // namespace
 
-TEST_CASE("a louse leaves a sphere where cos t = (2 + v0^2 / (g R)) / 3, and flies the exact parabola from there") {
+TEST_CASE(
+    "a louse leaves a sphere where cos t = (2 + v0^2 / (g R)) / 3, and flies the exact parabola from there") {
   const Sphere sphere;
   const double v0 = GENERATE(0.3, 1.0, 2.0);
   const double cosine = (2 + v0 * v0 / 9.81) / 3;
@@ -92,7 +97,8 @@ TEST_CASE("jumping lice never gain energy, never leave the walls and never end b
   std::uint64_t flights = 0;
   for (int i = 0; i < 40; ++i) {
     const double angle = 6.28 * random.uniform();
-    const Louse start = moving({30 * random.uniform() - 15, 30 * random.uniform() - 15}, {25 * std::cos(angle), 25 * std::sin(angle)});
+    const Louse start = moving({30 * random.uniform() - 15, 30 * random.uniform() - 15},
+                               {25 * std::cos(angle), 25 * std::sin(angle)});
     const auto total = [&](const Louse& l) {
       if (l.phase != Phase::kFlying) return tests::energy(hills, l, 9.81);
       return 0.5 * (dot(l.velocity, l.velocity) + l.flight_vz * l.flight_vz) + 9.81 * l.flight_z;
@@ -100,13 +106,15 @@ TEST_CASE("jumping lice never gain energy, never leave the walls and never end b
     double last = total(start);
     double worst = 0.0;
     bool sound = true;
-    const auto run = tests::run<Free>(hills, unilateral(), start, 60, 900, hills.domain(), [&](const Louse& l) {
-      worst = std::fmax(worst, total(l) - last);
-      last = total(l);
-      sound = sound && hills.domain().contains(l.position.x, l.position.y);
-      if (l.phase == Phase::kFlying) sound = sound && l.flight_z >= hills.sample(l.position.x, l.position.y).z - 1e-9;
-      return true;
-    });
+    const auto run =
+        tests::run<Free>(hills, unilateral(), start, 60, 900, hills.domain(), [&](const Louse& l) {
+          worst = std::fmax(worst, total(l) - last);
+          last = total(l);
+          sound = sound && hills.domain().contains(l.position.x, l.position.y);
+          if (l.phase == Phase::kFlying)
+            sound = sound && l.flight_z >= hills.sample(l.position.x, l.position.y).z - 1e-9;
+          return true;
+        });
     INFO("run " << i);
     CHECK(sound);
     CHECK(worst < 2e-2);  // J/kg in a tick, of 300 and more
@@ -115,14 +123,17 @@ TEST_CASE("jumping lice never gain energy, never leave the walls and never end b
   CHECK(flights >= 20);
 }
 
-TEST_CASE("Kepler: a louse on the flat under central gravity runs its ellipse, with period, axis and Laplace vector") {
+TEST_CASE(
+    "Kepler: a louse on the flat under central gravity runs its ellipse, with period, axis and Laplace "
+    "vector") {
   const tests::Plane plane;
   const Parameters p{.gravity = 0.0, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .central_gravity = 1.0};
   for (const double v0 : {0.8, 1.0, 1.2}) {
     const double a = 1 / (2 - v0 * v0);
     const double period = 2 * 3.14159265358979323846 * std::pow(a, 1.5);
     constexpr long kTicks = 4000;
-    const auto run = tests::run<Forces<false, false, false, true>>(plane, p, moving({1, 0}, {0, v0}), kTicks / period, kTicks);
+    const auto run = tests::run<Forces<false, false, false, true>>(plane, p, moving({1, 0}, {0, v0}),
+                                                                   kTicks / period, kTicks);
     const Louse& l = run.louse;
     INFO("v0 " << v0);
     CHECK(std::hypot(l.position.x - 1, l.position.y) < 1e-8);
@@ -137,10 +148,11 @@ TEST_CASE("falling into the centre stays finite") {
   const tests::Plane plane;
   const Parameters p{.gravity = 0.0, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .central_gravity = 1.0};
   bool finite = true;
-  tests::run<Forces<false, false, false, true>>(plane, p, moving({1, 0}, {0, 0}), 60, 600, {-2, -2, 2, 2}, [&](const Louse& l) {
-    finite = finite && std::fabs(l.position.x) <= 2 && std::fabs(l.velocity.x) < 1e4;
-    return true;
-  });
+  tests::run<Forces<false, false, false, true>>(
+      plane, p, moving({1, 0}, {0, 0}), 60, 600, {-2, -2, 2, 2}, [&](const Louse& l) {
+        finite = finite && std::fabs(l.position.x) <= 2 && std::fabs(l.velocity.x) < 1e4;
+        return true;
+      });
   CHECK(finite);
 }
 

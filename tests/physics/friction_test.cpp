@@ -55,12 +55,12 @@ TEST_CASE("a louse is not put to sleep at a pendulum's turning point") {
   const Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.02};
   const tests::Bowl bowl;
   bool slept_early = false;
-  const auto run = tests::run<Forces<false, true, false>>(bowl, p, moving({0.8, 0}, {}), 60, 60000, tests::kNowhere,
-                                                          [&](const Louse& l) {
-    // It may only rest where the slope is below mu.
-    if (l.phase == Phase::kResting && std::hypot(l.position.x, l.position.y) > 0.02) slept_early = true;
-    return true;
-  });
+  const auto run = tests::run<Forces<false, true, false>>(
+      bowl, p, moving({0.8, 0}, {}), 60, 60000, tests::kNowhere, [&](const Louse& l) {
+        // It may only rest where the slope is below mu.
+        if (l.phase == Phase::kResting && std::hypot(l.position.x, l.position.y) > 0.02) slept_early = true;
+        return true;
+      });
   CHECK_FALSE(slept_early);
   CHECK(run.louse.phase == Phase::kResting);
 }
@@ -73,8 +73,9 @@ TEST_CASE("no louse creeps where friction can hold it: pushed off anywhere, all 
       const auto symmetric = [&](double size) { return size * (2 * random.uniform() - 1); };
       const Parameters p{.gravity = 9.81, .drag = 0.2, .friction = friction, .thrust_max = 0.0};
       for (int i = 0; i < 12; ++i) {
-        const auto run = tests::run<Forces<true, true, false>>(f, p, moving({symmetric(18), symmetric(18)}, {symmetric(3), symmetric(3)}), 60,
-                                                               60 * 240, f.domain(), [](const Louse& l) { return l.phase == Phase::kMoving; });
+        const auto run = tests::run<Forces<true, true, false>>(
+            f, p, moving({symmetric(18), symmetric(18)}, {symmetric(3), symmetric(3)}), 60, 60 * 240,
+            f.domain(), [](const Louse& l) { return l.phase == Phase::kMoving; });
         INFO(terrain::to_text(name) << ", friction " << friction << ", louse " << i << ", speed "
                                     << std::hypot(run.louse.velocity.x, run.louse.velocity.y));
         CHECK(run.louse.phase == Phase::kResting);
@@ -102,12 +103,13 @@ TEST_CASE("friction and drag never add energy, on any function, at any rate") {
                                  {8 * random.uniform() - 4, 8 * random.uniform() - 4});
       double last = tests::energy(f, start, 9.81);
       double worst = 0.0;
-      tests::run<Forces<true, true, false>>(f, p, start, rate, std::lround(60 * rate), f.domain(), [&](const Louse& l) {
-        const double now = tests::energy(f, l, 9.81);
-        worst = std::fmax(worst, now - last);
-        last = now;
-        return true;
-      });
+      tests::run<Forces<true, true, false>>(f, p, start, rate, std::lround(60 * rate), f.domain(),
+                                            [&](const Louse& l) {
+                                              const double now = tests::energy(f, l, 9.81);
+                                              worst = std::fmax(worst, now - last);
+                                              last = now;
+                                              return true;
+                                            });
       INFO(terrain::to_text(name) << " at " << rate << " Hz");
       CHECK(worst < 1e-6);
     }

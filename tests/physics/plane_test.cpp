@@ -1,4 +1,5 @@
-// Flat ground as a surface of its own: closed forms, and the same motion as on a spline through the same heights.
+// Flat ground as a surface of its own: closed forms, and the same motion as on a spline through the same
+// heights.
 #include "shared/terrain/plane_surface.h"
 
 #include <catch2/catch.hpp>
@@ -27,7 +28,8 @@ HeightGrid heights_of(const PlaneSurface& plane) {
   HeightGrid grid{11, 11, -20.0, -20.0, 4.0, 4.0, {}};
   for (std::size_t j = 0; j < grid.rows; ++j) {
     for (std::size_t i = 0; i < grid.columns; ++i) {
-      grid.heights.push_back(plane.sample(-20.0 + 4.0 * static_cast<double>(i), -20.0 + 4.0 * static_cast<double>(j)).z);
+      grid.heights.push_back(
+          plane.sample(-20.0 + 4.0 * static_cast<double>(i), -20.0 + 4.0 * static_cast<double>(j)).z);
     }
   }
   return grid;
@@ -44,7 +46,8 @@ Louse louse_of(LouseId id, core::Vec2 position, core::Vec2 velocity) {
 /// A plane's world without walls, and one louse in it.
 World alone(core::Vec2 slope, const Parameters& parameters, const Louse& louse) {
   constexpr double kFar = 1e9;
-  World world(std::make_shared<const Terrain>(PlaneSurface(kSquare, 1.0, slope)), parameters, kTick, {-kFar, -kFar, kFar, kFar});
+  World world(std::make_shared<const Terrain>(PlaneSurface(kSquare, 1.0, slope)), parameters, kTick,
+              {-kFar, -kFar, kFar, kFar});
   world.insert(louse);
   return world;
 }
@@ -55,7 +58,9 @@ std::vector<Louse> crowd(double fastest) {
   std::vector<Louse> lice;
   for (LouseId id = 1; id <= 61; ++id) {
     lice.push_back(louse_of(id, {symmetric(19), symmetric(19)}, {symmetric(fastest), symmetric(fastest)}));
-    lice.back().thrust_kind = id % 3 == 0 ? ThrustKind::kNone : id % 3 == 1 ? ThrustKind::kMapVector : ThrustKind::kAlongHeading;
+    lice.back().thrust_kind = id % 3 == 0   ? ThrustKind::kNone
+                              : id % 3 == 1 ? ThrustKind::kMapVector
+                                            : ThrustKind::kAlongHeading;
     lice.back().thrust = {symmetric(0.7), symmetric(0.7)};
     lice.back().thrust_ticks = kHeld;
     if (id % 3 == 0) lice.back().thrust = {};
@@ -79,12 +84,14 @@ TEST_CASE("on an incline without friction a louse runs the parabola of constant 
 }
 
 TEST_CASE("on level ground drag alone brings a louse v / d far, friction alone v^2 / (2 mu g)") {
-  World dragged = alone({}, {.gravity = 9.81, .drag = 0.5, .friction = 0.0, .thrust_max = 0.0}, louse_of(1, {}, {3, 4}));
+  World dragged =
+      alone({}, {.gravity = 9.81, .drag = 0.5, .friction = 0.0, .thrust_max = 0.0}, louse_of(1, {}, {3, 4}));
   for (int tick = 0; tick < 60 * 60; ++tick) dragged.step();
   CHECK(dragged.lice()[0].position.x == Approx(6.0).epsilon(1e-9));
   CHECK(dragged.lice()[0].position.y == Approx(8.0).epsilon(1e-9));
 
-  World rubbed = alone({}, {.gravity = 9.81, .drag = 0.0, .friction = 0.2, .thrust_max = 0.0}, louse_of(1, {}, {3, 4}));
+  World rubbed =
+      alone({}, {.gravity = 9.81, .drag = 0.0, .friction = 0.2, .thrust_max = 0.0}, louse_of(1, {}, {3, 4}));
   for (int tick = 0; tick < 60 * 60; ++tick) rubbed.step();
   const double way = 25.0 / (2 * 0.2 * 9.81);
   CHECK(rubbed.lice()[0].phase == Phase::kResting);
@@ -92,7 +99,9 @@ TEST_CASE("on level ground drag alone brings a louse v / d far, friction alone v
   CHECK(rubbed.lice()[0].position.y == Approx(0.8 * way).epsilon(1e-12));
 }
 
-TEST_CASE("on level ground of height 0 a slow louse has the bits it has on a spline, with every set and every force") {
+TEST_CASE(
+    "on level ground of height 0 a slow louse has the bits it has on a spline, with every set and every "
+    "force") {
   const PlaneSurface plane(kSquare, 0.0, {});
   const auto flat = std::make_shared<const Terrain>(plane);
   const auto spline = std::make_shared<const Terrain>(BicubicSpline(heights_of(plane)));
@@ -101,7 +110,8 @@ TEST_CASE("on level ground of height 0 a slow louse has the bits it has on a spl
                        .drag = forces & 4u ? 0.2 : 0.0,
                        .friction = forces & 2u ? 0.15 : 0.0,
                        .thrust_max = forces & 1u ? 4.0 : 0.0};
-    for (const InstructionSet set : {InstructionSet::kScalar, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
+    for (const InstructionSet set :
+         {InstructionSet::kScalar, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
       if (!is_available(set)) continue;
       World ours(flat, p, kTick);
       World theirs(spline, p, kTick);
@@ -147,12 +157,14 @@ TEST_CASE("on an incline a crowd goes where it goes on a spline through the same
 TEST_CASE("elastic walls around an incline neither give nor take energy") {
   const core::Vec2 slope{0.3, -0.2};
   const PlaneSurface plane(kSquare, 0.0, slope);
-  const Parameters elastic{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .edge_restitution = 1.0};
+  const Parameters elastic{
+      .gravity = 9.81, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .edge_restitution = 1.0};
   World world(std::make_shared<const Terrain>(plane), elastic, kTick);
   world.insert(louse_of(1, {1, 2}, {3, 1}));
   const auto energy_of = [&](const Louse& louse) {
     const double climb = dot(slope, louse.velocity);
-    return 0.5 * (dot(louse.velocity, louse.velocity) + climb * climb) + 9.81 * plane.sample(louse.position.x, louse.position.y).z;
+    return 0.5 * (dot(louse.velocity, louse.velocity) + climb * climb) +
+           9.81 * plane.sample(louse.position.x, louse.position.y).z;
   };
   const double before = energy_of(world.lice()[0]);
   for (int tick = 0; tick < 60 * 100; ++tick) world.step();

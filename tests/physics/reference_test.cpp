@@ -20,8 +20,8 @@ double trajectory_error(const tests::CsvTable& t, std::size_t row, double rate) 
   p.drag = t.number(row, "drag");
   p.friction = t.number(row, "mu");
   p.thrust_max = 1.0;
-  Louse louse = tests::moving({t.number(row, "x0"), t.number(row, "y0")},
-                              {t.number(row, "vx0"), t.number(row, "vy0")});
+  Louse louse =
+      tests::moving({t.number(row, "x0"), t.number(row, "y0")}, {t.number(row, "vx0"), t.number(row, "vy0")});
   louse.thrust = {t.number(row, "thrust_x"), t.number(row, "thrust_y")};
   louse.thrust_kind = ThrustKind::kMapVector;
   louse.thrust_ticks = kHeld;

@@ -42,7 +42,8 @@ TEST_CASE("the power of the forces is the change of energy: dE/dt = F.v exactly"
     const double speed = std::sqrt(squared_length_in_space(s, c.v));
     const double rise = s.zx * c.drive.direction.x + s.zy * c.drive.direction.y;
     const double push = c.drive.push * (dot(c.drive.direction, c.v) + rise * vz) / std::sqrt(1 + rise * rise);
-    const double power = -c.p.drag * speed * speed - c.p.friction * std::fabs(normal) * speed + c.drive.along * speed + push;
+    const double power =
+        -c.p.drag * speed * speed - c.p.friction * std::fabs(normal) * speed + c.drive.along * speed + push;
     REQUIRE(rate == Approx(power).margin(1e-10));
   }
 }
@@ -53,7 +54,8 @@ TEST_CASE("the acceleration solves the Lagrangian equations with the full mass m
   for (int i = 0; i < 2000; ++i) {
     const Case c = random_case(random);
     const auto& s = c.s;
-    const core::Vec2 a = acceleration<Forces<true, false, true>>(s, c.v, {c.drive.direction, 1.0, c.drive.push, 0.0, {}}, c.p);
+    const core::Vec2 a =
+        acceleration<Forces<true, false, true>>(s, c.v, {c.drive.direction, 1.0, c.drive.push, 0.0, {}}, c.p);
     const double lift = c.p.gravity + curvature_along(s, c.v);
     const double vz = s.zx * c.v.x + s.zy * c.v.y;
     const double rise = s.zx * c.drive.direction.x + s.zy * c.drive.direction.y;

@@ -1,4 +1,5 @@
-// Lice on a big map's ground: as on the same heights in memory, and the same bits whatever its tiles go through.
+// Lice on a big map's ground: as on the same heights in memory, and the same bits whatever its tiles go
+// through.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <memory>
@@ -6,8 +7,8 @@
 #include <vector>
 
 #include "shared/core/random.h"
-#include "shared/state/state_hash.h"
 #include "shared/physics/world.h"
+#include "shared/state/state_hash.h"
 #include "shared/terrain/terrain.h"
 
 using namespace woodlouse;
@@ -33,7 +34,8 @@ std::shared_ptr<const terrain::Terrain> tiled(std::size_t max_tiles) {
   terrain::TiledBSplineOptions options;
   options.no_data = terrain::NoDataPolicy::kFill;
   options.max_tiles = max_tiles;
-  return std::make_shared<const terrain::Terrain>(TiledGround(std::make_shared<terrain::GridHeights>(hills()), options));
+  return std::make_shared<const terrain::Terrain>(
+      TiledGround(std::make_shared<terrain::GridHeights>(hills()), options));
 }
 
 /// Thirty lice that drive to and fro.
@@ -79,7 +81,8 @@ terrain::TileStore& store_of(const World& world) {
 TEST_CASE("lice on tiles go where lice on the spline in memory go, with every method") {
   for (const Method method : {Method::kStandard, Method::kCheap, Method::kPrecise}) {
     World on_tiles = peopled(tiled(100), method);
-    World in_memory = peopled(std::make_shared<const terrain::Terrain>(terrain::BicubicSpline(hills())), method);
+    World in_memory =
+        peopled(std::make_shared<const terrain::Terrain>(terrain::BicubicSpline(hills())), method);
     drive(on_tiles, 120);
     drive(in_memory, 120);
     REQUIRE(on_tiles.counters().louse_steps == in_memory.counters().louse_steps);
@@ -93,7 +96,9 @@ TEST_CASE("lice on tiles go where lice on the spline in memory go, with every me
   }
 }
 
-TEST_CASE("the bits are the same with few tiles, with all of them built before, and while another thread prepares them") {
+TEST_CASE(
+    "the bits are the same with few tiles, with all of them built before, and while another thread prepares "
+    "them") {
   World plain = peopled(tiled(100), Method::kStandard);
   drive(plain, 300);
   World narrow = peopled(tiled(2), Method::kStandard);

@@ -24,7 +24,8 @@ TEST_CASE("an elastic impact keeps the energy, any other loses it, whatever the 
       CHECK_FALSE(outward(corner.x, after.x));
       CHECK_FALSE(outward(corner.y, after.y));
       CHECK(squared_length_in_space(s, after) <= before * (1 + 1e-14));
-      if (e == 1.0 && corner.y == 0) CHECK(squared_length_in_space(s, after) == Approx(before).epsilon(1e-13));
+      if (e == 1.0 && corner.y == 0)
+        CHECK(squared_length_in_space(s, after) == Approx(before).epsilon(1e-13));
     }
   }
 }
@@ -43,7 +44,9 @@ TEST_CASE("leaning on walls never does work inwards and leaves no outward accele
   }
 }
 
-TEST_CASE("a louse never leaves the domain and never gains energy there: walls, corners, slopes, all restitutions") {
+TEST_CASE(
+    "a louse never leaves the domain and never gains energy there: walls, corners, slopes, all "
+    "restitutions") {
   core::Random random(3);
   const terrain::BicubicSpline hills(terrain::sample_function(FunctionName::kHills, 20.0, 10));
   const FunctionSurface wavy(FunctionName::kWavyPot, 20.0);
@@ -56,13 +59,14 @@ TEST_CASE("a louse never leaves the domain and never gains energy there: walls, 
       double last = tests::energy(surface, start, 9.81);
       double worst = 0.0;
       bool inside = true;
-      const auto end = tests::run<Forces<false, false, false>>(surface, p, start, 60, 1200, surface.domain(), [&](const Louse& l) {
-        inside = inside && surface.domain().contains(l.position.x, l.position.y);
-        const double now = tests::energy(surface, l, 9.81);
-        worst = std::fmax(worst, now - last);
-        last = now;
-        return true;
-      });
+      const auto end = tests::run<Forces<false, false, false>>(
+          surface, p, start, 60, 1200, surface.domain(), [&](const Louse& l) {
+            inside = inside && surface.domain().contains(l.position.x, l.position.y);
+            const double now = tests::energy(surface, l, 9.81);
+            worst = std::fmax(worst, now - last);
+            last = now;
+            return true;
+          });
       INFO("run " << i);
       CHECK(inside);
       CHECK(worst < 2e-3);  // J/kg in a tick, of 100 and more: the step's own error at 15 m/s
@@ -102,7 +106,8 @@ TEST_CASE("pressed into a corner, a louse comes to rest and moves no more") {
   plane.slope_y = -0.3;
   const terrain::Rectangle walls{-1, -1, 1, 1};
   const Parameters p{.gravity = 9.81, .drag = 0.2, .friction = 0.05, .edge_restitution = 0.5};
-  const auto run = tests::run<Forces<true, true, false>>(plane, p, moving({0, 0}, {}), 60, 6000, walls, [](const Louse&) { return true; });
+  const auto run = tests::run<Forces<true, true, false>>(plane, p, moving({0, 0}, {}), 60, 6000, walls,
+                                                         [](const Louse&) { return true; });
   CHECK(run.louse.phase == Phase::kResting);
   CHECK(run.louse.position == core::Vec2{1.0, 1.0});
 }
@@ -113,7 +118,8 @@ TEST_CASE("a louse slides down along a wall as down an incline of the wall's slo
   plane.slope_y = -0.2;
   const terrain::Rectangle walls{-1, -100, 1, 100};
   const Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .edge_restitution = 0.0};
-  const auto run = tests::run<Forces<false, false, false>>(plane, p, moving({1, 0}, {}), 60, 120, walls, [](const Louse&) { return true; });
+  const auto run = tests::run<Forces<false, false, false>>(plane, p, moving({1, 0}, {}), 60, 120, walls,
+                                                           [](const Louse&) { return true; });
   CHECK(run.louse.position.x == 1.0);
   // In the vertical plane of the wall the slope is zy alone: a = g zy / (1 + zy^2).
   CHECK(run.louse.position.y == Approx(0.5 * 4.0 * 9.81 * 0.2 / 1.04).epsilon(1e-12));
@@ -123,7 +129,8 @@ TEST_CASE("a bouncing louse on the flat hits where the closed form says") {
   tests::Plane plane;
   const terrain::Rectangle walls{0, -1, 1, 1};
   const Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .edge_restitution = 0.5};
-  const auto run = tests::run<Forces<false, false, false>>(plane, p, moving({0.5, 0}, {1, 0}), 60, 150, walls, [](const Louse&) { return true; });
+  const auto run = tests::run<Forces<false, false, false>>(plane, p, moving({0.5, 0}, {1, 0}), 60, 150, walls,
+                                                           [](const Louse&) { return true; });
   // 0.5 s to the wall, 2 s back at half the speed: it is at the other wall at 2.5 s.
   CHECK(run.louse.position.x == Approx(0.0).margin(1e-12));
   CHECK(run.counters.bounces >= 1);
@@ -147,12 +154,14 @@ TEST_CASE("lice that push into walls and corners cost few sub-steps, and none st
           louse.thrust_ticks = kHeld;
           BatchLists lists;
           for (int tick = 0; tick < 1200 && louse.phase == Phase::kMoving; ++tick) {
-            if (tick % 400 == 0) louse.thrust = core::Vec2{0.7 * std::cos(i + tick), 0.7 * std::sin(i + tick)};
+            if (tick % 400 == 0)
+              louse.thrust = core::Vec2{0.7 * std::cos(i + tick), 0.7 * std::sin(i + tick)};
             const Louse before = louse;
             StepCounters counters;
             const std::uint32_t index = 0;
             steps->advance({&louse, 1}, {&index, 1}, {}, lists, counters);
-            INFO(terrain::to_text(name) << ", restitution " << restitution << ", louse " << i << ", tick " << tick);
+            INFO(terrain::to_text(name)
+                 << ", restitution " << restitution << ", louse " << i << ", tick " << tick);
             REQUIRE(counters.sub_steps < 600);
             REQUIRE((louse.position != before.position || dot(louse.velocity, louse.velocity) < 1e-6));
           }

@@ -17,7 +17,8 @@ using terrain::Terrain;
 namespace {
 
 std::shared_ptr<const Terrain> volcano() {
-  return std::make_shared<const Terrain>(BicubicSpline(terrain::sample_function(FunctionName::kVolcano, 20.0, 10)));
+  return std::make_shared<const Terrain>(
+      BicubicSpline(terrain::sample_function(FunctionName::kVolcano, 20.0, 10)));
 }
 
 Louse random_louse(core::Random& random, LouseId id) {
@@ -100,7 +101,8 @@ TEST_CASE("lice come and go by id, and a place outside the domain is moved in") 
 
 TEST_CASE("the distance travelled is the length of the path in space") {
   // Down a plane of the pot's rim at constant slope there is a closed form only for the flat: v t.
-  World world(std::make_shared<const Terrain>(BicubicSpline(terrain::HeightGrid{5, 5, 0, 0, 10, 10, std::vector<double>(25, 2.0)})),
+  World world(std::make_shared<const Terrain>(
+                  BicubicSpline(terrain::HeightGrid{5, 5, 0, 0, 10, 10, std::vector<double>(25, 2.0)})),
               {.drag = 0.0, .friction = 0.0, .thrust_max = 0.0}, 1.0 / 60);
   Louse louse;
   louse.id = 1;

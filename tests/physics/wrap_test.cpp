@@ -47,7 +47,9 @@ std::shared_ptr<const Terrain> tiled_three_by_three() {
   return std::make_shared<const Terrain>(BicubicSpline(all));
 }
 
-Parameters free_wrapping() { return {.gravity = 9.81, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .edges = Edges::kWrap}; }
+Parameters free_wrapping() {
+  return {.gravity = 9.81, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .edges = Edges::kWrap};
+}
 
 bool at_home(core::Vec2 p) { return p.x >= -kHalf && p.x < kHalf && p.y >= -kHalf && p.y < kHalf; }
 
@@ -56,10 +58,11 @@ double apart_by_periods(double a, double b) {
   return std::fabs(turns - std::round(turns)) * 2 * kHalf;
 }
 
-/// How far the same louse is off after `seconds` between a map that wraps and one that needs not, at worst; counts
-/// the ticks in which it was carried over a seam.
-double worst_apart(const std::shared_ptr<const Terrain>& wrapping, const std::shared_ptr<const Terrain>& endless,
-                   Parameters p, const Louse& louse, double seconds, int& crossings) {
+/// How far the same louse is off after `seconds` between a map that wraps and one that needs not, at worst;
+/// counts the ticks in which it was carried over a seam.
+double worst_apart(const std::shared_ptr<const Terrain>& wrapping,
+                   const std::shared_ptr<const Terrain>& endless, Parameters p, const Louse& louse,
+                   double seconds, int& crossings) {
   constexpr double kRate = 60;
   World home(wrapping, p, 1 / kRate);
   p.edges = Edges::kWalls;
@@ -77,16 +80,18 @@ double worst_apart(const std::shared_ptr<const Terrain>& wrapping, const std::sh
     REQUIRE(a.phase == b.phase);
     if (std::fabs(a.position.x - last.x) > kHalf || std::fabs(a.position.y - last.y) > kHalf) ++crossings;
     last = a.position;
-    worst = std::max({worst, apart_by_periods(a.position.x, b.position.x), apart_by_periods(a.position.y, b.position.y),
-                      std::fabs(a.velocity.x - b.velocity.x), std::fabs(a.velocity.y - b.velocity.y)});
+    worst = std::max({worst, apart_by_periods(a.position.x, b.position.x),
+                      apart_by_periods(a.position.y, b.position.y), std::fabs(a.velocity.x - b.velocity.x),
+                      std::fabs(a.velocity.y - b.velocity.y)});
   }
   return worst;
 }
 
 Louse random_louse(core::Random& random, double speed) {
   const double angle = 6.283 * random.uniform();
-  Louse louse = tests::moving({kHalf * (1.9 * random.uniform() - 0.95), kHalf * (1.9 * random.uniform() - 0.95)},
-                              {speed * std::cos(angle), speed * std::sin(angle)});
+  Louse louse =
+      tests::moving({kHalf * (1.9 * random.uniform() - 0.95), kHalf * (1.9 * random.uniform() - 0.95)},
+                    {speed * std::cos(angle), speed * std::sin(angle)});
   louse.thrust_kind = ThrustKind::kMapVector;
   louse.thrust = {0.3 * std::cos(angle), 0.3 * std::sin(angle)};
   louse.thrust_ticks = kHeld;
@@ -95,7 +100,8 @@ Louse random_louse(core::Random& random, double speed) {
 
 }  // namespace
 
-TEST_CASE("over the seam a louse runs as on three by three copies of the map without a seam, whatever the method") {
+TEST_CASE(
+    "over the seam a louse runs as on three by three copies of the map without a seam, whatever the method") {
   const auto one = torus();
   const auto nine = tiled_three_by_three();
   core::Random random(5);
@@ -123,7 +129,8 @@ TEST_CASE("over the seam of a periodic function a louse runs as on the function 
   core::Random random(6);
   int crossings = 0;
   for (int i = 0; i < 10; ++i) {
-    const Parameters p{.gravity = 9.81, .drag = 0.1, .friction = 0.05, .thrust_max = 4.0, .edges = Edges::kWrap};
+    const Parameters p{
+        .gravity = 9.81, .drag = 0.1, .friction = 0.05, .thrust_max = 4.0, .edges = Edges::kWrap};
     INFO("run " << i);
     CHECK(worst_apart(function, function, p, random_louse(random, 15.0), 5.0, crossings) < 1e-9);
   }
@@ -133,7 +140,9 @@ TEST_CASE("over the seam of a periodic function a louse runs as on the function 
 TEST_CASE("on a map that wraps every instruction set gives the bits of the scalar step") {
   const auto ground = torus();
   const auto played = [&](InstructionSet set) {
-    World world(ground, {.gravity = 9.81, .drag = 0.05, .friction = 0.05, .thrust_max = 6.0, .edges = Edges::kWrap}, 1.0 / 60);
+    World world(ground,
+                {.gravity = 9.81, .drag = 0.05, .friction = 0.05, .thrust_max = 6.0, .edges = Edges::kWrap},
+                1.0 / 60);
     world.use(set);
     core::Random random(9);
     for (LouseId id = 1; id <= 83; ++id) {
@@ -157,7 +166,8 @@ TEST_CASE("on a map that wraps every instruction set gives the bits of the scala
 TEST_CASE("hundreds of crossings leave the energy where it was") {
   const auto function = std::make_shared<const Terrain>(FunctionSurface(FunctionName::kWaves, kHalf));
   // The standard method on the function, precise on the spline: neither loses order at a spline's knot lines.
-  for (const auto& [ground, method] : {std::pair(function, Method::kStandard), std::pair(torus(), Method::kPrecise)}) {
+  for (const auto& [ground, method] :
+       {std::pair(function, Method::kStandard), std::pair(torus(), Method::kPrecise)}) {
     Parameters p = free_wrapping();
     p.method = method;
     World world(ground, p, 1.0 / 120);
@@ -200,14 +210,16 @@ TEST_CASE("a louse that crosses many cells or whole maps in a tick stays on the 
         world.step();
         INFO(to_text(method) << ", " << speed << " m/s, tick " << i);
         REQUIRE(at_home(world.lice()[0].position));
-        // 2e-3 is the cheap step's own error over 400 lines of knots a second; what is capped is bounded to rounding.
+        // 2e-3 is the cheap step's own error over 400 lines of knots a second; what is capped is bounded to
+        // rounding.
         REQUIRE(tests::energy(spline, world.lice()[0], 9.81) <= before * (1 + (speed < 1e3 ? 2e-3 : 1e-9)));
       }
     }
   }
 }
 
-TEST_CASE("a position is carried home by whole periods, into the half-open rectangle, whatever rounding does") {
+TEST_CASE(
+    "a position is carried home by whole periods, into the half-open rectangle, whatever rounding does") {
   const terrain::Rectangle odd{-0.3, 0.1, 0.7, 1e6 / 3};
   const Rim rim(odd, Edges::kWrap);
   core::Random random(12);
@@ -240,7 +252,9 @@ TEST_CASE("a position is carried home by whole periods, into the half-open recta
 }
 
 TEST_CASE("nothing leans on a seam: a louse set down there is at the low rim and rolls over it") {
-  World world(torus(), {.gravity = 9.81, .drag = 0.1, .friction = 0.02, .thrust_max = 6.0, .edges = Edges::kWrap}, 1.0 / 60);
+  World world(torus(),
+              {.gravity = 9.81, .drag = 0.1, .friction = 0.02, .thrust_max = 6.0, .edges = Edges::kWrap},
+              1.0 / 60);
   Louse louse = tests::moving({kHalf, 3 * kHalf + 1.0}, {});
   louse.thrust_kind = ThrustKind::kMapVector;
   louse.thrust = {-1.0, 0.0};

@@ -39,8 +39,9 @@ TEST_CASE("every client message comes back as it was sent") {
   Input number{7, false, {0.5, 0.0}, false, std::nullopt, std::nullopt};
   Input pair{0xffff'ffff, true, {-0.25, 0.75}, false, kMaxThrustTicks, std::uint64_t{1} << 53};
   const std::vector<ClientMessage> messages = {
-      join, plain, number, pair, Chat{"hello, you"}, List{}, GetMap{}, Resync{}, Respawn{}, Leave{},
-      Ping{kMaxInteger}, Ping{-kMaxInteger}, Pong{0}};
+      join,     plain,    number,    pair,    Chat{"hello, you"}, List{},
+      GetMap{}, Resync{}, Respawn{}, Leave{}, Ping{kMaxInteger},  Ping{-kMaxInteger},
+      Pong{0}};
   for (const ClientMessage& message : messages) {
     INFO(line_of(message));
     CHECK(decoded(line_of(message)) == message);
@@ -77,7 +78,8 @@ TEST_CASE("every column can be asked for by its name") {
 
 TEST_CASE("unknown fields are passed over, whatever they hold") {
   CHECK(joined(R"(,"resume":null,"future":{"a":[1,{"b":[]}],"c":1e5})").name == "ann");
-  CHECK(std::holds_alternative<List>(decoded(R"({"x":-1.5e-3,"type":"list","y":[[],{},true,false,"\u00e9"]})")));
+  CHECK(std::holds_alternative<List>(
+      decoded(R"({"x":-1.5e-3,"type":"list","y":[[],{},true,false,"\u00e9"]})")));
 }
 
 TEST_CASE("the order of fields and white space do not matter") {
@@ -87,16 +89,22 @@ TEST_CASE("the order of fields and white space do not matter") {
 }
 
 TEST_CASE("names and chat are cleaned and cut") {
-  CHECK(std::get<Join>(decoded(R"({"type":"join","protocol":1,"name":"\u001b[2J  an\u202en\n"})")).name == "[2J ann");
-  CHECK(std::get<Join>(decoded(R"({"type":"join","protocol":1,"name":")" + std::string(100, 'a') + "\"}")).name ==
-        std::string(kMaxNameBytes, 'a'));
+  CHECK(std::get<Join>(decoded(R"({"type":"join","protocol":1,"name":"\u001b[2J  an\u202en\n"})")).name ==
+        "[2J ann");
+  CHECK(std::get<Join>(decoded(R"({"type":"join","protocol":1,"name":")" + std::string(100, 'a') + "\"}"))
+            .name == std::string(kMaxNameBytes, 'a'));
   CHECK(std::get<Chat>(decoded(R"({"type":"chat","text":")" + std::string(900, 'b') + "\"}")).text ==
         std::string(kMaxChatBytes, 'b'));
 }
 
 TEST_CASE("the largest lawful message of each kind fits a line") {
-  Join join{kProtocolVersion, Role::kSpectator, std::string(kMaxNameBytes, 'n'), std::string(kMaxRoomBytes, 'r'), {},
-            Format::kQuantized, kMaxStateHz};
+  Join join{kProtocolVersion,
+            Role::kSpectator,
+            std::string(kMaxNameBytes, 'n'),
+            std::string(kMaxRoomBytes, 'r'),
+            {},
+            Format::kQuantized,
+            kMaxStateHz};
   for (std::size_t i = 0; i < kColumnCount; ++i) join.fields.push_back(static_cast<Column>(i));
   CHECK(line_of(join).size() <= kMaxLineBytes);
   CHECK(line_of(Chat{std::string(kMaxChatBytes, '"')}).size() <= kMaxLineBytes);

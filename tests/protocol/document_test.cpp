@@ -21,9 +21,12 @@ std::string document() {
 
 std::string ends_text(Ends ends) {
   switch (ends) {
-    case Ends::kNo: return "no";
-    case Ends::kRepeated: return "third running";
-    case Ends::kYes: return "yes";
+    case Ends::kNo:
+      return "no";
+    case Ends::kRepeated:
+      return "third running";
+    case Ends::kYes:
+      return "yes";
   }
   return {};
 }

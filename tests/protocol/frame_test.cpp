@@ -22,7 +22,8 @@ void end_key(std::string& out, std::uint64_t hash) {
 }
 
 void begin_delta(std::string& out, std::uint64_t tick, std::uint64_t base) {
-  out += R"({"type":"delta","tick":)" + std::to_string(tick) + R"(,"base":)" + std::to_string(base) + R"(,"louse":[)";
+  out += R"({"type":"delta","tick":)" + std::to_string(tick) + R"(,"base":)" + std::to_string(base) +
+         R"(,"louse":[)";
 }
 
 void end_delta(std::string& out, const std::vector<std::uint32_t>& gone) {
@@ -31,7 +32,8 @@ void end_delta(std::string& out, const std::vector<std::uint32_t>& gone) {
   out += "]}\n";
 }
 
-void append_rows(std::string& out, const std::vector<double>& values, const std::vector<Column>& columns, Format format) {
+void append_rows(std::string& out, const std::vector<double>& values, const std::vector<Column>& columns,
+                 Format format) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     const std::size_t column = i % columns.size();
     if (column == 0) out += i == 0 ? "[" : ",[";
@@ -145,20 +147,23 @@ TEST_CASE("rows read as docs/protocol.md shows them") {
 }
 
 TEST_CASE("a delta may leave out gone") {
-  const Frame frame = frame_of("{\"type\":\"delta\",\"tick\":3,\"base\":3,\"louse\":[]}\n", default_columns(), Format::kExact);
+  const Frame frame = frame_of("{\"type\":\"delta\",\"tick\":3,\"base\":3,\"louse\":[]}\n", default_columns(),
+                               Format::kExact);
   CHECK(frame.gone.empty());
   CHECK(frame.rows() == 0);
 }
 
 TEST_CASE("a key of all columns in exact format carries what its hash is made of, and no other frame does") {
   const std::string head = R"({"type":"key","tick":7,"louse":[],"hash":"0000000000000001")";
-  const std::string proof = R"(,"previous":"0000000000000002","inputs":"ffffffffffffffff","generator":"000000000000000a"})";
+  const std::string proof =
+      R"(,"previous":"0000000000000002","inputs":"ffffffffffffffff","generator":"000000000000000a"})";
   const Frame proved = frame_of(head + proof + "\n", all_columns(), Format::kExact);
   REQUIRE(proved.proof);
   CHECK(*proved.proof == HashProof{2, 0xffff'ffff'ffff'ffff, 10});
   CHECK_FALSE(frame_of(head + proof + "\n", all_columns(), Format::kQuantized).proof);
   CHECK_FALSE(frame_of(head + "}\n", default_columns(), Format::kExact).proof);
   CHECK_FALSE(decode_server(head + "}\n", all_columns(), Format::kExact));
-  const std::string delta = R"({"type":"delta","tick":9,"base":7,"louse":[],"gone":[]})" "\n";
+  const std::string delta = R"({"type":"delta","tick":9,"base":7,"louse":[],"gone":[]})"
+                            "\n";
   CHECK_FALSE(frame_of(delta, all_columns(), Format::kExact).proof);
 }

@@ -18,9 +18,10 @@ void drain(LineFramer& framer, std::vector<Cut>& cuts) {
   while (const auto line = framer.next()) cuts.push_back({std::string(line->text), line->oversize});
 }
 
-const std::string kStream = "one\ntwo\r\n\nx\ry\n" + std::string(8, 'f') + "\r\n" + std::string(9, 'g') + "\nafter\n";
-const std::vector<Cut> kLines = {{"one", false},  {"two", false},      {"", false},     {"x\ry", false},
-                                 {"ffffffff", false}, {"", true}, {"after", false}};
+const std::string kStream =
+    "one\ntwo\r\n\nx\ry\n" + std::string(8, 'f') + "\r\n" + std::string(9, 'g') + "\nafter\n";
+const std::vector<Cut> kLines = {{"one", false},      {"two", false}, {"", false},     {"x\ry", false},
+                                 {"ffffffff", false}, {"", true},     {"after", false}};
 
 }  // namespace
 

@@ -34,22 +34,59 @@ const std::vector<std::string> kServerLines = {
 };
 
 std::string mutated(const std::vector<std::string>& lines, std::mt19937_64& random) {
-  static const std::vector<std::string> kPieces = {
-      "0", "-1", "1.0", "1e999", "-0", "null", "true", "NaN", "{", "}", "[", "]", ",", ":", "\"", "\\", "\\u0000",
-      "\\ud800", "\xff", "\xc2", std::string(1, '\0'), "\"type\":\"list\",", "9007199254740993", "4294967296",
-      "18446744073709551616", "[[[[[[[[[", "\"\"", "{}", "\n"};
+  static const std::vector<std::string> kPieces = {"0",
+                                                   "-1",
+                                                   "1.0",
+                                                   "1e999",
+                                                   "-0",
+                                                   "null",
+                                                   "true",
+                                                   "NaN",
+                                                   "{",
+                                                   "}",
+                                                   "[",
+                                                   "]",
+                                                   ",",
+                                                   ":",
+                                                   "\"",
+                                                   "\\",
+                                                   "\\u0000",
+                                                   "\\ud800",
+                                                   "\xff",
+                                                   "\xc2",
+                                                   std::string(1, '\0'),
+                                                   "\"type\":\"list\",",
+                                                   "9007199254740993",
+                                                   "4294967296",
+                                                   "18446744073709551616",
+                                                   "[[[[[[[[[",
+                                                   "\"\"",
+                                                   "{}",
+                                                   "\n"};
   std::string line = lines[random() % lines.size()];
   const std::size_t edits = 1 + random() % 4;
   for (std::size_t edit = 0; edit < edits && !line.empty(); ++edit) {
     const std::size_t at = random() % line.size();
     const std::string& other = lines[random() % lines.size()];
     switch (random() % 6) {
-      case 0: line[at] = static_cast<char>(random() % 256); break;
-      case 1: line.erase(at, 1 + random() % 8); break;
-      case 2: line.insert(at, kPieces[random() % kPieces.size()]); break;
-      case 3: line.resize(at); break;
-      case 4: line.insert(at, other.substr(random() % other.size(), random() % 40)); break;
-      default: line.replace(at, 1 + random() % 3, kPieces[random() % kPieces.size()]); break;
+      case 0:
+        line[at] = static_cast<char>(random() % 256);
+        break;
+      case 1:
+        line.erase(at, 1 + random() % 8);
+        break;
+      case 2:
+        line.insert(at, kPieces[random() % kPieces.size()]);
+        break;
+      case 3:
+        line.resize(at);
+        break;
+      case 4:
+        line.insert(at, other.substr(random() % other.size(), random() % 40));
+        break;
+      default:
+        line.replace(at, 1 + random() % 3, kPieces[random() % kPieces.size()]);
+        break;
     }
   }
   return line;
@@ -109,7 +146,8 @@ TEST_CASE("a mutated server line is a message or an error") {
   for (int round = 0; round < 20000; ++round) {
     const std::string line = mutated(kServerLines, random);
     CAPTURE(line);
-    const auto message = decode_server(line, default_columns(), round % 2 == 0 ? Format::kQuantized : Format::kExact);
+    const auto message =
+        decode_server(line, default_columns(), round % 2 == 0 ? Format::kQuantized : Format::kExact);
     if (!message) {
       check(message.error());
       continue;

@@ -1,4 +1,5 @@
-// Every line that is refused: with which code, and that its text names the field, what stood there and what may.
+// Every line that is refused: with which code, and that its text names the field, what stood there and what
+// may.
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>
@@ -24,7 +25,8 @@ void check(const std::vector<Refusal>& refusals) {
     INFO(message.error().text);
     CHECK(message.error().code == refusal.code);
     CHECK(message.error().is_json == (refusal.code != code::kBadJson));
-    for (const std::string& part : refusal.text_has) CHECK(message.error().text.find(part) != std::string::npos);
+    for (const std::string& part : refusal.text_has)
+      CHECK(message.error().text.find(part) != std::string::npos);
   }
 }
 
@@ -36,12 +38,34 @@ std::string join(const std::string& members) { return R"({"type":"join",)" + mem
 TEST_CASE("what is not JSON is refused as bad_json") {
   using namespace std::string_literals;
   std::vector<Refusal> refusals;
-  for (const std::string& line :
-       {""s, " "s, "hello"s, "{"s, "}"s, R"({"type":"list")"s, R"({"type":"list"}})"s, R"({"type":"list"} x)"s,
-        R"({"type":"list",})"s, R"({'type':'list'})"s, R"({type:"list"})"s, R"({"a":NaN})"s, R"({"a":Infinity})"s,
-        R"({"a":-Infinity})"s, R"({"a":01})"s, R"({"a":+1})"s, R"({"a":.5})"s, R"({"a":1.})"s, R"({"a":0x1})"s,
-        R"({"a":"\x41"})"s, R"({"a":"\ud800"})"s, "{\"a\":\"\xff\"}"s, "{\"a\":\"\xc0\xaf\"}"s, "{\"a\":\"\xed\xa0\x80\"}"s,
-        "{\"a\":\"tab\there\"}"s, R"({"type":"list"} // note)"s, "GET / HTTP/1.1"s, "\x16\x03\x01"s}) {
+  for (const std::string& line : {""s,
+                                  " "s,
+                                  "hello"s,
+                                  "{"s,
+                                  "}"s,
+                                  R"({"type":"list")"s,
+                                  R"({"type":"list"}})"s,
+                                  R"({"type":"list"} x)"s,
+                                  R"({"type":"list",})"s,
+                                  R"({'type':'list'})"s,
+                                  R"({type:"list"})"s,
+                                  R"({"a":NaN})"s,
+                                  R"({"a":Infinity})"s,
+                                  R"({"a":-Infinity})"s,
+                                  R"({"a":01})"s,
+                                  R"({"a":+1})"s,
+                                  R"({"a":.5})"s,
+                                  R"({"a":1.})"s,
+                                  R"({"a":0x1})"s,
+                                  R"({"a":"\x41"})"s,
+                                  R"({"a":"\ud800"})"s,
+                                  "{\"a\":\"\xff\"}"s,
+                                  "{\"a\":\"\xc0\xaf\"}"s,
+                                  "{\"a\":\"\xed\xa0\x80\"}"s,
+                                  "{\"a\":\"tab\there\"}"s,
+                                  R"({"type":"list"} // note)"s,
+                                  "GET / HTTP/1.1"s,
+                                  "\x16\x03\x01"s}) {
     refusals.push_back({line, code::kBadJson, {"not JSON at byte"}});
   }
   refusals.push_back({R"({"a":1e999})", code::kBadJson, {"1e999", "too large"}});
@@ -72,7 +96,9 @@ TEST_CASE("nesting of 8 passes and of 9 is refused") {
 }
 
 TEST_CASE("an unknown type is answered with those there are") {
-  check({{R"({"type":"jion"})", code::kUnknownType, {"\"jion\"", "join", "input", "chat", "resync", "leave", "ping"}},
+  check({{R"({"type":"jion"})",
+          code::kUnknownType,
+          {"\"jion\"", "join", "input", "chat", "resync", "leave", "ping"}},
          {R"({"type":""})", code::kUnknownType, {}},
          {R"({"type":"hello"})", code::kUnknownType, {}},
          {R"({})", code::kMissingField, {"type", "join"}},

@@ -69,17 +69,28 @@ TEST_CASE("every server message comes back as it was sent") {
   ack.you->thrust_ticks = 0xffff'ffff;
   ack.you->distance = 123456.789;
   const std::vector<ServerMessage> messages = {
-      hello, some_welcome(Format::kQuantized), some_welcome(Format::kExact), spectator, ack,
+      hello,
+      some_welcome(Format::kQuantized),
+      some_welcome(Format::kExact),
+      spectator,
+      ack,
       Ack{0, 0, 0, false, true, false, std::nullopt},
-      Event{1, 2, EventKind::kJoined, 3, "ann", Role::kBot, ""}, Event{2, 2, EventKind::kLeft, 3, "ann", {}, ""},
-      Event{3, 9, EventKind::kChat, 0, "eve", {}, "hi \\ \"all\""}, Event{4, 9, EventKind::kRespawned, 1, "x", {}, ""},
-      Notice{std::string(code::kRateLowered), "slow"}, ErrorMessage{std::string(code::kBadField), "no", false, std::nullopt},
-      ErrorMessage{std::string(code::kRateLimited), "slow down", false, 250u}, Bye{std::string(code::kShutdown), "", true},
-      Rooms{{{"volcano", "volcano", 1, 2, 3}, {"b", "hills", 0, 0, 0}}}, Rooms{},
-      MapMessage{"volcano", 0xfedcba9876543210, R"({"name":"volcano","terrain":{"heights":[[1,2.50],[3,4e0]]}})"},
+      Event{1, 2, EventKind::kJoined, 3, "ann", Role::kBot, ""},
+      Event{2, 2, EventKind::kLeft, 3, "ann", {}, ""},
+      Event{3, 9, EventKind::kChat, 0, "eve", {}, "hi \\ \"all\""},
+      Event{4, 9, EventKind::kRespawned, 1, "x", {}, ""},
+      Notice{std::string(code::kRateLowered), "slow"},
+      ErrorMessage{std::string(code::kBadField), "no", false, std::nullopt},
+      ErrorMessage{std::string(code::kRateLimited), "slow down", false, 250u},
+      Bye{std::string(code::kShutdown), "", true},
+      Rooms{{{"volcano", "volcano", 1, 2, 3}, {"b", "hills", 0, 0, 0}}},
+      Rooms{},
+      MapMessage{"volcano", 0xfedcba9876543210,
+                 R"({"name":"volcano","terrain":{"heights":[[1,2.50],[3,4e0]]}})"},
       MapMessage{"alps", 7, R"({"name":"alps","terrain":{"file":"alps.flt"}})",
                  Overview{{-50.0, 0.25}, {0.5, 1.0 / 3.0}, 4, 5, std::vector<double>(20, -1.5)}},
-      Ping{12}, Pong{-12}};
+      Ping{12},
+      Pong{-12}};
   for (const ServerMessage& message : messages) {
     INFO(line_of(message));
     const auto back = decode(line_of(message));
@@ -100,19 +111,23 @@ TEST_CASE("a minus zero keeps its sign, for the state hash's sake") {
 }
 
 TEST_CASE("a map's definition comes back byte for byte, with knots or without, whatever stands around it") {
-  const MapMessage map{"m", 1, R"({"name":"a \"definition\":{ ]","physics":{"drag":0.20},"terrain":[[1,2],[3,4]]})"};
-  const std::string knots = R"({"origin":[0,0],"spacing":[1,1],"columns":2,"rows":2,"heights":[[1,2],[3,4]]})";
+  const MapMessage map{"m", 1,
+                       R"({"name":"a \"definition\":{ ]","physics":{"drag":0.20},"terrain":[[1,2],[3,4]]})"};
+  const std::string knots =
+      R"({"origin":[0,0],"spacing":[1,1],"columns":2,"rows":2,"heights":[[1,2],[3,4]]})";
   for (const std::string& line : {encode_map(map, ""), encode_map(map, knots)}) {
     const auto back = decode(line);
     REQUIRE(back);
     CHECK(std::get<MapMessage>(*back) == map);
   }
   CHECK(encode_map(map, knots).find(",\"knots\":" + knots + "}\n") != std::string::npos);
-  const auto shuffled = decode(R"({ "x":"definition", "definition" : {"a":{"definition":1}} ,"hash":"0000000000000001",)"
-                               R"("name":"m","type":"map"})");
+  const auto shuffled =
+      decode(R"({ "x":"definition", "definition" : {"a":{"definition":1}} ,"hash":"0000000000000001",)"
+             R"("name":"m","type":"map"})");
   REQUIRE(shuffled);
   CHECK(std::get<MapMessage>(*shuffled).definition == R"({"a":{"definition":1}})");
-  const auto escaped = decode(R"({"type":"map","name":"m","hash":"0000000000000001","\u0064efinition":{"a":1.50}})");
+  const auto escaped =
+      decode(R"({"type":"map","name":"m","hash":"0000000000000001","\u0064efinition":{"a":1.50}})");
   REQUIRE(escaped);
   CHECK(std::get<MapMessage>(*escaped).definition == R"({"a":1.50})");
   CHECK(refused(R"({"type":"map","name":"m","hash":"0000000000000001","definition":[]})") == code::kBadField);
@@ -120,12 +135,15 @@ TEST_CASE("a map's definition comes back byte for byte, with knots or without, w
 
 TEST_CASE("an overview that is not what it says is refused with the field's name") {
   const auto text_of = [](const std::string& knots) {
-    const auto back = decode(R"({"type":"map","name":"m","hash":"0000000000000001","definition":{},"overview":true)" + knots + "}");
+    const auto back =
+        decode(R"({"type":"map","name":"m","hash":"0000000000000001","definition":{},"overview":true)" +
+               knots + "}");
     return back ? std::string() : back.error().text;
   };
-  const auto knots = [](const std::string& spacing, int columns, int rows, const std::string& row = "[0,1,2,3]") {
-    std::string text = R"(,"knots":{"origin":[0,0],"spacing":)" + spacing + R"(,"columns":)" + std::to_string(columns) +
-                       R"(,"rows":4,"heights":[)" + row;
+  const auto knots = [](const std::string& spacing, int columns, int rows,
+                        const std::string& row = "[0,1,2,3]") {
+    std::string text = R"(,"knots":{"origin":[0,0],"spacing":)" + spacing + R"(,"columns":)" +
+                       std::to_string(columns) + R"(,"rows":4,"heights":[)" + row;
     for (int k = 1; k < rows; ++k) text += "," + row;
     return text + "]}";
   };
@@ -142,13 +160,15 @@ TEST_CASE("an overview that is not what it says is refused with the field's name
 }
 
 TEST_CASE("strings that are not UTF-8 or hold control characters still make a line of JSON") {
-  const auto back = decode(line_of(ErrorMessage{"bad_field", "a\xff\x01\x1b[2J\n\"b\\", false, std::nullopt}));
+  const auto back =
+      decode(line_of(ErrorMessage{"bad_field", "a\xff\x01\x1b[2J\n\"b\\", false, std::nullopt}));
   REQUIRE(back);
   CHECK(std::get<ErrorMessage>(*back).text == "a\ufffd[2J \"b\\");
 }
 
 TEST_CASE("a client does not trust what it is told to show") {
-  const auto back = decode(R"({"type":"event","n":1,"tick":1,"kind":"chat","id":1,"name":"\u001b]0;x\u0007","text":"\u202eab"})");
+  const auto back = decode(
+      R"({"type":"event","n":1,"tick":1,"kind":"chat","id":1,"name":"\u001b]0;x\u0007","text":"\u202eab"})");
   REQUIRE(back);
   CHECK(std::get<Event>(*back).name == "]0;x");
   CHECK(std::get<Event>(*back).text == "ab");

@@ -17,7 +17,9 @@ TEST_CASE("plain text of any script passes as it is") {
 TEST_CASE("control characters and escape sequences lose what makes them act") {
   CHECK(clean_text("\x1b[31mred\x1b[0m", 100) == "[31mred[0m");
   CHECK(clean_text(std::string("a\0b\x07\x7f", 5), 100) == "ab");
-  CHECK(clean_text("a\xc2\x9b" "31mb", 100) == "a31mb");  // C1: CSI
+  CHECK(clean_text("a\xc2\x9b"
+                   "31mb",
+                   100) == "a31mb");  // C1: CSI
 }
 
 TEST_CASE("characters without width or that turn the writing are removed") {
@@ -40,7 +42,8 @@ TEST_CASE("a cut falls between characters") {
   CHECK(clean_text("\U0001f41e", 3).empty());
 }
 
-TEST_CASE("of random bytes what remains is clean UTF-8 within the limit, and cleaning it again changes nothing") {
+TEST_CASE(
+    "of random bytes what remains is clean UTF-8 within the limit, and cleaning it again changes nothing") {
   std::mt19937_64 random(7);
   for (int round = 0; round < 10000; ++round) {
     std::string bytes(random() % 40, '\0');

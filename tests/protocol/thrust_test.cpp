@@ -41,7 +41,8 @@ TEST_CASE("a number is rounded to the nearest 1/128") {
 }
 
 TEST_CASE("a number out of range is clamped, and that is told") {
-  for (const auto& [text, value] : {std::pair{"1.5", 1.0}, {"-2", -1.0}, {"1e308", 1.0}, {"-1e308", -1.0}, {"99", 1.0}}) {
+  for (const auto& [text, value] :
+       {std::pair{"1.5", 1.0}, {"-2", -1.0}, {"1e308", 1.0}, {"-1e308", -1.0}, {"99", 1.0}}) {
     CHECK(thrust(text).thrust.x == value);
     CHECK(thrust(text).clamped);
   }
@@ -90,7 +91,8 @@ TEST_CASE("pairs beyond any range are scaled, not lost") {
 TEST_CASE("what has been rounded stays as it is when it is sent again") {
   std::mt19937_64 random(5);
   for (int round = 0; round < 5000; ++round) {
-    const Input once = pair(static_cast<double>(random() % 400) / 150.0 - 1.3, static_cast<double>(random() % 400) / 150.0 - 1.3);
+    const Input once = pair(static_cast<double>(random() % 400) / 150.0 - 1.3,
+                            static_cast<double>(random() % 400) / 150.0 - 1.3);
     const Input twice = pair(once.thrust.x, once.thrust.y);
     REQUIRE(twice.thrust == once.thrust);
     REQUIRE_FALSE(twice.clamped);

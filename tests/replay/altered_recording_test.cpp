@@ -56,17 +56,19 @@ NumberPlace thrust_place(const std::string& line) {
   return {};
 }
 
-/// Of an altered step: its hash is another, or, where the keyframe before knew the input already, its inputs are.
+/// Of an altered step: its hash is another, or, where the keyframe before knew the input already, its inputs
+/// are.
 bool is_caught_in(std::uint64_t step, const Difference& difference) {
-  return difference.what.find("hash ") == 0 ? difference.tick == step + 1
-                                            : difference.what.find("inputs of step ") == 0 && difference.tick == step;
+  return difference.what.find("hash ") == 0
+             ? difference.tick == step + 1
+             : difference.what.find("inputs of step ") == 0 && difference.tick == step;
 }
 
 std::string altered_thrust(const std::string& number) {
   const double value = to_double(number);
   return number.find('.') == std::string::npos && value > 0 ? std::to_string(static_cast<int>(value) - 1)
-         : number.find('.') == std::string::npos           ? std::to_string(static_cast<int>(value) + 1)
-                                                           : "1";
+         : number.find('.') == std::string::npos            ? std::to_string(static_cast<int>(value) + 1)
+                                                            : "1";
 }
 
 }  // namespace
@@ -160,7 +162,8 @@ TEST_CASE("an input of a player without a louse is named, one with a seq used be
     }
   };
   CHECK(with_input(100, "[999,1,64]") ==
-        std::pair(std::uint64_t{0}, std::string("the input of player 999 seq 1 can't be applied: the player has no louse")));
+        std::pair(std::uint64_t{0},
+                  std::string("the input of player 999 seq 1 can't be applied: the player has no louse")));
   const auto [ticks, what] = with_input(100, "[1,1,64]");
   CHECK(((ticks == 1 && what.find("hash ") == 0) || what.find("can't be applied") != std::string::npos));
 }

@@ -27,7 +27,8 @@ ReplayIndex scanned(const std::string& text) {
 }  // namespace
 
 TEST_CASE("the match at any tick is the one that was played, and goes on with the recorded hashes") {
-  for (const Recording& recording : {record({.seed = 5, .steps = 300}), record_packed({.seed = 5, .steps = 300})}) {
+  for (const Recording& recording :
+       {record({.seed = 5, .steps = 300}), record_packed({.seed = 5, .steps = 300})}) {
     const auto archive = opened(recording.bytes);
     CHECK(archive->first_tick() == 0);
     CHECK(archive->last_tick() == 300);

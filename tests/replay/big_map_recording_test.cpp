@@ -10,7 +10,9 @@
 
 namespace woodlouse::replay {
 
-TEST_CASE("a game on a map in tiles is recorded with its file's name, verifies beside it and refuses another file") {
+TEST_CASE(
+    "a game on a map in tiles is recorded with its file's name, verifies beside it and refuses another "
+    "file") {
   const tests::BigMapFiles files("recording");
   const auto map = map::load_map(files.map(R"(,"storage":"tiles")"));
   REQUIRE(map);
@@ -29,7 +31,8 @@ TEST_CASE("a game on a map in tiles is recorded with its file's name, verifies b
     return verification ? to_text(*verification) : verification.error().text();
   };
   CHECK(verdict() == "ok 200 ticks\n");
-  // Under a spawn point, so on the lice's way; and in a row that the fingerprint of so small a map holds anyway.
+  // Under a spawn point, so on the lice's way; and in a row that the fingerprint of so small a map holds
+  // anyway.
   files.alter(145, 75, 201, 9.0f);
   CHECK(verdict().find("put the map it was played on beside the recording") != std::string::npos);
   std::filesystem::remove(files.file("hills.flt"));

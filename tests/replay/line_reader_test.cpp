@@ -90,7 +90,8 @@ TEST_CASE("random steps read back as they were written, minus zero and 64-bit ha
       const auto value = [&] {
         const double any = random.uniform() * 1.4 - 0.7;
         const double quanta = std::trunc(any * 128.0) / 128.0;
-        const double choices[] = {-0.0, any, quanta, std::bit_cast<double>(std::bit_cast<std::uint64_t>(quanta) ^ 1u)};
+        const double choices[] = {-0.0, any, quanta,
+                                  std::bit_cast<double>(std::bit_cast<std::uint64_t>(quanta) ^ 1u)};
         return choices[random.next() % 4];
       };
       if (input.kind != physics::ThrustKind::kNone) input.thrust.x = value();
@@ -143,12 +144,17 @@ TEST_CASE("random keyframes read back bit for bit") {
       louse.id = id += 1 + static_cast<physics::LouseId>(random.next() % 1000000);
       louse.thrust_ticks = static_cast<std::uint32_t>(random.next());
       const bool has_seq = random.next() % 4 != 0;
-      state.players.push_back({id, has_seq ? std::optional(static_cast<std::uint32_t>(random.next())) : std::nullopt});
+      state.players.push_back(
+          {id, has_seq ? std::optional(static_cast<std::uint32_t>(random.next())) : std::nullopt});
       if (random.next() % 2 == 0) writer.note_player(id, "an\"na", protocol::Role::kBot);
       if (random.next() % 2 == 0) {
         const double push = static_cast<double>(random.next() % 129) / 256.0;
-        state.waiting.push_back({id, 7, {push, -0.0}, physics::ThrustKind::kMapVector,
-                                 random.next() % 2 == 0 ? physics::kHeld : 12, state.tick + 1});
+        state.waiting.push_back({id,
+                                 7,
+                                 {push, -0.0},
+                                 physics::ThrustKind::kMapVector,
+                                 random.next() % 2 == 0 ? physics::kHeld : 12,
+                                 state.tick + 1});
       }
     }
     state.next_player = id + 1;
@@ -165,13 +171,14 @@ TEST_CASE("random keyframes read back bit for bit") {
     for (std::size_t k = 0; k < state.waiting.size(); ++k) {
       CHECK(std::memcmp(&keyframe.state.waiting[k], &state.waiting[k], sizeof state.waiting[k]) == 0);
     }
-    for (const auto& [player, label] : keyframe.labels) CHECK(label == PlayerLabel{"an\"na", protocol::Role::kBot});
+    for (const auto& [player, label] : keyframe.labels)
+      CHECK(label == PlayerLabel{"an\"na", protocol::Role::kBot});
   }
 }
 
 TEST_CASE("a margin is kept in whole milliseconds, down, so that what came late stays late") {
-  const std::pair<std::int64_t, std::int64_t> margins[] = {{0, 0},   {999, 0},   {1000, 1},     {15999, 15},
-                                                           {-1, -1}, {-1000, -1}, {-1001, -2}, {-250000, -250}};
+  const std::pair<std::int64_t, std::int64_t> margins[] = {
+      {0, 0}, {999, 0}, {1000, 1}, {15999, 15}, {-1, -1}, {-1000, -1}, {-1001, -2}, {-250000, -250}};
   for (const auto& [us, ms] : margins) {
     ReplayWriter writer;
     match::StepRecord step;
@@ -258,8 +265,10 @@ TEST_CASE("every field of a step is checked, with line and field") {
   CHECK(input_error("[1,1,64]") == "no error");
   CHECK(input_error("[1,1,null,null,9]") == "no error");
   CHECK(input_error("[1,1]") == "r:1: inputs[0]: [player, seq, thrust, margin in ms, ticks] is wanted");
-  CHECK(input_error("[1,1,1,1,1,1]") == "r:1: inputs[0]: [player, seq, thrust, margin in ms, ticks] is wanted");
-  CHECK(input_error("{\"player\":1}") == "r:1: inputs[0]: [player, seq, thrust, margin in ms, ticks] is wanted");
+  CHECK(input_error("[1,1,1,1,1,1]") ==
+        "r:1: inputs[0]: [player, seq, thrust, margin in ms, ticks] is wanted");
+  CHECK(input_error("{\"player\":1}") ==
+        "r:1: inputs[0]: [player, seq, thrust, margin in ms, ticks] is wanted");
   CHECK(input_error("[0,1,64]").find("r:1: inputs[0][0]: 0 is out of range") == 0);
   CHECK(input_error("[1,-1,64]").find("r:1: inputs[0][1]: a whole number") == 0);
   CHECK(input_error("[1,1,129]").find("r:1: inputs[0][2]: 129 / 128 is out of range") == 0);
@@ -285,7 +294,8 @@ TEST_CASE("every field of a keyframe, a chat and an end is checked") {
   CHECK(keyframe_error("[1,0,0,0,0,0,1,0,0,0,0,0,0,0,0]") == "no error");
   CHECK(keyframe_error("[1,0,0,0,0,0,1,0,0,0,0,0,0,0]").find("r:1: lice[0]: a row of 15") == 0);
   CHECK(keyframe_error("[1,0,0,0,0,0,1,0,0,0,0,0,0,3,0]").find("r:1: lice[0][13]: 3 is out of range") == 0);
-  CHECK(keyframe_error("[1,0,null,0,0,0,1,0,0,0,0,0,0,0,0]").find("r:1: lice[0][2]: a number is wanted") == 0);
+  CHECK(keyframe_error("[1,0,null,0,0,0,1,0,0,0,0,0,0,0,0]").find("r:1: lice[0][2]: a number is wanted") ==
+        0);
   CHECK(error_of("{\"keyframe\":60," + state + "\"columns\":[\"id\"],\"lice\":[]}\n")
             .find("r:1: columns: are not the columns") == 0);
   CHECK(error_of("{\"keyframe\":60," + state + "\"lice\":[]}\n") == "r:1: \"columns\" is missing");

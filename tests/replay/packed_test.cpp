@@ -31,7 +31,8 @@ core::Expected<Verification> verify_bytes(const std::string& bytes, unsigned job
 
 }  // namespace
 
-TEST_CASE("a packed recording is the plain one in zstd frames, one a keyframe, with zstd's own table of them") {
+TEST_CASE(
+    "a packed recording is the plain one in zstd frames, one a keyframe, with zstd's own table of them") {
   const Scenario scenario{.seed = 2, .steps = 300};
   const Recording packed = record_packed(scenario);
   const Recording plain = record(scenario);
@@ -120,16 +121,23 @@ TEST_CASE("bombs are refused in one line") {
     CHECK(text.find('\n') == std::string::npos);
     return text;
   };
-  CHECK(error(packed_by_zstd(start) + packed_by_zstd(std::string(40u << 20, ' '))) == "r.zst:3: a line longer than 32 MiB");
-  CHECK(error(packed_by_zstd(std::string(40u << 20, '{'))).find("a line longer than 32 MiB") != std::string::npos);
+  CHECK(error(packed_by_zstd(start) + packed_by_zstd(std::string(40u << 20, ' '))) ==
+        "r.zst:3: a line longer than 32 MiB");
+  CHECK(error(packed_by_zstd(std::string(40u << 20, '{'))).find("a line longer than 32 MiB") !=
+        std::string::npos);
   std::string chats;
-  const std::string chat = "{\"chat\":0,\"player\":1,\"name\":\"\",\"text\":\"" + std::string(4000, 'x') + "\"}\n";
+  const std::string chat =
+      "{\"chat\":0,\"player\":1,\"name\":\"\",\"text\":\"" + std::string(4000, 'x') + "\"}\n";
   while (chats.size() < (65u << 20)) chats += chat;
-  CHECK(error(packed_by_zstd(start + chats)).find("unpacks to more than 64 MiB: no recording") != std::string::npos);
-  CHECK(error(packed_by_zstd(start + std::string(100000, '[') + "\n")).find("r.zst:3: nested more than") == 0);
-  CHECK(error(packed_by_zstd(start) + "garbage").find("compressed data is damaged at byte ") != std::string::npos);
+  CHECK(error(packed_by_zstd(start + chats)).find("unpacks to more than 64 MiB: no recording") !=
+        std::string::npos);
+  CHECK(error(packed_by_zstd(start + std::string(100000, '[') + "\n")).find("r.zst:3: nested more than") ==
+        0);
+  CHECK(error(packed_by_zstd(start) + "garbage").find("compressed data is damaged at byte ") !=
+        std::string::npos);
   // A window that would need 2 GiB.
-  CHECK(error(std::string("\x28\xB5\x2F\xFD\x00\xA8", 6) + std::string(100, '\0')).find("r.zst:1: compressed data is damaged") == 0);
+  CHECK(error(std::string("\x28\xB5\x2F\xFD\x00\xA8", 6) + std::string(100, '\0'))
+            .find("r.zst:1: compressed data is damaged") == 0);
 }
 
 }  // namespace woodlouse::replay

@@ -37,7 +37,8 @@ TEST_CASE("lines between two keyframes of the same tick are not passed over") {
   const Recording recording = record({.steps = 130});
   Recording altered = recording;
   const std::size_t keyframe = recording.line_of_step(59) + 1;
-  altered.lines.insert(altered.lines.begin() + static_cast<std::ptrdiff_t>(keyframe), recording.lines[keyframe]);
+  altered.lines.insert(altered.lines.begin() + static_cast<std::ptrdiff_t>(keyframe),
+                       recording.lines[keyframe]);
   const std::string one = said(altered.text(), 1);
   CHECK(one.find("a keyframe of tick 60 stands where tick 60 is reached") != std::string::npos);
   CHECK(said(altered.text(), 4) == one);

@@ -26,10 +26,10 @@ struct Scenario {
 };
 
 struct Recording {
-  std::string bytes;                        ///< as written
-  std::vector<std::string> lines;           ///< each with its newline, to be altered; of a plain one
-  std::vector<match::MatchState> states;    ///< [k]: at tick k + 1
-  std::size_t overtaken = 0;       ///< inputs applied after one of a higher seq
+  std::string bytes;                      ///< as written
+  std::vector<std::string> lines;         ///< each with its newline, to be altered; of a plain one
+  std::vector<match::MatchState> states;  ///< [k]: at tick k + 1
+  std::size_t overtaken = 0;              ///< inputs applied after one of a higher seq
   std::size_t inputs = 0;
   std::size_t leaves = 0;
   std::size_t respawns = 0;

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "shared/core/stable_hash.h"
-#include "shared/state/louse_fields.h"
 #include "shared/replay/format.h"
+#include "shared/state/louse_fields.h"
 #include "tests/replay/recorded_match.h"
 
 namespace woodlouse::replay {

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "shared/map/map_loader.h"
-#include "shared/replay/writer.h"
 #include "shared/replay/verify.h"
+#include "shared/replay/writer.h"
 #include "tests/replay/recorded_match.h"
 
 namespace woodlouse::replay {
@@ -66,7 +66,8 @@ TEST_CASE("a recording that breaks off at any byte is good up to its last whole 
         "ok 61 ticks, then the recording is cut off: it has no end line\n");
   CHECK(to_text(verdict(text.substr(0, first))) ==
         "ok 0 ticks, then the recording is cut off: it has no end line\n");
-  CHECK(verify_text(text.substr(0, first - 1)).error().text() == "r.jsonl: was cut off before its first keyframe");
+  CHECK(verify_text(text.substr(0, first - 1)).error().text() ==
+        "r.jsonl: was cut off before its first keyframe");
   CHECK_FALSE(verify_text(""));
 }
 

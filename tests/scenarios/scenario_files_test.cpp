@@ -33,7 +33,8 @@ TEST_CASE("every shipped map has a scenario") {
   std::set<std::string> played;
   const auto files = find_scenarios({kSource / "tests" / "scenarios"});
   REQUIRE(files);
-  for (const std::filesystem::path& file : *files) played.insert(shipped(file.stem().string()).map->definition.name);
+  for (const std::filesystem::path& file : *files)
+    played.insert(shipped(file.stem().string()).map->definition.name);
   for (const auto& entry : std::filesystem::directory_iterator(kSource / "maps")) {
     if (entry.path().extension() == ".json") CHECK(played.contains(entry.path().stem().string()));
   }
@@ -53,7 +54,8 @@ TEST_CASE("the many lice fill whole batches") {
   Play play(scenario, physics::best_instruction_set());
   play.advance(200);
   const auto lice = play.match().world().lice();
-  const auto moving = std::count_if(lice.begin(), lice.end(), [](const physics::Louse& l) { return l.phase == physics::Phase::kMoving; });
+  const auto moving = std::count_if(
+      lice.begin(), lice.end(), [](const physics::Louse& l) { return l.phase == physics::Phase::kMoving; });
   CHECK(moving > 400);
   CHECK(play.match().world().counters().sub_steps < 2 * play.match().world().counters().louse_steps);
 }

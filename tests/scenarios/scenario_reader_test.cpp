@@ -10,7 +10,9 @@ using Kind = Event::Kind;
 namespace {
 
 std::vector<Event> events_of(std::string_view script) {
-  const WrittenScenario written(with(with(kSmall, R"({"at": 2, "player": 1, "thrust": [0.5, 0], "ticks": 5})", script), "\"20\"", "\"100\""));
+  const WrittenScenario written(
+      with(with(kSmall, R"({"at": 2, "player": 1, "thrust": [0.5, 0], "ticks": 5})", script), "\"20\"",
+           "\"100\""));
   const ReadScenario read = read_scenario(written.file(), {});
   for (const core::Error& error : read.errors) FAIL(error.text());
   return {read.scenario->events.begin() + 3, read.scenario->events.end()};
@@ -59,11 +61,13 @@ TEST_CASE("what is wrong with a scenario is told with its file, line, field and 
   }
 }
 
-TEST_CASE("a map that is not there is an error that names the folder, and one of the folder is found by name") {
+TEST_CASE(
+    "a map that is not there is an error that names the folder, and one of the folder is found by name") {
   const WrittenScenario unknown(with(kSmall, R"({
     "name": "small",
     "terrain": {"function": "volcano", "grid": 4, "scale": 10}
-  })", "\"nowhere\""));
+  })",
+                                     "\"nowhere\""));
   const std::filesystem::path maps = std::filesystem::path(WOODLOUSE_SOURCE_DIR) / "maps";
   const ReadScenario read = read_scenario(unknown.file(), maps);
   REQUIRE(read.errors.size() == 1);
@@ -91,9 +95,13 @@ TEST_CASE("all means those who are there, and events of one step keep the order 
       R"({"at": 9, "player": "all", "thrust": null}, {"at": 7, "leave": 2}, {"at": 9, "join": 1}, {"at": 9, "respawn": "all"})");
   std::vector<std::pair<Kind, match::PlayerId>> got;
   for (const Event& event : events) got.emplace_back(event.kind, event.player);
-  CHECK(got == std::vector<std::pair<Kind, match::PlayerId>>{{Kind::kLeave, 2}, {Kind::kInput, 1}, {Kind::kInput, 3},
-                                                            {Kind::kJoin, 4}, {Kind::kRespawn, 1}, {Kind::kRespawn, 3},
-                                                            {Kind::kRespawn, 4}});
+  CHECK(got == std::vector<std::pair<Kind, match::PlayerId>>{{Kind::kLeave, 2},
+                                                             {Kind::kInput, 1},
+                                                             {Kind::kInput, 3},
+                                                             {Kind::kJoin, 4},
+                                                             {Kind::kRespawn, 1},
+                                                             {Kind::kRespawn, 3},
+                                                             {Kind::kRespawn, 4}});
 }
 
 TEST_CASE("random thrusts are legal, of both kinds, and the same in each reading") {

@@ -26,12 +26,14 @@ std::string flipped(std::string hash) {
 
 }  // namespace
 
-TEST_CASE("update fills in hashes and behavior, leaves all else as it was, and changes nothing the second time") {
+TEST_CASE(
+    "update fills in hashes and behavior, leaves all else as it was, and changes nothing the second time") {
   const WrittenScenario written;
   CHECK(run({}, written.file()).exit == Exit::kDiffers);
   REQUIRE(update(written.file()).exit == Exit::kSame);
   const std::string text = written.read("small.json");
-  const std::string_view before = kSmall.substr(kSmall.find("\"map\""), kSmall.find("\"hashes\"") - kSmall.find("\"map\""));
+  const std::string_view before =
+      kSmall.substr(kSmall.find("\"map\""), kSmall.find("\"hashes\"") - kSmall.find("\"map\""));
   CHECK_THAT(text, Contains(std::string(before)));
   CHECK_THAT(text, Contains("\"behavior\": " + std::to_string(match::kBehavior) + ","));
   const Said said = run({}, written.file());
@@ -48,7 +50,8 @@ TEST_CASE("a wrong hash is told with its scenario, tick, line and both hashes") 
   const Said said = run({}, golden.file());
   CHECK(said.exit == Exit::kDiffers);
   CHECK(said.out.empty());
-  CHECK_THAT(said.log, Contains("small.json:16: hashes.20: scenario small, tick 20: hash " + flipped(hash) + " expected, " + hash + " played"));
+  CHECK_THAT(said.log, Contains("small.json:16: hashes.20: scenario small, tick 20: hash " + flipped(hash) +
+                                " expected, " + hash + " played"));
 }
 
 TEST_CASE("an altered input changes the hashes") {
@@ -63,7 +66,8 @@ TEST_CASE("hashes of another behavior are refused with a word on what to do") {
   golden.write("small.json", with(golden.read("small.json"), "\"behavior\": " + mine, "\"behavior\": 999"));
   const Said said = run({}, golden.file());
   CHECK(said.exit == Exit::kDiffers);
-  CHECK_THAT(said.log, Contains("999 made these hashes, this program is of behavior " + mine) && Contains("--update"));
+  CHECK_THAT(said.log,
+             Contains("999 made these hashes, this program is of behavior " + mine) && Contains("--update"));
 }
 
 TEST_CASE("the table has a line for each tick, by scenario and tick") {
@@ -75,7 +79,8 @@ TEST_CASE("the table has a line for each tick, by scenario and tick") {
   const std::string text = golden.read("small.json");
   const std::string hash10 = text.substr(text.find("\"10\": \"") + 7, 16);
   CHECK(said.exit == Exit::kSame);
-  CHECK(said.out == "another 10 " + hash10 + "\nanother 20 " + golden.hash() + "\nsmall 10 " + hash10 + "\nsmall 20 " + golden.hash() + "\n");
+  CHECK(said.out == "another 10 " + hash10 + "\nanother 20 " + golden.hash() + "\nsmall 10 " + hash10 +
+                        "\nsmall 20 " + golden.hash() + "\n");
 }
 
 TEST_CASE("rooms and threads change no hash") {

@@ -1,8 +1,8 @@
 // A small scenario in a folder of its own, to be altered.
 #pragma once
 
-#include <catch2/catch.hpp>
 #include <unistd.h>
+#include <catch2/catch.hpp>
 
 #include <filesystem>
 #include <fstream>
@@ -37,7 +37,8 @@ class WrittenScenario {
  public:
   explicit WrittenScenario(std::string_view text = kSmall) {
     static int count = 0;
-    folder_ = std::filesystem::path(WOODLOUSE_BINARY_DIR) / ("scenario_test_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
+    folder_ = std::filesystem::path(WOODLOUSE_BINARY_DIR) /
+              ("scenario_test_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
     std::filesystem::create_directories(folder_);
     write("small.json", text);
   }
@@ -49,7 +50,9 @@ class WrittenScenario {
   WrittenScenario(const WrittenScenario&) = delete;
   WrittenScenario& operator=(const WrittenScenario&) = delete;
 
-  void write(const std::string& name, std::string_view text) const { std::ofstream(folder_ / name, std::ios::binary) << text; }
+  void write(const std::string& name, std::string_view text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
   [[nodiscard]] std::string read(const std::string& name) const {
     std::ostringstream text;
     text << std::ifstream(folder_ / name, std::ios::binary).rdbuf();

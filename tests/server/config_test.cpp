@@ -41,7 +41,9 @@ class Variable {
 class File {
  public:
   explicit File(const std::string& text)
-      : path_((std::filesystem::temp_directory_path() / ("woodlouse_config_test_" + std::to_string(::getpid()) + ".json")).string()) {
+      : path_((std::filesystem::temp_directory_path() /
+               ("woodlouse_config_test_" + std::to_string(::getpid()) + ".json"))
+                  .string()) {
     std::ofstream(path_) << text;
   }
   ~File() { std::filesystem::remove(path_); }
@@ -138,8 +140,9 @@ TEST_CASE("a wrong config file is refused by its key or place") {
 }
 
 TEST_CASE("a fork takes a server's options but what its recording decides") {
-  const ServeConfig config = serve({"fork", "game.ndjson", "--tick", "600", "--listen", ":0", "--bots", "2",
-                                    "--record", "other.ndjson", "--shadow", "--ticks", "7", "--state-hz", "25"});
+  const ServeConfig config =
+      serve({"fork", "game.ndjson", "--tick", "600", "--listen", ":0", "--bots", "2", "--record",
+             "other.ndjson", "--shadow", "--ticks", "7", "--state-hz", "25"});
   REQUIRE(config.fork);
   CHECK(config.fork->recording == "game.ndjson");
   CHECK(config.fork->tick == 600);
@@ -167,7 +170,8 @@ TEST_CASE("a shadow is asked for by flag, variable or file") {
 
 TEST_CASE("check and verify take their files, help and version are texts") {
   CHECK(std::get<CheckConfig>(*parse({"check", "a.json", "b.json"})).maps.size() == 2);
-  const auto verify = std::get<VerifyConfig>(*parse({"verify", "game.ndjson", "other.ndjson.zst", "--jobs", "4"}));
+  const auto verify =
+      std::get<VerifyConfig>(*parse({"verify", "game.ndjson", "other.ndjson.zst", "--jobs", "4"}));
   CHECK(verify.files == std::vector<std::filesystem::path>{"game.ndjson", "other.ndjson.zst"});
   CHECK(verify.jobs == 4);
   const auto inspect = std::get<InspectConfig>(*parse({"inspect", "game.ndjson", "--at", "41.7"}));

@@ -21,7 +21,9 @@ TEST_CASE("the state hash is XXH64 over the documented bytes") {
   const std::vector<Louse> lice(3);
   const HashLink link{1, 2, 3, 4};
   std::string bytes;
-  const auto add = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  const auto add = [&](const auto& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
   add(link.previous);
   add(link.inputs);
   add(link.tick);

@@ -13,19 +13,22 @@ namespace woodlouse::tests {
 
 class BigMapFiles {
  public:
-  /// `name`: of the folder, one for each test case. columns x rows heights f(column, row from the south), a metre apart.
+  /// `name`: of the folder, one for each test case. columns x rows heights f(column, row from the south), a
+  /// metre apart.
   template <typename F>
   BigMapFiles(const std::string& name, std::size_t columns, std::size_t rows, const F& f)
       : folder_(std::filesystem::path(WOODLOUSE_BINARY_DIR) / "tests" / ("big_map_" + name)) {
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
-    write("hills.hdr", "ncols " + std::to_string(columns) + "\nnrows " + std::to_string(rows) +
-                           "\nxllcenter 300\nyllcenter -20\ncellsize 1\nNODATA_value -9999\nbyteorder LSBFIRST\n");
+    write("hills.hdr",
+          "ncols " + std::to_string(columns) + "\nnrows " + std::to_string(rows) +
+              "\nxllcenter 300\nyllcenter -20\ncellsize 1\nNODATA_value -9999\nbyteorder LSBFIRST\n");
     std::string bytes;
     for (std::size_t j = rows; j-- > 0;) {
       for (std::size_t i = 0; i < columns; ++i) {
         const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(f(i, j)));
-        for (int k = 0; k < 4; ++k) bytes.push_back(static_cast<char>(static_cast<unsigned char>(bits >> (8 * k))));
+        for (int k = 0; k < 4; ++k)
+          bytes.push_back(static_cast<char>(static_cast<unsigned char>(bits >> (8 * k))));
       }
     }
     write("hills.flt", bytes);
@@ -43,7 +46,8 @@ class BigMapFiles {
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   [[nodiscard]] std::filesystem::path file(const std::string& name) const { return folder_ / name; }
   std::filesystem::path write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(file(name), std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    std::ofstream(file(name), std::ios::binary)
+        .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     return file(name);
   }
   /// The map file; `more`: further fields of the terrain, as in `,"storage":"tiles"`.

@@ -14,8 +14,8 @@ struct Run {
 /// A louse moved `ticks` ticks of 1/rate seconds without walls, unless `walls` says where they stand. After
 /// each tick `watch(louse)` is called; it returns false to stop.
 template <typename F, terrain::Surface S, typename Watch>
-Run run(const S& surface, const physics::Parameters& parameters, physics::Louse louse, double rate, long ticks,
-        const terrain::Rectangle& walls, const Watch& watch) {
+Run run(const S& surface, const physics::Parameters& parameters, physics::Louse louse, double rate,
+        long ticks, const terrain::Rectangle& walls, const Watch& watch) {
   Run result;
   const physics::Stepper<S, F> stepper(surface, parameters, walls, 1.0 / rate);
   for (long i = 0; i < ticks && louse.phase != physics::Phase::kResting; ++i) {
@@ -27,8 +27,10 @@ Run run(const S& surface, const physics::Parameters& parameters, physics::Louse 
 }
 
 template <typename F, terrain::Surface S>
-Run run(const S& surface, const physics::Parameters& parameters, const physics::Louse& louse, double rate, long ticks) {
-  return run<F>(surface, parameters, louse, rate, ticks, kNowhere, [](const physics::Louse&) { return true; });
+Run run(const S& surface, const physics::Parameters& parameters, const physics::Louse& louse, double rate,
+        long ticks) {
+  return run<F>(surface, parameters, louse, rate, ticks, kNowhere,
+                [](const physics::Louse&) { return true; });
 }
 
 inline physics::Louse moving(core::Vec2 position, core::Vec2 velocity) {

@@ -28,7 +28,8 @@ HeightGrid oblong_grid() {
   HeightGrid grid{9, 6, -2.0, 1.5, 0.5, 0.25, {}};
   for (std::size_t j = 0; j < grid.rows; ++j)
     for (std::size_t i = 0; i < grid.columns; ++i)
-      grid.heights.push_back(bicubic(-2.0 + 0.5 * static_cast<double>(i), 1.5 + 0.25 * static_cast<double>(j)).z);
+      grid.heights.push_back(
+          bicubic(-2.0 + 0.5 * static_cast<double>(i), 1.5 + 0.25 * static_cast<double>(j)).z);
   return grid;
 }
 

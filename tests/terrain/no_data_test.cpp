@@ -5,8 +5,8 @@
 
 #include "shared/document/biquadratic.h"
 #include "shared/document/blended_biquadratic.h"
-#include "shared/terrain/fill_missing.h"
 #include "shared/document/gauss_gradient.h"
+#include "shared/terrain/fill_missing.h"
 #include "shared/terrain/outside_policy.h"
 #include "shared/terrain/tiled_bspline.h"
 #include "tests/terrain/grids.h"
@@ -110,7 +110,8 @@ TEST_CASE("filling is the mean of the known neighbours, round by round, and leve
   fill_missing(heights, 41, -5.0);
   CHECK(heights[20 * 41 + 19] == 8.0);
   CHECK(heights[20 * 41 + 4] == 8.0);  // 16 knots away
-  for (const std::size_t beyond : {20u * 41 + 37, 3u * 41 + 20, 37u * 41 + 20}) CHECK(heights[beyond] == -5.0);
+  for (const std::size_t beyond : {20u * 41 + 37, 3u * 41 + 20, 37u * 41 + 20})
+    CHECK(heights[beyond] == -5.0);
   CHECK(heights[20 * 41 + 3] == -5.0);  // 17
   std::vector<double> row{1.0, kMissing, 4.0, std::numeric_limits<double>::infinity()};
   fill_missing(row, 4, 0.0);

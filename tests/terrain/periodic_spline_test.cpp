@@ -80,26 +80,32 @@ TEST_CASE("a periodic spline does not know where its seam is") {
   });
 }
 
-TEST_CASE("beyond a seam the surface goes on for the promised cells, over corners too, down to three cells a period") {
+TEST_CASE(
+    "beyond a seam the surface goes on for the promised cells, over corners too, down to three cells a "
+    "period") {
   for (const std::size_t knots : {4u, 9u}) {
     const BicubicSpline spline(closed_grid(knots, knots + 1), SplineEnds::kPeriodic);
     const Rectangle d = spline.domain();
     const double width = d.x_max - d.x_min, height = d.y_max - d.y_min;
     const auto cells = static_cast<double>(BicubicSpline::kBeyondSeam);
-    const double dx = width / static_cast<double>(spline.cells().column), dy = height / static_cast<double>(spline.cells().row);
+    const double dx = width / static_cast<double>(spline.cells().column),
+                 dy = height / static_cast<double>(spline.cells().row);
     const WrappedSurface endless(BicubicSpline(closed_grid(knots, knots + 1), SplineEnds::kPeriodic));
-    tests::at_random_points({d.x_min - cells * dx, d.y_min - cells * dy, d.x_max + cells * dx, d.y_max + cells * dy}, 500, 7,
-                            [&](double x, double y) { require_close(spline.sample(x, y), endless.sample(x, y), 1e-10); });
+    tests::at_random_points(
+        {d.x_min - cells * dx, d.y_min - cells * dy, d.x_max + cells * dx, d.y_max + cells * dy}, 500, 7,
+        [&](double x, double y) { require_close(spline.sample(x, y), endless.sample(x, y), 1e-10); });
   }
 }
 
 TEST_CASE("as many cells on as a period has, the same polynomial holds, bit for bit") {
   const BicubicSpline spline(closed_grid(9, 7), SplineEnds::kPeriodic);
-  const BicubicSpline::CellIndex first = spline.cell_at(spline.domain().x_min + 0.1, spline.domain().y_min + 0.1);
+  const BicubicSpline::CellIndex first =
+      spline.cell_at(spline.domain().x_min + 0.1, spline.domain().y_min + 0.1);
   const BicubicSpline::CellIndex on{first.column + spline.cells().column, first.row + spline.cells().row};
   const Rectangle here = spline.bounds(first), there = spline.bounds(on);
   for (const double u : {0.0, 0.25, 0.75}) {
-    CHECK(spline.sample_in(first, here.x_min + u, here.y_min + u).z == spline.sample_in(on, there.x_min + u, there.y_min + u).z);
+    CHECK(spline.sample_in(first, here.x_min + u, here.y_min + u).z ==
+          spline.sample_in(on, there.x_min + u, there.y_min + u).z);
   }
 }
 

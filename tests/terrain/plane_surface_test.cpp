@@ -17,7 +17,8 @@ HeightGrid inclined(double height, double slope_x, double slope_y) {
   HeightGrid grid{9, 7, -3.0, 1.0, 0.7, 0.3, {}};
   for (std::size_t j = 0; j < grid.rows; ++j) {
     for (std::size_t i = 0; i < grid.columns; ++i) {
-      grid.heights.push_back(height + slope_x * (static_cast<double>(i) * grid.dx) + slope_y * (static_cast<double>(j) * grid.dy));
+      grid.heights.push_back(height + slope_x * (static_cast<double>(i) * grid.dx) +
+                             slope_y * (static_cast<double>(j) * grid.dy));
     }
   }
   return grid;

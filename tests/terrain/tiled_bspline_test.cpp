@@ -175,7 +175,8 @@ TEST_CASE("a ground that several threads sample and prepare at once gives the bi
   std::atomic<int> wrong{0};
   std::vector<std::vector<SurfaceSample>> expected(3);
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
-    for (const auto& [x, y] : points_of(grid.domain(), 600, seed)) expected[seed].push_back(alone.sample(x, y));
+    for (const auto& [x, y] : points_of(grid.domain(), 600, seed))
+      expected[seed].push_back(alone.sample(x, y));
   }
   std::vector<std::thread> threads;
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
@@ -184,12 +185,15 @@ TEST_CASE("a ground that several threads sample and prepare at once gives the bi
       const auto points = points_of(grid.domain(), 600, seed);
       for (std::size_t k = 0; k < points.size(); ++k) {
         const auto [x, y] = points[k];
-        if (!same_bits(shared.sample(x, y), expected[seed][k]) || !same_bits(own.sample(x, y), expected[seed][k])) ++wrong;
+        if (!same_bits(shared.sample(x, y), expected[seed][k]) ||
+            !same_bits(own.sample(x, y), expected[seed][k]))
+          ++wrong;
       }
     });
   }
   threads.emplace_back([&] {
-    for (std::size_t tile = 0; tile < 200; ++tile) shared.tiles().prepare(tile * 7 % shared.tiles().all_tiles());
+    for (std::size_t tile = 0; tile < 200; ++tile)
+      shared.tiles().prepare(tile * 7 % shared.tiles().all_tiles());
   });
   for (std::thread& thread : threads) thread.join();
   CHECK(wrong == 0);

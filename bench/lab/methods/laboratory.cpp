@@ -61,29 +61,38 @@ struct Choice {
 template <typename S, typename E, typename I>
 std::unique_ptr<LaboratoryStepper> with_forces(S surface, const Choice& c) {
   if (c.parameters.central_gravity > 0.0) {
-    return std::make_unique<Compiled<S, Forces<true, true, true, true>, E, I>>(surface, c.parameters, c.walls, c.tick);
+    return std::make_unique<Compiled<S, Forces<true, true, true, true>, E, I>>(surface, c.parameters, c.walls,
+                                                                               c.tick);
   }
   if constexpr (E::kExact) {
     if (conserves_energy(c.parameters)) {
-      return std::make_unique<Compiled<S, Forces<false, false, false>, E, I>>(surface, c.parameters, c.walls, c.tick);
+      return std::make_unique<Compiled<S, Forces<false, false, false>, E, I>>(surface, c.parameters, c.walls,
+                                                                              c.tick);
     }
   }
   // Friction asks for more than arithmetic (stops, sub-steps): it is compiled out where there is none.
   if (c.parameters.friction > 0.0) {
-    return std::make_unique<Compiled<S, Forces<true, true, true>, E, I>>(surface, c.parameters, c.walls, c.tick);
+    return std::make_unique<Compiled<S, Forces<true, true, true>, E, I>>(surface, c.parameters, c.walls,
+                                                                         c.tick);
   }
-  return std::make_unique<Compiled<S, Forces<true, false, true>, E, I>>(surface, c.parameters, c.walls, c.tick);
+  return std::make_unique<Compiled<S, Forces<true, false, true>, E, I>>(surface, c.parameters, c.walls,
+                                                                        c.tick);
 }
 
 /// S: how the stepper keeps the surface, a reference or a value.
 template <typename E, typename S>
 std::unique_ptr<LaboratoryStepper> with_integrator(S surface, Integrator integrator, const Choice& c) {
   switch (integrator) {
-    case Integrator::kExplicitEuler: return with_forces<S, E, ExplicitEuler>(surface, c);
-    case Integrator::kFalseEuler: return with_forces<S, E, FalseEuler>(surface, c);
-    case Integrator::kRungeKutta4: return with_forces<S, E, RungeKutta4>(surface, c);
-    case Integrator::kNystrom4: return with_forces<S, E, Nystrom4>(surface, c);
-    case Integrator::kDormandPrince5: return with_forces<S, E, DormandPrince5>(surface, c);
+    case Integrator::kExplicitEuler:
+      return with_forces<S, E, ExplicitEuler>(surface, c);
+    case Integrator::kFalseEuler:
+      return with_forces<S, E, FalseEuler>(surface, c);
+    case Integrator::kRungeKutta4:
+      return with_forces<S, E, RungeKutta4>(surface, c);
+    case Integrator::kNystrom4:
+      return with_forces<S, E, Nystrom4>(surface, c);
+    case Integrator::kDormandPrince5:
+      return with_forces<S, E, DormandPrince5>(surface, c);
     case Integrator::kVerletQ:
       if constexpr (E::kExact) return with_forces<S, E, VerletQ>(surface, c);
       break;
@@ -121,22 +130,33 @@ std::optional<E> from_text(const std::array<E, kCount>& all, std::string_view te
 
 std::string_view to_text(Equations equations) {
   switch (equations) {
-    case Equations::kSurface: return "surface";
-    case Equations::kLocalPlane: return "local_plane";
-    default: return "as_printed";
+    case Equations::kSurface:
+      return "surface";
+    case Equations::kLocalPlane:
+      return "local_plane";
+    default:
+      return "as_printed";
   }
 }
 
 std::string_view to_text(Integrator integrator) {
   switch (integrator) {
-    case Integrator::kExplicitEuler: return "explicit_euler";
-    case Integrator::kFalseEuler: return "false_euler";
-    case Integrator::kVerletQ: return "verlet_q";
-    case Integrator::kVerletQ4: return "verlet_q4";
-    case Integrator::kRungeKutta4: return "rk4";
-    case Integrator::kNystrom4: return "nystrom4";
-    case Integrator::kDormandPrince5: return "dopri5";
-    default: return "precise";
+    case Integrator::kExplicitEuler:
+      return "explicit_euler";
+    case Integrator::kFalseEuler:
+      return "false_euler";
+    case Integrator::kVerletQ:
+      return "verlet_q";
+    case Integrator::kVerletQ4:
+      return "verlet_q4";
+    case Integrator::kRungeKutta4:
+      return "rk4";
+    case Integrator::kNystrom4:
+      return "nystrom4";
+    case Integrator::kDormandPrince5:
+      return "dopri5";
+    default:
+      return "precise";
   }
 }
 
@@ -148,9 +168,11 @@ std::optional<Integrator> integrator_from_text(std::string_view text) {
   return from_text(kIntegrators, text, [](Integrator i) { return to_text(i); });
 }
 
-core::Expected<std::unique_ptr<LaboratoryStepper>> make_stepper(const AnySurface& surface, Equations equations,
-                                                                Integrator integrator, const Parameters& parameters,
-                                                                const terrain::Rectangle& walls, double tick) {
+core::Expected<std::unique_ptr<LaboratoryStepper>> make_stepper(const AnySurface& surface,
+                                                                Equations equations, Integrator integrator,
+                                                                const Parameters& parameters,
+                                                                const terrain::Rectangle& walls,
+                                                                double tick) {
   const Choice choice{parameters, walls, tick};
   std::unique_ptr<LaboratoryStepper> stepper;
   if (equations == Equations::kSurface) {
@@ -167,8 +189,10 @@ core::Expected<std::unique_ptr<LaboratoryStepper>> make_stepper(const AnySurface
   if (stepper == nullptr) {
     const std::string name(to_text(integrator));
     return integrator == Integrator::kPrecise
-               ? core::fail(name, "needs a surface of polynomial cells and the exact equations", "take nystrom4")
-               : core::fail(name, "needs the exact equations for its implicit kick", "take false_euler or rk4");
+               ? core::fail(name, "needs a surface of polynomial cells and the exact equations",
+                            "take nystrom4")
+               : core::fail(name, "needs the exact equations for its implicit kick",
+                            "take false_euler or rk4");
   }
   return stepper;
 }

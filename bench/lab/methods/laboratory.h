@@ -1,8 +1,8 @@
-// Every surface, equation and integrator by name, for whoever compares them: the lab. A server does not include
-// this; it compiles the default over the two surfaces of terrain.h (world.h).
+// Every surface, equation and integrator by name, for whoever compares them: the lab. A server does not
+// include this; it compiles the default over the two surfaces of terrain.h (world.h).
 //
-// Compiled outright: the exact equations and every integrator over the function surface and the bicubic spline.
-// The rest samples its surface through one indirect call a point.
+// Compiled outright: the exact equations and every integrator over the function surface and the bicubic
+// spline. The rest samples its surface through one indirect call a point.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@
 #include <string_view>
 
 #include "shared/core/error.h"
+#include "shared/document/surface_catalogue.h"
+#include "shared/physics/world.h"
 #include "shared/state/louse.h"
 #include "shared/state/parameters.h"
-#include "shared/physics/world.h"
-#include "shared/document/surface_catalogue.h"
 
 namespace woodlouse::physics {
 
@@ -32,9 +32,9 @@ enum class Integrator {
 };
 
 inline constexpr std::array kEquations = {Equations::kSurface, Equations::kLocalPlane, Equations::kAsPrinted};
-inline constexpr std::array kIntegrators = {Integrator::kExplicitEuler, Integrator::kFalseEuler, Integrator::kVerletQ,
-                                            Integrator::kVerletQ4,      Integrator::kRungeKutta4, Integrator::kNystrom4,
-                                            Integrator::kDormandPrince5, Integrator::kPrecise};
+inline constexpr std::array kIntegrators = {
+    Integrator::kExplicitEuler, Integrator::kFalseEuler, Integrator::kVerletQ,        Integrator::kVerletQ4,
+    Integrator::kRungeKutta4,   Integrator::kNystrom4,   Integrator::kDormandPrince5, Integrator::kPrecise};
 
 /// surface, local_plane, as_printed.
 std::string_view to_text(Equations equations);
@@ -51,11 +51,12 @@ class LaboratoryStepper {
   virtual void advance(std::span<Louse> lice, StepCounters& counters) const = 0;
 };
 
-/// walls: where lice are kept, infinite: nowhere; tick: [s]. `surface` must outlive the stepper. Errors: the exact
-/// equations on a surface without a Hessian; verlet_q and verlet_q4 with the document's equations, which have no
-/// closed-form implicit kick; precise on a surface without polynomial cells.
-core::Expected<std::unique_ptr<LaboratoryStepper>> make_stepper(const terrain::AnySurface& surface, Equations equations,
-                                                                Integrator integrator, const Parameters& parameters,
+/// walls: where lice are kept, infinite: nowhere; tick: [s]. `surface` must outlive the stepper. Errors: the
+/// exact equations on a surface without a Hessian; verlet_q and verlet_q4 with the document's equations,
+/// which have no closed-form implicit kick; precise on a surface without polynomial cells.
+core::Expected<std::unique_ptr<LaboratoryStepper>> make_stepper(const terrain::AnySurface& surface,
+                                                                Equations equations, Integrator integrator,
+                                                                const Parameters& parameters,
                                                                 const terrain::Rectangle& walls, double tick);
 
 }  // namespace woodlouse::physics

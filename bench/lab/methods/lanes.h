@@ -1,4 +1,5 @@
-// The spline's batched evaluation as the batched step does it (physics/batch_kernel.h), by itself, to be timed.
+// The spline's batched evaluation as the batched step does it (physics/batch_kernel.h), by itself, to be
+// timed.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,8 @@ namespace woodlouse::lab {
 struct LaneEvaluation {
   int width = 0;
   /// The sum of z, gradient and Hessian over n points, n a multiple of `width`.
-  double (*sum)(const terrain::BicubicSpline::View& spline, const double* x, const double* y, std::size_t n) = nullptr;
+  double (*sum)(const terrain::BicubicSpline::View& spline, const double* x, const double* y,
+                std::size_t n) = nullptr;
 };
 
 LaneEvaluation avx2_evaluation();

@@ -1,6 +1,6 @@
 // The batched evaluation compiled for AVX-512; see CMakeLists.txt for its flags.
-#include "bench/lab/methods/lanes_kernel.h"
 #include "shared/core/lanes_avx512.h"
+#include "bench/lab/methods/lanes_kernel.h"
 
 namespace woodlouse::lab {
 

@@ -7,7 +7,8 @@
 namespace woodlouse::lab {
 
 template <typename L>
-double sum_of_lanes(const terrain::BicubicSpline::View& spline, const double* x, const double* y, std::size_t n) {
+double sum_of_lanes(const terrain::BicubicSpline::View& spline, const double* x, const double* y,
+                    std::size_t n) {
   const physics::SplineLanes<L> ground(spline);
   typename physics::SplineLanes<L>::Place place;
   L total(0.0);

@@ -19,11 +19,12 @@ class Rival {
   [[nodiscard]] virtual double sum(std::span<const core::Vec2> points) const = 0;
 };
 
-/// GSL's bicubic gsl_spline2d with its accelerators: z, gradient and Hessian in six calls, or z and gradient in
-/// three. Null: not built.
+/// GSL's bicubic gsl_spline2d with its accelerators: z, gradient and Hessian in six calls, or z and gradient
+/// in three. Null: not built.
 std::unique_ptr<Rival> gsl_six_calls(const terrain::HeightGrid& grid);
 std::unique_ptr<Rival> gsl_three_calls(const terrain::HeightGrid& grid);
-/// ALGLIB's spline2ddiff over spline2dbuildbicubicv: z and gradient (and the mixed derivative). Null: not built.
+/// ALGLIB's spline2ddiff over spline2dbuildbicubicv: z and gradient (and the mixed derivative). Null: not
+/// built.
 std::unique_ptr<Rival> alglib_differentiation(const terrain::HeightGrid& grid);
 
 }  // namespace woodlouse::lab

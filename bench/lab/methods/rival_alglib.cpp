@@ -44,7 +44,9 @@ class Alglib final : public Rival {
 
 }  // namespace
 
-std::unique_ptr<Rival> alglib_differentiation(const terrain::HeightGrid& grid) { return std::make_unique<Alglib>(grid); }
+std::unique_ptr<Rival> alglib_differentiation(const terrain::HeightGrid& grid) {
+  return std::make_unique<Alglib>(grid);
+}
 
 #else
 

@@ -27,7 +27,8 @@ class Gsl final : public Rival {
         y_accelerator_(gsl_interp_accel_alloc()) {
     std::vector<double> x;
     std::vector<double> y;
-    for (std::size_t i = 0; i < grid.columns; ++i) x.push_back(grid.x_origin + static_cast<double>(i) * grid.dx);
+    for (std::size_t i = 0; i < grid.columns; ++i)
+      x.push_back(grid.x_origin + static_cast<double>(i) * grid.dx);
     for (std::size_t j = 0; j < grid.rows; ++j) y.push_back(grid.y_origin + static_cast<double>(j) * grid.dy);
     gsl_spline2d_init(spline_.get(), x.data(), y.data(), grid.heights.data(), grid.columns, grid.rows);
   }
@@ -56,7 +57,9 @@ class Gsl final : public Rival {
 
 }  // namespace
 
-std::unique_ptr<Rival> gsl_six_calls(const terrain::HeightGrid& grid) { return std::make_unique<Gsl>(grid, Calls::kSix); }
+std::unique_ptr<Rival> gsl_six_calls(const terrain::HeightGrid& grid) {
+  return std::make_unique<Gsl>(grid, Calls::kSix);
+}
 std::unique_ptr<Rival> gsl_three_calls(const terrain::HeightGrid& grid) {
   return std::make_unique<Gsl>(grid, Calls::kThree);
 }

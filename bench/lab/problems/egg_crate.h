@@ -1,6 +1,7 @@
 // Ground as steep and as sharply bent as asked for:
 //     z = A cos(k x) cos(k y),  k = curvature / slope,  A = slope / k
-// whose steepest slope is A k and whose sharpest curvature A k^2. Four waves wide, through a not-a-knot spline.
+// whose steepest slope is A k and whose sharpest curvature A k^2. Four waves wide, through a not-a-knot
+// spline.
 #pragma once
 
 #include <algorithm>

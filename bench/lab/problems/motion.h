@@ -6,15 +6,16 @@
 #include <variant>
 
 #include "shared/core/vec2.h"
-#include "shared/state/louse.h"
-#include "shared/physics/surface_motion.h"
 #include "shared/document/surface_catalogue.h"
+#include "shared/physics/surface_motion.h"
+#include "shared/state/louse.h"
 
 namespace woodlouse::lab {
 
 /// Walls that keep nobody.
-inline constexpr terrain::Rectangle kNowhere{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
-                                             std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+inline constexpr terrain::Rectangle kNowhere{
+    -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+    std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
 inline terrain::SurfaceSample sample_of(const terrain::AnySurface& surface, core::Vec2 p) {
   return std::visit([&](const auto& s) { return s.sample(p.x, p.y); }, surface);

@@ -6,10 +6,10 @@
 #include <string>
 #include <string_view>
 
-#include "shared/core/error.h"
 #include "bench/lab/methods/laboratory.h"
-#include "shared/terrain/function_surface.h"
+#include "shared/core/error.h"
 #include "shared/document/surface_catalogue.h"
+#include "shared/terrain/function_surface.h"
 
 namespace woodlouse::lab {
 
@@ -42,7 +42,8 @@ inline core::Expected<physics::Integrator> integrator_named(std::string_view tex
   return chosen("--integrator", text, physics::integrator_from_text(text), names_of(physics::kIntegrators));
 }
 
-inline constexpr std::array kContacts = {physics::SurfaceContact::kBilateral, physics::SurfaceContact::kUnilateral};
+inline constexpr std::array kContacts = {physics::SurfaceContact::kBilateral,
+                                         physics::SurfaceContact::kUnilateral};
 inline core::Expected<physics::SurfaceContact> contact_named(std::string_view text) {
   return chosen("--contact", text, physics::contact_from_text(text), names_of(kContacts));
 }

@@ -1,8 +1,8 @@
-// The lab's own answer to where a louse is after a time, good to about 1e-13: what the integrators are measured
-// against. It shares the equations with them, not the integrators.
+// The lab's own answer to where a louse is after a time, good to about 1e-13: what the integrators are
+// measured against. It shares the equations with them, not the integrators.
 //
-// Dormand and Prince's fifth-order formula at a short fixed step. On a spline it keeps to one cell's polynomial
-// and lands on each knot line (bisecting the length of the step, repeating it), so that no step
+// Dormand and Prince's fifth-order formula at a short fixed step. On a spline it keeps to one cell's
+// polynomial and lands on each knot line (bisecting the length of the step, repeating it), so that no step
 // straddles a jump of the third derivative. No dissipation, no walls: nothing there is singular.
 #pragma once
 
@@ -29,11 +29,13 @@ inline constexpr double kNodes[kStages][kStages] = {
     {44.0 / 45, -56.0 / 15, 32.0 / 9},
     {19372.0 / 6561, -25360.0 / 2187, 64448.0 / 6561, -212.0 / 729},
     {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656}};
-inline constexpr double kWeights[kStages] = {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84};
+inline constexpr double kWeights[kStages] = {35.0 / 384,     0,        500.0 / 1113, 125.0 / 192,
+                                             -2187.0 / 6784, 11.0 / 84};
 
 /// One step of h where `sample` gives the surface.
 template <typename Sample>
-physics::Motion step(const physics::Motion& start, double h, const physics::Parameters& p, const Sample& sample) {
+physics::Motion step(const physics::Motion& start, double h, const physics::Parameters& p,
+                     const Sample& sample) {
   std::array<core::Vec2, kStages> v;
   std::array<core::Vec2, kStages> a;
   for (std::size_t i = 0; i < kStages; ++i) {
@@ -61,8 +63,8 @@ inline double beyond(const terrain::Rectangle& box, core::Vec2 p) {
 }  // namespace reference
 
 /// `at` after `seconds`, by steps of at most h.
-inline physics::Motion reference_motion(const terrain::FunctionSurface& surface, physics::Motion at, double seconds,
-                                        double h, const physics::Parameters& p) {
+inline physics::Motion reference_motion(const terrain::FunctionSurface& surface, physics::Motion at,
+                                        double seconds, double h, const physics::Parameters& p) {
   const auto steps = static_cast<std::size_t>(std::ceil(seconds / h));
   for (std::size_t i = 0; i < steps; ++i) {
     at = reference::step(at, seconds / static_cast<double>(steps), p,
@@ -71,8 +73,8 @@ inline physics::Motion reference_motion(const terrain::FunctionSurface& surface,
   return at;
 }
 
-inline physics::Motion reference_motion(const terrain::BicubicSpline& surface, physics::Motion at, double seconds,
-                                        double h, const physics::Parameters& p) {
+inline physics::Motion reference_motion(const terrain::BicubicSpline& surface, physics::Motion at,
+                                        double seconds, double h, const physics::Parameters& p) {
   using CellIndex = terrain::BicubicSpline::CellIndex;
   constexpr double kFarOutside = 1e9;  // metres; a cell's number must fit into an integer
   const CellIndex last = surface.cell_at(kFarOutside, kFarOutside);

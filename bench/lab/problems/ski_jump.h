@@ -2,12 +2,13 @@
 //     z = 0                              x < 0          the table
 //     z = -b x^3                         0 < x < edge   it rounds off
 //     z = -b x^3 + 8 b (x - edge)^3      edge < x       the out-run
-// A C2 cubic with knots at 0 and `edge`, so a not-a-knot spline through its heights is this very ground. Nothing but
-// gravity acts; y is a straight line in time. Without friction a louse of speed v over the table leaves the ground at x1, where
-// g + z'' vx^2 = 0:
+// A C2 cubic with knots at 0 and `edge`, so a not-a-knot spline through its heights is this very ground.
+// Nothing but gravity acts; y is a straight line in time. Without friction a louse of speed v over the table
+// leaves the ground at x1, where g + z'' vx^2 = 0:
 //     6 b v^2 x1 + 3 g b^2 x1^4 = g
-// There the flight's parabola touches z = -b x^3 in second order, so its height over it is b (x - x1)^3, and it lands
-// where that is 8 b (x - edge)^3: at x2 = 2 edge - x1. Times on the ground are quadratures of sqrt(1 + z'^2) / speed.
+// There the flight's parabola touches z = -b x^3 in second order, so its height over it is b (x - x1)^3, and
+// it lands where that is 8 b (x - edge)^3: at x2 = 2 edge - x1. Times on the ground are quadratures of sqrt(1
+// + z'^2) / speed.
 #pragma once
 
 #include <cmath>
@@ -83,7 +84,8 @@ class Jump {
   }
 
  private:
-  /// Of a glide from a to b over smooth ground with that energy in x and z: Gauss and Legendre's rule of three points.
+  /// Of a glide from a to b over smooth ground with that energy in x and z: Gauss and Legendre's rule of
+  /// three points.
   static double time_between(double a, double b, double energy) {
     constexpr int kPieces = 200;
     const double h = (b - a) / kPieces;
@@ -102,10 +104,10 @@ class Jump {
 
   core::Vec2 start_;
   double across_;
-  double speed_ = 0.0, along_ = 0.0;     ///< vx on the table and in the air
+  double speed_ = 0.0, along_ = 0.0;  ///< vx on the table and in the air
   double take_off_ = 0.0, landing_ = 0.0;
   double x2_ = 0.0;
-  double energy_after_ = 0.0;            ///< without that of `across`
+  double energy_after_ = 0.0;  ///< without that of `across`
 };
 
 }  // namespace woodlouse::lab

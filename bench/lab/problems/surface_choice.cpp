@@ -47,12 +47,16 @@ core::Expected<terrain::AnySurface> of_map(const SurfaceOptions& options,
 
 void add_surface_options(CLI::App& app, SurfaceOptions& options, MapOption map) {
   app.add_option("--surface", options.surface, surface_names())->required();
-  CLI::Option* function = app.add_option("--function", options.function, names_of(terrain::kFunctionNames))->capture_default_str();
+  CLI::Option* function = app.add_option("--function", options.function, names_of(terrain::kFunctionNames))
+                              ->capture_default_str();
   CLI::Option* grid = app.add_option("--grid", options.grid, "2 G + 1 knots a side on [-1, 1]")
-                          ->check(CLI::Range(2, 2000))->capture_default_str();
+                          ->check(CLI::Range(2, 2000))
+                          ->capture_default_str();
   if (map == MapOption::kOffered) {
     app.add_option("--map", options.map, "a map file instead, or an ESRI float grid (.flt)")
-        ->check(CLI::ExistingFile)->excludes(function)->excludes(grid);
+        ->check(CLI::ExistingFile)
+        ->excludes(function)
+        ->excludes(grid);
   }
 }
 

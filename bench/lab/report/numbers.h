@@ -24,7 +24,8 @@ std::optional<std::array<double, kCount>> numbers_of(std::string_view text) {
     field = field.substr(first, field.find_last_not_of(" \t") + 1 - first);
     if (field.starts_with('+')) field.remove_prefix(1);
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), result[i]);
-    if (error != std::errc{} || end != field.data() + field.size() || !std::isfinite(result[i])) return std::nullopt;
+    if (error != std::errc{} || end != field.data() + field.size() || !std::isfinite(result[i]))
+      return std::nullopt;
     if (comma != std::string_view::npos) text.remove_prefix(comma + 1);
   }
   return result;

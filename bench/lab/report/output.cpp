@@ -44,7 +44,8 @@ core::Expected<void> plot(const std::string& script) {
   FILE* const pipe = popen("gnuplot", "w");  // NOLINT: a fixed text, no user's
   if (pipe == nullptr) return core::fail("gnuplot", "can't be started");
   const bool sent = fwrite(script.data(), 1, script.size(), pipe) == script.size();
-  if (pclose(pipe) != 0 || !sent) return core::fail("gnuplot", "did not draw the picture", "the CSV files stand");
+  if (pclose(pipe) != 0 || !sent)
+    return core::fail("gnuplot", "did not draw the picture", "the CSV files stand");
   return {};
 }
 
@@ -52,7 +53,8 @@ core::Expected<void> plot(const std::string& script) {
 
 std::string Output::preamble() const {
   std::ostringstream out;
-  out << "# machine: " << processor() << ", " << std::thread::hardware_concurrency() << " cores, load " << load() << ", "
+  out << "# machine: " << processor() << ", " << std::thread::hardware_concurrency() << " cores, load "
+      << load() << ", "
 #ifdef __clang__
       << "clang " << __clang_major__
 #else
@@ -69,7 +71,8 @@ core::Expected<void> Output::write(const Table& table, std::string_view name) co
   return done;
 }
 
-core::Expected<void> Output::draw(const std::string& script, std::string_view name, int width, int height) const {
+core::Expected<void> Output::draw(const std::string& script, std::string_view name, int width,
+                                  int height) const {
   if (!is_on_path("gnuplot")) {
     std::cout << "gnuplot is missing (Debian: gnuplot-nox): no picture " << name << '\n';
     return {};
@@ -90,7 +93,9 @@ core::Expected<void> Output::draw(const std::string& script, std::string_view na
 
 void add_output_options(CLI::App& app, Output& output) {
   app.add_flag("--quick", output.quick, "a smaller measurement of a few seconds");
-  app.add_option("--out", output.folder, "folder of the CSV files")->check(CLI::ExistingDirectory)->capture_default_str();
+  app.add_option("--out", output.folder, "folder of the CSV files")
+      ->check(CLI::ExistingDirectory)
+      ->capture_default_str();
   app.add_option("--pictures", output.pictures, "folder of the pictures; that of the CSV files when left out")
       ->check(CLI::ExistingDirectory);
   app.add_option("--commit", output.commit, "what to write into the files as the commit");

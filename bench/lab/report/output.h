@@ -1,5 +1,5 @@
-// Where a measurement goes: its tables as CSV files, its pictures drawn by gnuplot, each saying by which machine,
-// commit and command it was made.
+// Where a measurement goes: its tables as CSV files, its pictures drawn by gnuplot, each saying by which
+// machine, commit and command it was made.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -25,7 +25,8 @@ struct Output {
   [[nodiscard]] core::Expected<void> write(const Table& table, std::string_view name) const;
   /// Draws `name`.svg and `name`.png; the script says all but the terminal. Without gnuplot it says so and is
   /// content.
-  [[nodiscard]] core::Expected<void> draw(const std::string& script, std::string_view name, int width, int height) const;
+  [[nodiscard]] core::Expected<void> draw(const std::string& script, std::string_view name, int width,
+                                          int height) const;
   /// Lines of "# ..." that say what made this.
   [[nodiscard]] std::string preamble() const;
 };

@@ -9,7 +9,9 @@
 namespace woodlouse::lab {
 
 Progress::Progress(std::string what, std::size_t total)
-    : what_(std::move(what)), total_(std::max<std::size_t>(total, 1)), on_terminal_(isatty(STDERR_FILENO) == 1) {}
+    : what_(std::move(what)),
+      total_(std::max<std::size_t>(total, 1)),
+      on_terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
   if (on_terminal_) std::cerr << "\r\x1b[K" << std::flush;

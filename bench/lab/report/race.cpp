@@ -43,7 +43,8 @@ std::vector<Timing> race(const std::vector<Contestant>& contestants, Effort effo
     std::size_t n = 1;
     double seconds = seconds_of(c, n);
     while (seconds < block && n < (1u << 24)) {
-      n = std::max(n * 2, static_cast<std::size_t>(static_cast<double>(n) * std::min(100.0, block / std::max(seconds, 1e-9))));
+      n = std::max(n * 2, static_cast<std::size_t>(static_cast<double>(n) *
+                                                   std::min(100.0, block / std::max(seconds, 1e-9))));
       seconds = seconds_of(c, n);
     }
     repeats.push_back(n);

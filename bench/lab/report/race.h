@@ -1,8 +1,8 @@
 // Times several ways of doing the same thing against each other, in one run: each round runs a block of each,
 // and what counts is the median of the blocks.
 //
-// Measured is the thread's own processor time, so that a machine that also does other things does not count as
-// ours; caches that others emptied still do. The thread is pinned to one core.
+// Measured is the thread's own processor time, so that a machine that also does other things does not count
+// as ours; caches that others emptied still do. The thread is pinned to one core.
 #pragma once
 
 #include <cstddef>

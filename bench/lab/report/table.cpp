@@ -13,7 +13,8 @@ namespace {
 
 std::string text_of(double value, int digits) {
   std::array<char, 40> buffer;
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, digits);
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, digits);
   return {buffer.data(), end.ptr};
 }
 
@@ -36,7 +37,9 @@ std::string result_text(double value) { return text_of(value, 7); }
 
 void Table::add(std::vector<Cell> row) {
   assert(row.size() == header_.size());
-  for (const Cell& cell : row) assert(!std::holds_alternative<std::string>(cell) || std::get<std::string>(cell).find('"') == std::string::npos);
+  for (const Cell& cell : row)
+    assert(!std::holds_alternative<std::string>(cell) ||
+           std::get<std::string>(cell).find('"') == std::string::npos);
   rows_.push_back(std::move(row));
 }
 

@@ -1,5 +1,5 @@
-// A table of measurements: aligned with four digits for people, CSV with seven for programs. (What is computed,
-// not measured, is printed with 17: exact_text.)
+// A table of measurements: aligned with four digits for people, CSV with seven for programs. (What is
+// computed, not measured, is printed with 17: exact_text.)
 #pragma once
 
 #include <filesystem>
@@ -31,7 +31,8 @@ class Table {
   /// NaN is printed as nothing.
   void print(std::ostream& out) const;
   /// `preamble`: lines that begin with #, before the header.
-  [[nodiscard]] core::Expected<void> write_csv(const std::filesystem::path& file, std::string_view preamble) const;
+  [[nodiscard]] core::Expected<void> write_csv(const std::filesystem::path& file,
+                                               std::string_view preamble) const;
 
  private:
   std::vector<std::string> header_;

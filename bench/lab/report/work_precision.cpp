@@ -9,7 +9,8 @@ namespace woodlouse::lab {
 std::string work_precision_picture(const std::vector<Panel>& panels) {
   constexpr double kLowest = 1e-14;
   std::ostringstream script;
-  script << "set logscale xy\nset format x '10^{%L}'\nset format y '10^{%L}'\nset grid\nset key left bottom font ',9'\n"
+  script << "set logscale xy\nset format x '10^{%L}'\nset format y '10^{%L}'\nset grid\nset key left bottom "
+            "font ',9'\n"
          << "set xlabel 'ns per simulated second'\nset yrange [" << kLowest << ":10]\n"
          << "set multiplot layout 1," << panels.size() << "\nset xrange [1e3:1e7]\n";
   for (const Panel& panel : panels) {
@@ -24,10 +25,11 @@ std::string work_precision_picture(const std::vector<Panel>& panels) {
       if (points.str().empty()) continue;
       const std::string block = "$d" + std::to_string(index);
       script << block << " << EOD\n" << points.str() << "EOD\n";
-      plots << (plots.str().empty() ? "plot " : ", ") << block << " with linespoints lw 1.5 lc " << index << " pt " << index + 3
-            << " ps 0.6 title '" << curve.name << "' noenhanced";
+      plots << (plots.str().empty() ? "plot " : ", ") << block << " with linespoints lw 1.5 lc " << index
+            << " pt " << index + 3 << " ps 0.6 title '" << curve.name << "' noenhanced";
     }
-    script << "set title '" << panel.title << "' noenhanced\nset ylabel '" << panel.error << "'\n" << plots.str() << '\n';
+    script << "set title '" << panel.title << "' noenhanced\nset ylabel '" << panel.error << "'\n"
+           << plots.str() << '\n';
   }
   return script.str() + "unset multiplot\n";
 }

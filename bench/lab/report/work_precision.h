@@ -1,4 +1,5 @@
-// Work-precision diagrams: processor time per simulated second against error, one panel a problem, one curve a method.
+// Work-precision diagrams: processor time per simulated second against error, one panel a problem, one curve
+// a method.
 #pragma once
 
 #include <string>
@@ -9,7 +10,8 @@ namespace woodlouse::lab {
 
 struct Curve {
   std::string name;
-  std::vector<std::pair<double, double>> points;  ///< [ns per simulated second], error; what is not finite or > 10 is left out
+  std::vector<std::pair<double, double>>
+      points;  ///< [ns per simulated second], error; what is not finite or > 10 is left out
 };
 
 struct Panel {

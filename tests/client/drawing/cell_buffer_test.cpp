@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "client/play/trail.h"
 #include "client/drawing/wrapping.h"
+#include "client/play/trail.h"
 #include "shared/core/random.h"
 
 using namespace woodlouse;

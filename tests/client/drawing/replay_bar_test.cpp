@@ -35,10 +35,12 @@ Scene watched() {
   for (ScoreRow& row : scene.scores) row.is_you = false;
   scene.spectating = true;
   scene.follow_id = 2;
-  const std::vector<EventMark> marks = {
-      {50.0, EventSign::kJoined}, {50.1, EventSign::kChat}, {100.0, EventSign::kLeft}, {150.0, EventSign::kRespawned}};
-  scene.replay = ReplayBar{"volcano-2031.ndjson", true, 41.7, 192.4, 1.0,
-                           std::make_shared<const std::vector<EventMark>>(marks)};
+  const std::vector<EventMark> marks = {{50.0, EventSign::kJoined},
+                                        {50.1, EventSign::kChat},
+                                        {100.0, EventSign::kLeft},
+                                        {150.0, EventSign::kRespawned}};
+  scene.replay = ReplayBar{
+      "volcano-2031.ndjson", true, 41.7, 192.4, 1.0, std::make_shared<const std::vector<EventMark>>(marks)};
   scene.proof = StateProof{11544, 11544, 0x0123'4567'89ab'9f3a, std::nullopt};
   return scene;
 }

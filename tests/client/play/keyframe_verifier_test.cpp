@@ -42,13 +42,15 @@ std::string key_line(const match::Match& match) {
     for (std::size_t i = 0; i < row.size(); ++i) {
       char text[protocol::kMaxValueChars];
       if (i > 0) line += ',';
-      line.append(text, protocol::write_value(text, row[i], protocol::all_columns()[i], protocol::Format::kExact));
+      line.append(text,
+                  protocol::write_value(text, row[i], protocol::all_columns()[i], protocol::Format::kExact));
     }
     line += ']';
   }
   const physics::HashLink& link = match.link();
-  return line + R"(],"hash":")" + core::to_hex(match.hash()) + R"(","previous":")" + core::to_hex(link.previous) +
-         R"(","inputs":")" + core::to_hex(link.inputs) + R"(","generator":")" + core::to_hex(link.generator) + "\"}\n";
+  return line + R"(],"hash":")" + core::to_hex(match.hash()) + R"(","previous":")" +
+         core::to_hex(link.previous) + R"(","inputs":")" + core::to_hex(link.inputs) + R"(","generator":")" +
+         core::to_hex(link.generator) + "\"}\n";
 }
 
 protocol::Frame decoded(const std::string& line) {

@@ -188,7 +188,8 @@ TEST_CASE("the eight winds are named after their direction") {
   REQUIRE(words::compass({0, -1}) == "south");
 }
 
-TEST_CASE("on a map of which there is an overview alone, the own louse is drawn from frames, and still driven") {
+TEST_CASE(
+    "on a map of which there is an overview alone, the own louse is drawn from frames, and still driven") {
   const auto definition = R"({"name":"alps","terrain":{"file":"alps.flt"},"physics":{"thrust_max":4},)"
                           R"("spawns":[{"position":[500,0]}]})";
   protocol::Welcome message = welcome(*volcano(), 1);
@@ -204,13 +205,15 @@ TEST_CASE("on a map of which there is an overview alone, the own louse is drawn 
   std::size_t asked = 0;
   for (std::uint64_t tick = 600; tick < 720; tick += 3) {
     const TimePoint now = kStart + std::chrono::microseconds((tick - 600) * 16667);
-    REQUIRE(room.on_message(key(tick, {1, 7.0 + 0.01 * static_cast<double>(tick - 600), -4.0, 0.6, 0.0, 1, 0, 0}), now));
+    REQUIRE(room.on_message(
+        key(tick, {1, 7.0 + 0.01 * static_cast<double>(tick - 600), -4.0, 0.6, 0.0, 1, 0, 0}), now));
     room.update(now);
     for (const auto& out : room.take_outgoing()) {
       const auto* input = std::get_if<protocol::Input>(&out);
       if (input == nullptr) continue;
       ++asked;
-      protocol::Ack ack{input->seq, input->tick.value_or(tick), 9000, false, false, false, protocol::ExactState{}};
+      protocol::Ack ack{input->seq, input->tick.value_or(tick), 9000, false, false,
+                        false,      protocol::ExactState{}};
       ack.you->tick = ack.tick + 1;
       ack.you->id = 1;
       ack.you->position = {400.0, 400.0};  // nothing is drawn from it

@@ -16,8 +16,8 @@ namespace {
 const TimePoint kStart{std::chrono::seconds(100)};
 constexpr std::uint64_t kTicks = 1200;
 
-/// Twenty seconds of three lice that drive: a bot and ada from the start, lin from 10 s on; ada says something
-/// at 5 s, begins again at 8 s and leaves at 15 s.
+/// Twenty seconds of three lice that drive: a bot and ada from the start, lin from 10 s on; ada says
+/// something at 5 s, begins again at 8 s and leaves at 15 s.
 std::string recorded() {
   const auto map = map::load_map(std::string(WOODLOUSE_SOURCE_DIR) + "/maps/volcano.json");
   REQUIRE(map);
@@ -61,7 +61,8 @@ void press(Screening& screening, char32_t c) {
 
 /// The same recording with the first step's line that has `field` changed by `change`.
 template <typename Change>
-std::string altered(std::string bytes, const std::string& line_start, const std::string& field, Change change) {
+std::string altered(std::string bytes, const std::string& line_start, const std::string& field,
+                    Change change) {
   const std::size_t line = bytes.find(line_start);
   REQUIRE(line != std::string::npos);
   const std::size_t place = bytes.find(field, line);
@@ -179,9 +180,8 @@ TEST_CASE("proving ahead proves every tick once, whatever is shown, and knows wh
 }
 
 TEST_CASE("a flipped digit of a hash is told with its tick") {
-  const std::string bytes = altered(recorded(), R"({"step":700,)", R"("hash":")", [](char& digit) {
-    digit = digit == '0' ? '1' : '0';
-  });
+  const std::string bytes = altered(recorded(), R"({"step":700,)", R"("hash":")",
+                                    [](char& digit) { digit = digit == '0' ? '1' : '0'; });
   const auto view = opened(bytes);
   Screening screening(*view, "test.ndjson", View::kMap);
   view->prove(TimePoint::max());
@@ -191,7 +191,8 @@ TEST_CASE("a flipped digit of a hash is told with its tick") {
   CHECK(scene.notice.find("state DIFFERS at tick 701: ") == 0);
 }
 
-TEST_CASE("an input that was altered differs at the tick its step leads to, and a later jump does not hide it") {
+TEST_CASE(
+    "an input that was altered differs at the tick its step leads to, and a later jump does not hide it") {
   const std::string bytes =
       altered(recorded(), R"({"step":605,)", R"("inputs":[[1,605,[)", [](char& digit) { --digit; });
   const auto view = opened(bytes);

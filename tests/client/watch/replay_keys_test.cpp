@@ -14,17 +14,26 @@ std::optional<ReplayKey> order(ReplayCommand command, int tenths = 0) { return R
 
 TEST_CASE("the keys of the key line do what it says") {
   using C = ReplayCommand;
-  for (const auto& [character, command] :
-       {std::pair{U' ', C::kPlayPause}, {U'<', C::kSkipBack}, {U'>', C::kSkipForth}, {U',', C::kTickBack},
-        {U'.', C::kTickForth}, {U'[', C::kSlower}, {U']', C::kFaster}, {U'f', C::kFollowNext},
-        {U'F', C::kFollowPrevious}, {U'n', C::kNextEvent}, {U'N', C::kPreviousEvent}, {U'q', C::kLeave}})
+  for (const auto& [character, command] : {std::pair{U' ', C::kPlayPause},
+                                           {U'<', C::kSkipBack},
+                                           {U'>', C::kSkipForth},
+                                           {U',', C::kTickBack},
+                                           {U'.', C::kTickForth},
+                                           {U'[', C::kSlower},
+                                           {U']', C::kFaster},
+                                           {U'f', C::kFollowNext},
+                                           {U'F', C::kFollowPrevious},
+                                           {U'n', C::kNextEvent},
+                                           {U'N', C::kPreviousEvent},
+                                           {U'q', C::kLeave}})
     CHECK(on_replay_key(letter(character), Overlay::kNone) == order(command));
   CHECK(on_replay_key({.code = KeyCode::kLeft}, Overlay::kNone) == order(C::kSkipBack));
   CHECK(on_replay_key({.code = KeyCode::kRight}, Overlay::kNone) == order(C::kSkipForth));
   CHECK(on_replay_key({.code = KeyCode::kHome}, Overlay::kNone) == order(C::kBeginning));
   CHECK(on_replay_key({.code = KeyCode::kEnd}, Overlay::kNone) == order(C::kEnd));
   for (int digit = 0; digit < 10; ++digit)
-    CHECK(on_replay_key(letter(U'0' + static_cast<char32_t>(digit)), Overlay::kNone) == order(C::kJump, digit));
+    CHECK(on_replay_key(letter(U'0' + static_cast<char32_t>(digit)), Overlay::kNone) ==
+          order(C::kJump, digit));
 }
 
 TEST_CASE("the picture's keys are the game's, and what only a player does has no key") {
@@ -54,5 +63,6 @@ TEST_CASE("any key closes the help and does nothing else, Escape closes the scor
 }
 
 TEST_CASE("on another alphabet's layout the letters are the keys in their places") {
-  CHECK(on_replay_key({.character = 1072, .physical = U'f'}, Overlay::kNone) == order(ReplayCommand::kFollowNext));
+  CHECK(on_replay_key({.character = 1072, .physical = U'f'}, Overlay::kNone) ==
+        order(ReplayCommand::kFollowNext));
 }

@@ -63,7 +63,8 @@ class Played {
     return opening.error().text();
   }
 
-  fs::path file = fs::temp_directory_path() / ("woodlouse_fork_test_" + std::to_string(::getpid()) + ".ndjson");
+  fs::path file =
+      fs::temp_directory_path() / ("woodlouse_fork_test_" + std::to_string(::getpid()) + ".ndjson");
   std::vector<match::MatchState> states;
 
  private:
@@ -73,7 +74,8 @@ class Played {
 
 }  // namespace
 
-TEST_CASE("a fork has the state of its tick to the last bit, the recording's settings, and names its parent") {
+TEST_CASE(
+    "a fork has the state of its tick to the last bit, the recording's settings, and names its parent") {
   const Played played;
   for (const std::uint64_t tick : {0u, 1u, 249u, 250u, 251u, 700u}) {
     const auto opening = open_fork({played.file, tick});
@@ -89,7 +91,9 @@ TEST_CASE("a fork has the state of its tick to the last bit, the recording's set
   }
 }
 
-TEST_CASE("the lice of a fork have the names of those who played them, cleaned, and go on with their count of inputs") {
+TEST_CASE(
+    "the lice of a fork have the names of those who played them, cleaned, and go on with their count of "
+    "inputs") {
   const Played played;
   const auto opening = open_fork({played.file, 400});
   REQUIRE(opening);
@@ -136,6 +140,7 @@ TEST_CASE("a fork of what is not there is refused with what to do") {
   }
   SECTION("a map that is not found") {
     const Played other("/no/such/map.json");
-    CHECK_THAT(other.failure_at(3), Catch::Contains("/no/such/map.json") && Catch::Contains("beside the recording"));
+    CHECK_THAT(other.failure_at(3),
+               Catch::Contains("/no/such/map.json") && Catch::Contains("beside the recording"));
   }
 }

@@ -50,11 +50,14 @@ TEST_CASE("the summary names every figure with its unit") {
   CHECK_THAT(text, Catch::StartsWith("volcano: ticks 3600, lateness p50 0.250 ms p99 0.250 ms max 0.250 ms"));
   CHECK_THAT(text, Catch::EndsWith("clock moves 2, frames encoded 1200"));
   metrics.ground = GroundMetrics{40, 412, 409, 372, 1};
-  CHECK_THAT(summary("alps", metrics),
-             Catch::EndsWith("frames encoded 1200, tiles built 412 (409 ahead), thrown out 372, read failures 1"));
+  CHECK_THAT(
+      summary("alps", metrics),
+      Catch::EndsWith("frames encoded 1200, tiles built 412 (409 ahead), thrown out 372, read failures 1"));
   metrics.ground.reset();
   metrics.shadow = ShadowMetrics{3600, 0, false};
-  CHECK_THAT(summary("volcano", metrics), Catch::EndsWith("frames encoded 1200, 3600 ticks shadowed, 0 differences"));
+  CHECK_THAT(summary("volcano", metrics),
+             Catch::EndsWith("frames encoded 1200, 3600 ticks shadowed, 0 differences"));
   metrics.shadow = ShadowMetrics{812, 1, true};
-  CHECK_THAT(summary("volcano", metrics), Catch::EndsWith(", 812 ticks shadowed until it was ended, 1 differences"));
+  CHECK_THAT(summary("volcano", metrics),
+             Catch::EndsWith(", 812 ticks shadowed until it was ended, 1 differences"));
 }

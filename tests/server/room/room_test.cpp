@@ -50,7 +50,8 @@ struct House {
 
   static Opening open() {
     const auto map = load();
-    return {map, std::make_unique<match::Match>(map, match::MatchSettings{60, 0}), "maps/volcano.json", {}, {}};
+    return {
+        map, std::make_unique<match::Match>(map, match::MatchSettings{60, 0}), "maps/volcano.json", {}, {}};
   }
 
   std::shared_ptr<Guest> join(SessionId session, protocol::Join join = {}) {
@@ -215,7 +216,9 @@ protocol::Join named(const std::string& name, protocol::Role role = protocol::Ro
 
 }  // namespace
 
-TEST_CASE("who is only in the recording is named to guests, and keeps a louse until somebody takes it over by name") {
+TEST_CASE(
+    "who is only in the recording is named to guests, and keeps a louse until somebody takes it over by "
+    "name") {
   House house(settings(8), went_on());
   const auto eve = house.join(1, named("mara", protocol::Role::kSpectator));
   REQUIRE(eve->welcomes.size() == 1);

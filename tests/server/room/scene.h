@@ -65,8 +65,9 @@ inline std::vector<double> values(const physics::Louse& louse, const std::vector
   using protocol::Column;
   const auto ground = terrain.sample(louse.position.x, louse.position.y);
   const physics::Attitude attitude = physics::attitude(louse.heading, {ground.zx, ground.zy});
-  const double vz = louse.phase == physics::Phase::kFlying ? louse.flight_vz
-                                                           : ground.zx * louse.velocity.x + ground.zy * louse.velocity.y;
+  const double vz = louse.phase == physics::Phase::kFlying
+                        ? louse.flight_vz
+                        : ground.zx * louse.velocity.x + ground.zy * louse.velocity.y;
   std::vector<double> row;
   for (const Column column : columns) {
     switch (column) {

@@ -84,7 +84,8 @@ TEST_CASE("a room whose map can't be read any more says so once, loudly, counts 
   const auto map = load(files, "tiles");
   std::filesystem::resize_file(files.file("hills.flt"), 4 * 201 * 10);
   std::ostringstream lines;
-  const auto log = std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(lines));
+  const auto log =
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(lines));
   boost::asio::io_context ticks{1}, io{1};
   boost::asio::thread_pool worker(1);
   RoomSettings settings;
@@ -92,7 +93,8 @@ TEST_CASE("a room whose map can't be read any more says so once, loudly, counts 
   settings.state_hz = 20;
   settings.bots = 3;
   settings.tick_limit = 2500;
-  Opening opening{map, std::make_unique<match::Match>(map, match::MatchSettings{1000, 0}), "hills.flt", {}, {}};
+  Opening opening{
+      map, std::make_unique<match::Match>(map, match::MatchSettings{1000, 0}), "hills.flt", {}, {}};
   RoomStaff staff;
   staff.ahead = GroundAhead::make(*map, worker);
   Room room(ticks, io, settings, std::move(opening), std::move(staff), log);

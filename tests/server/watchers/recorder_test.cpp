@@ -1,7 +1,7 @@
 #include "server/watchers/recorder.h"
 
-#include <string>
 #include <unistd.h>
+#include <string>
 
 #include <catch2/catch.hpp>
 
@@ -48,8 +48,8 @@ void play(Recorder& recorder, boost::asio::thread_pool& disk, int ticks) {
 }  // namespace
 
 TEST_CASE("a recorded game with joins, inputs, keyframes and chat verifies") {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("woodlouse_recorder_test_" + std::to_string(::getpid()) + ".ndjson");
+  const std::filesystem::path file = std::filesystem::temp_directory_path() /
+                                     ("woodlouse_recorder_test_" + std::to_string(::getpid()) + ".ndjson");
   Log log;
   boost::asio::thread_pool disk(1);
   {
@@ -69,7 +69,8 @@ TEST_CASE("a recorded game with joins, inputs, keyframes and chat verifies") {
 
 TEST_CASE("a recording named .zst is packed and verifies") {
   const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("woodlouse_recorder_test_" + std::to_string(::getpid()) + ".ndjson.zst");
+      std::filesystem::temp_directory_path() /
+      ("woodlouse_recorder_test_" + std::to_string(::getpid()) + ".ndjson.zst");
   Log log;
   boost::asio::thread_pool disk(1);
   {

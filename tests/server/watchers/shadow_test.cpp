@@ -1,7 +1,7 @@
 #include "server/watchers/shadow.h"
 
-#include <string>
 #include <unistd.h>
+#include <string>
 
 #include <catch2/catch.hpp>
 
@@ -72,8 +72,9 @@ class Stage {
   std::ostringstream log;
   boost::asio::thread_pool pool{1};
   match::Match game{map_, {60, 7}};
-  Shadow shadow{"volcano", map_, folder_ / "dump", pool,
-                std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(log))};
+  Shadow shadow{
+      "volcano", map_, folder_ / "dump", pool,
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(log))};
 };
 
 }  // namespace
@@ -93,7 +94,8 @@ TEST_CASE("a game with joins, leaves, respawns and inputs filed ahead has a shad
   CHECK(stage.log.str().empty());
 }
 
-TEST_CASE("one altered input is seen at its tick, told once with louse, field and both values, and kept in files") {
+TEST_CASE(
+    "one altered input is seen at its tick, told once with louse, field and both values, and kept in files") {
   Stage stage;
   stage.step(10);
   match::StepRecord altered = stage.step();
@@ -109,7 +111,8 @@ TEST_CASE("one altered input is seen at its tick, told once with louse, field an
   CHECK_THAT(text, Catch::Contains("SHADOW DIFFERS: room volcano: tick 12: hash ") &&
                        Catch::Contains("louse 2, x: ") && Catch::Contains(stage.dump("game", 12).string()) &&
                        Catch::Contains(stage.dump("shadow", 12).string()));
-  // The game was played with another input than the record says: from its record the machine gives the shadow's.
+  // The game was played with another input than the record says: from its record the machine gives the
+  // shadow's.
   CHECK_THAT(Stage::verdict(stage.dump("game", 12)),
              Catch::StartsWith("differs at tick 12: hash ") && Catch::Contains("keyframe 12: louse 2, x: "));
   CHECK(Stage::verdict(stage.dump("shadow", 12)) == "ok 1 ticks\n");
