@@ -57,7 +57,7 @@ void play(const std::shared_ptr<const map::Map>& map, const Game& game, const st
                 static_cast<double>(random.next() % 257) / 128.0 - 1.0};
       } while (core::dot(push, push) > 1.0);
       const std::uint32_t seq = ++seqs[player - 1];
-      match.file({player, seq, {physics::ThrustKind::kMapVector, push}, physics::kHeld, 0});
+      match.file({player, seq, {state::ThrustKind::kMapVector, push}, state::kHeld, 0});
       writer.note_margin(player, seq, static_cast<std::int64_t>(random.next() % 16'667));
     }
     writer.append_step(bytes, match.advance());

@@ -62,7 +62,7 @@ void world_tick(benchmark::State& state) {
   core::Random random(2);
   const auto symmetric = [&] { return 2 * random.uniform() - 1; };
   for (std::uint32_t id = 1; id <= count; ++id) {
-    physics::Louse louse;
+    state::Louse louse;
     louse.id = id;
     louse.position = {15 * symmetric(), 15 * symmetric()};
     louse.velocity = {2 * symmetric(), 2 * symmetric()};
@@ -74,8 +74,7 @@ void world_tick(benchmark::State& state) {
   const auto steer = [&] {
     for (std::uint32_t id = 1; id <= count; ++id) {
       const double angle = 3.14159 * symmetric();
-      world.set_thrust(id, {physics::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}},
-                       physics::kHeld);
+      world.set_thrust(id, {state::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}}, state::kHeld);
     }
   };
   steer();
@@ -87,7 +86,7 @@ void world_tick(benchmark::State& state) {
       state.ResumeTiming();
     }
     world.step();
-    hash = physics::state_hash(hasher, {hash, 0, ++tick, 0}, world.lice());
+    hash = state::state_hash(hasher, {hash, 0, ++tick, 0}, world.lice());
     hashed += count;
   }
   const auto& c = world.counters();
@@ -103,7 +102,7 @@ void row_encoding(benchmark::State& state, protocol::Format format) {
   const terrain::Terrain terrain{volcano(21)};
   core::Random random(3);
   const auto metres = [&] { return 40 * random.uniform() - 20; };
-  std::vector<physics::Louse> lice(1024);
+  std::vector<state::Louse> lice(1024);
   for (std::size_t i = 0; i < lice.size(); ++i) {
     lice[i].id = static_cast<std::uint32_t>(i + 1);
     lice[i].position = {metres(), metres()};
@@ -119,10 +118,10 @@ void row_encoding(benchmark::State& state, protocol::Format format) {
 }
 
 void state_hash(benchmark::State& state) {
-  const std::vector<physics::Louse> lice(static_cast<std::size_t>(state.range(0)));
+  const std::vector<state::Louse> lice(static_cast<std::size_t>(state.range(0)));
   core::StableHasher hasher;
   std::uint64_t hash = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(hash = physics::state_hash(hasher, {hash, 0, 0, 0}, lice));
+  for (auto _ : state) benchmark::DoNotOptimize(hash = state::state_hash(hasher, {hash, 0, 0, 0}, lice));
 }
 
 }  // namespace

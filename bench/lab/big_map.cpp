@@ -112,10 +112,10 @@ double cached_megabytes(const fs::path& file) {
   return cached * static_cast<double>(page) / 1048576.0;
 }
 
-std::vector<physics::Louse> wanderers(std::size_t count, const terrain::Rectangle& domain) {
+std::vector<state::Louse> wanderers(std::size_t count, const terrain::Rectangle& domain) {
   core::Random random(13);
   const auto within = [&](double low, double high) { return low + (high - low) * random.uniform(); };
-  std::vector<physics::Louse> lice;
+  std::vector<state::Louse> lice;
   for (std::size_t i = 0; i < count; ++i) {
     lice.push_back(louse_at({within(domain.x_min, domain.x_max), within(domain.y_min, domain.y_max)},
                             {within(-5, 5), within(-5, 5)}));
@@ -145,9 +145,9 @@ core::Expected<BigMapUsage> use_big_map(std::size_t knots, std::size_t lice_coun
   constexpr double kRate = 60.0;
   const auto stepper =
       physics::make_stepper(surface, physics::Equations::kSurface, physics::Integrator::kNystrom4,
-                            physics::Parameters{}, spline.domain(), 1.0 / kRate);
+                            state::Parameters{}, spline.domain(), 1.0 / kRate);
   if (!stepper) return tl::unexpected(stepper.error());
-  std::vector<physics::Louse> lice = wanderers(lice_count, spline.domain());
+  std::vector<state::Louse> lice = wanderers(lice_count, spline.domain());
   physics::StepCounters counters;
   (*stepper)->advance(lice, counters);
   usage.open_seconds = seconds_since(begin);

@@ -20,7 +20,7 @@
 namespace woodlouse::lab {
 namespace {
 
-using physics::SurfaceContact;
+using state::SurfaceContact;
 
 constexpr double kScale = 20.0;
 constexpr double kTick = 1.0 / 60.0;
@@ -29,20 +29,20 @@ constexpr std::uint32_t kLice = 200;
 constexpr double kSky = 1000.0;  // [m]; nobody lands from there within the ticks
 
 /// As the shipped map of jumps has them.
-physics::Parameters parameters(SurfaceContact contact, double central_gravity = 0.0) {
-  physics::Parameters p{4.0, 0.1, 0.02, 6.0, 0.5};
+state::Parameters parameters(SurfaceContact contact, double central_gravity = 0.0) {
+  state::Parameters p{4.0, 0.1, 0.02, 6.0, 0.5};
   p.contact = contact;
   p.central_gravity = central_gravity;
   return p;
 }
 
 /// Lice well inside, each pushed in a direction of its own; slow enough to stay on the ground.
-std::vector<physics::Louse> gliding() {
+std::vector<state::Louse> gliding() {
   core::Random random(2);
   const auto symmetric = [&](double size) { return size * (2.0 * random.uniform() - 1.0); };
-  std::vector<physics::Louse> lice;
+  std::vector<state::Louse> lice;
   for (std::uint32_t id = 1; id <= kLice; ++id) {
-    physics::Louse louse = louse_at({symmetric(12), symmetric(12)}, {symmetric(1), symmetric(1)});
+    state::Louse louse = louse_at({symmetric(12), symmetric(12)}, {symmetric(1), symmetric(1)});
     louse.id = id;
     const double angle = symmetric(std::numbers::pi);
     push(louse, {std::cos(angle), std::sin(angle)});
@@ -51,10 +51,10 @@ std::vector<physics::Louse> gliding() {
   return lice;
 }
 
-std::vector<physics::Louse> flying(double speed) {
-  std::vector<physics::Louse> lice = gliding();
-  for (physics::Louse& louse : lice) {
-    louse.phase = physics::Phase::kFlying;
+std::vector<state::Louse> flying(double speed) {
+  std::vector<state::Louse> lice = gliding();
+  for (state::Louse& louse : lice) {
+    louse.phase = state::Phase::kFlying;
     louse.flight_z = kSky;
     louse.velocity = speed * louse.thrust;
   }
@@ -65,8 +65,8 @@ enum class GroundKind { kHills, kFlat };
 
 struct Case {
   std::string name;
-  std::vector<physics::Louse> start;
-  physics::Parameters parameters;
+  std::vector<state::Louse> start;
+  state::Parameters parameters;
   GroundKind ground = GroundKind::kHills;
 };
 
@@ -93,7 +93,7 @@ core::Expected<Runner> one_by_one(const Case& one, const terrain::AnySurface& gr
   if (!made) return tl::unexpected(made.error());
   return Runner{"one after the other",
                 [stepper = std::shared_ptr<const physics::LaboratoryStepper>(std::move(*made)), &one] {
-                  std::vector<physics::Louse> lice = one.start;
+                  std::vector<state::Louse> lice = one.start;
                   physics::StepCounters counters;
                   for (int i = 0; i < kTicks; ++i) stepper->advance(lice, counters);
                   keep(lice.front());

@@ -26,8 +26,8 @@ constexpr double kSeconds =
     1.6;  // a whole number of ticks at every rate, a third of a second after the landings
 
 core::Expected<SharedStepper> jumping(const terrain::AnySurface& ground, Integrator integrator, double tick) {
-  physics::Parameters p{SkiJump::kGravity, 0.0, 0.0, 0.0, 1.0};
-  p.contact = physics::SurfaceContact::kUnilateral;
+  state::Parameters p{SkiJump::kGravity, 0.0, 0.0, 0.0, 1.0};
+  p.contact = state::SurfaceContact::kUnilateral;
   auto stepper = physics::make_stepper(ground, physics::Equations::kSurface, integrator, p, kNowhere, tick);
   if (!stepper) return tl::unexpected(stepper.error());
   return SharedStepper(std::move(*stepper));
@@ -44,7 +44,7 @@ struct Landing {
 };
 
 /// Where the parabola that a flying louse is on meets the ground, in the closed form of both.
-Landing landing_of(const physics::Louse& louse, double now, double within) {
+Landing landing_of(const state::Louse& louse, double now, double within) {
   double low = 0.0, high = within;
   for (int i = 0; i < 100; ++i) {
     const double t = 0.5 * (low + high);
@@ -56,13 +56,13 @@ Landing landing_of(const physics::Louse& louse, double now, double within) {
 
 /// The shortest tick in which `before` takes off, given that it does in `tick`.
 core::Expected<double> take_off_after(const terrain::AnySurface& ground, Integrator integrator,
-                                      const physics::Louse& before, double tick) {
+                                      const state::Louse& before, double tick) {
   double low = 0.0, high = tick;
   for (int i = 0; i < 44; ++i) {
     const double middle = 0.5 * (low + high);
     const auto stepper = jumping(ground, integrator, middle);
     if (!stepper) return tl::unexpected(stepper.error());
-    physics::Louse louse = before;
+    state::Louse louse = before;
     physics::StepCounters counters;
     (*stepper)->advance({&louse, 1}, counters);
     (counters.flights > 0 ? high : low) = middle;
@@ -83,13 +83,13 @@ core::Expected<Measured> measure(const terrain::AnySurface& ground, Integrator i
   Measured worst;
   physics::StepCounters counters;
   for (const Jump& jump : all) {
-    physics::Louse louse = louse_at(jump.start(), jump.velocity());
+    state::Louse louse = louse_at(jump.start(), jump.velocity());
     std::optional<double> take_off;
     std::optional<Landing> landing;
     for (long tick = 1; tick <= std::lround(kSeconds * rate); ++tick) {
-      const physics::Louse before = louse;
+      const state::Louse before = louse;
       (*stepper)->advance({&louse, 1}, counters);
-      if (louse.phase != physics::Phase::kFlying) continue;
+      if (louse.phase != state::Phase::kFlying) continue;
       const double now = static_cast<double>(tick) / rate;
       if (!take_off) {
         const auto after = take_off_after(ground, integrator, before, 1.0 / rate);
@@ -117,7 +117,7 @@ Contestant runner(SharedStepper stepper, double rate, const std::vector<Jump>& a
   const auto run = [stepper = std::move(stepper), &all, ticks] {
     physics::StepCounters counters;
     for (const Jump& jump : all) {
-      physics::Louse louse = louse_at(jump.start(), jump.velocity());
+      state::Louse louse = louse_at(jump.start(), jump.velocity());
       for (long tick = 0; tick < ticks; ++tick) stepper->advance({&louse, 1}, counters);
       keep(louse);
     }

@@ -28,7 +28,7 @@ struct Ground {
 };
 
 /// Gravity and curvature alone: the hardest case for energy and phase, and one with a reference to 1e-13.
-physics::Parameters free_motion() { return {9.81, 0.0, 0.0, 0.0, 1.0}; }
+state::Parameters free_motion() { return {9.81, 0.0, 0.0, 0.0, 1.0}; }
 
 /// Where and how fast the measured lice start: well inside, at speeds that keep them there.
 std::vector<physics::Motion> starts(Effort effort) {
@@ -74,7 +74,7 @@ core::Expected<Measured> measure(const Ground& ground, Integrator integrator, do
   std::vector<double> errors;
   physics::StepCounters counters;
   for (std::size_t i = 0; i < from.size(); ++i) {
-    physics::Louse louse = louse_at(from[i].position, from[i].velocity);
+    state::Louse louse = louse_at(from[i].position, from[i].velocity);
     for (long tick = 0; tick < std::lround(kSeconds * rate); ++tick)
       (*stepper)->advance({&louse, 1}, counters);
     const double error = distance(louse.position, ends[i].position);
@@ -95,7 +95,7 @@ core::Expected<Contestant> runner(const Ground& ground, const Measured& m,
                     ticks = std::lround(m.rate)] {
     physics::StepCounters counters;
     for (const physics::Motion& start : from) {
-      physics::Louse louse = louse_at(start.position, start.velocity);
+      state::Louse louse = louse_at(start.position, start.velocity);
       for (long tick = 0; tick < ticks; ++tick) shared->advance({&louse, 1}, counters);
       keep(louse);
     }

@@ -23,8 +23,8 @@ constexpr double kPull = 1.0;  // the document's planet: F = -x / r^3
 constexpr double kPeriods = 10.0;
 constexpr double kManyPeriods = 100.0;
 
-physics::Parameters planet() {
-  physics::Parameters p{0.0, 0.0, 0.0, 0.0, 1.0};
+state::Parameters planet() {
+  state::Parameters p{0.0, 0.0, 0.0, 0.0, 1.0};
   p.central_gravity = kPull;
   return p;
 }
@@ -48,7 +48,7 @@ struct Measured {
 
 Measured measure(const physics::LaboratoryStepper& stepper, const KeplerEllipse& ellipse, double rate) {
   Measured result;
-  physics::Louse louse = louse_at(ellipse.start(), ellipse.velocity());
+  state::Louse louse = louse_at(ellipse.start(), ellipse.velocity());
   physics::StepCounters counters;
   const double momentum = KeplerEllipse::angular_momentum(louse.position, louse.velocity);
   const long ticks = std::lround(kPeriods * ellipse.period() * rate);
@@ -75,7 +75,7 @@ Contestant runner(std::shared_ptr<const physics::LaboratoryStepper> stepper, con
   const auto run = [stepper = std::move(stepper), start = louse_at(ellipse.start(), ellipse.velocity()),
                     ticks] {
     physics::StepCounters counters;
-    physics::Louse louse = start;
+    state::Louse louse = start;
     for (long tick = 0; tick < ticks; ++tick) stepper->advance({&louse, 1}, counters);
     keep(louse);
   };

@@ -33,23 +33,23 @@ std::shared_ptr<const terrain::Terrain> flat() {
   return std::make_shared<const terrain::Terrain>(*terrain::plane_through(flat_grid()));
 }
 
-std::vector<physics::Louse> lice_of(std::size_t count, double speed) {
+std::vector<state::Louse> lice_of(std::size_t count, double speed) {
   core::Random random(17);
   const auto symmetric = [&](double size) { return size * (2.0 * random.uniform() - 1.0); };
-  std::vector<physics::Louse> lice;
+  std::vector<state::Louse> lice;
   for (std::size_t i = 0; i < count; ++i) {
     lice.push_back(louse_at({symmetric(15), symmetric(15)}, {symmetric(speed), symmetric(speed)}));
-    lice.back().id = static_cast<physics::LouseId>(i + 1);
+    lice.back().id = static_cast<state::LouseId>(i + 1);
   }
   return lice;
 }
 
 std::shared_ptr<physics::World> world_of(std::shared_ptr<const terrain::Terrain> ground,
-                                         const physics::Parameters& parameters, physics::InstructionSet set,
-                                         const std::vector<physics::Louse>& lice) {
+                                         const state::Parameters& parameters, physics::InstructionSet set,
+                                         const std::vector<state::Louse>& lice) {
   auto world = std::make_shared<physics::World>(std::move(ground), parameters, 1.0 / 60.0);
   world->use(set);
-  for (const physics::Louse& louse : lice) world->insert(louse);
+  for (const state::Louse& louse : lice) world->insert(louse);
   return world;
 }
 
@@ -78,9 +78,9 @@ struct Duel {
 
 void add_forces(std::vector<Duel>& duels) {
   const auto ground = volcano();
-  const std::vector<physics::Louse> lice = lice_of(200, 2.0);
-  std::vector<physics::Louse> pushed = lice;
-  for (physics::Louse& louse : pushed) push(louse, {0.6, 0.8});
+  const std::vector<state::Louse> lice = lice_of(200, 2.0);
+  std::vector<state::Louse> pushed = lice;
+  for (state::Louse& louse : pushed) push(louse, {0.6, 0.8});
   for (const auto set : {physics::InstructionSet::kScalar, physics::best_instruction_set()}) {
     duels.push_back({std::string("drag, friction, thrust compiled out, ") + physics::to_text(set),
                      "ns a louse-step", fresh_ticks(world_of(ground, {}, set, pushed)),
@@ -90,8 +90,8 @@ void add_forces(std::vector<Duel>& duels) {
 }
 
 void add_flat(std::vector<Duel>& duels) {
-  std::vector<physics::Louse> lice = lice_of(200, 2.0);
-  for (physics::Louse& louse : lice) push(louse, {0.6, 0.8});
+  std::vector<state::Louse> lice = lice_of(200, 2.0);
+  for (state::Louse& louse : lice) push(louse, {0.6, 0.8});
   const auto curved = std::make_shared<const terrain::Terrain>(terrain::BicubicSpline(flat_grid()));
   for (const auto set : {physics::InstructionSet::kScalar, physics::best_instruction_set()}) {
     duels.push_back({std::string("curvature of flat ground, ") + physics::to_text(set), "ns a louse-step",
@@ -110,12 +110,11 @@ void add_resting(std::vector<Duel>& duels) {
 
 template <typename Sum>
 Contestant sampler(const std::shared_ptr<const terrain::Terrain>& ground, const Sum& sum) {
-  const auto points = std::make_shared<const std::vector<physics::Louse>>(lice_of(4096, 1.0));
+  const auto points = std::make_shared<const std::vector<state::Louse>>(lice_of(4096, 1.0));
   const auto run = [ground, points, sum] {
     const auto& spline = std::get<terrain::BicubicSpline>(ground->surface());
     double total = 0.0;
-    for (const physics::Louse& louse : *points)
-      total += sum(spline.sample(louse.position.x, louse.position.y));
+    for (const state::Louse& louse : *points) total += sum(spline.sample(louse.position.x, louse.position.y));
     keep(total);
   };
   return {"", run, static_cast<double>(points->size())};
@@ -133,7 +132,7 @@ void add_hessians(std::vector<Duel>& duels) {
 
 Contestant key_frames(const std::shared_ptr<const terrain::Terrain>& ground,
                       std::vector<protocol::Column> columns) {
-  const auto lice = std::make_shared<const std::vector<physics::Louse>>(lice_of(200, 2.0));
+  const auto lice = std::make_shared<const std::vector<state::Louse>>(lice_of(200, 2.0));
   const auto encoder = std::make_shared<server::FrameEncoder>(
       server::RowLayout{std::move(columns), protocol::Format::kQuantized});
   const auto run = [ground, lice, encoder] { keep(encoder->key({0, 0, *lice, *ground, 0, {}})); };

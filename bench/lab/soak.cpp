@@ -26,7 +26,7 @@ struct Findings {
 
 void look(const physics::World& world, Findings& findings) {
   const terrain::Rectangle domain = world.terrain().domain();
-  for (const physics::Louse& louse : world.lice()) {
+  for (const state::Louse& louse : world.lice()) {
     const double speed = std::hypot(louse.velocity.x, louse.velocity.y);
     if (!std::isfinite(speed) || !std::isfinite(louse.position.x) || !std::isfinite(louse.position.y)) {
       ++findings.not_finite;
@@ -51,7 +51,7 @@ Table soak(Effort effort) {
     core::Random random(11);
     const auto symmetric = [&](double size) { return size * (2.0 * random.uniform() - 1.0); };
     for (std::uint32_t id = 1; id <= kLice; ++id) {
-      physics::Louse louse = louse_at({symmetric(kScale), symmetric(kScale)}, {symmetric(10), symmetric(10)});
+      state::Louse louse = louse_at({symmetric(kScale), symmetric(kScale)}, {symmetric(10), symmetric(10)});
       louse.id = id;
       world.insert(louse);
     }
@@ -62,8 +62,8 @@ Table soak(Effort effort) {
       if (tick % 60 == 0) {
         for (std::uint32_t id = 1; id <= kLice; ++id) {
           const double angle = symmetric(std::numbers::pi);
-          world.set_thrust(id, {physics::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}},
-                           physics::kHeld);
+          world.set_thrust(id, {state::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}},
+                           state::kHeld);
         }
       }
       const std::uint64_t before = world.counters().louse_steps;

@@ -22,9 +22,9 @@ constexpr double kScale = 20.0;  // as the shipped maps
 constexpr double kTick = 1.0 / 60.0;
 constexpr double kNotRun = std::numeric_limits<double>::quiet_NaN();
 
-physics::Louse random_louse(core::Random& random, std::uint32_t id) {
+state::Louse random_louse(core::Random& random, std::uint32_t id) {
   const auto symmetric = [&](double size) { return size * (2.0 * random.uniform() - 1.0); };
-  physics::Louse louse = louse_at({symmetric(15), symmetric(15)}, {symmetric(2), symmetric(2)});
+  state::Louse louse = louse_at({symmetric(15), symmetric(15)}, {symmetric(2), symmetric(2)});
   louse.id = id;
   const double angle = symmetric(std::numbers::pi);
   push(louse, {std::cos(angle), std::sin(angle)});
@@ -45,8 +45,8 @@ class Room {
     for (std::uint32_t i = 0; i < lice_ / 12; ++i) {
       next_ = next_ % lice_ + 1;
       const double angle = 2.0 * std::numbers::pi * random_.uniform();
-      world_.set_thrust(next_, {physics::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}},
-                        physics::kHeld);
+      world_.set_thrust(next_, {state::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}},
+                        state::kHeld);
     }
     for (int i = 0; i < kTicks; ++i) world_.step();
   }
@@ -57,8 +57,8 @@ class Room {
   }
   [[nodiscard]] double awake() const {
     double awake = 0.0;
-    for (const physics::Louse& louse : world_.lice())
-      awake += louse.phase != physics::Phase::kResting ? 1.0 : 0.0;
+    for (const state::Louse& louse : world_.lice())
+      awake += louse.phase != state::Phase::kResting ? 1.0 : 0.0;
     return awake / static_cast<double>(lice_);
   }
 
@@ -80,7 +80,7 @@ class Runners {
     for (std::uint32_t id = 1; id <= lice; ++id) start_.push_back(random_louse(random, id));
   }
   void run() {
-    std::vector<physics::Louse> lice = start_;
+    std::vector<state::Louse> lice = start_;
     physics::StepCounters counters;
     for (int i = 0; i < kTicks; ++i) stepper_->advance(lice, counters);
     keep(lice.front());
@@ -89,7 +89,7 @@ class Runners {
 
  private:
   std::unique_ptr<physics::LaboratoryStepper> stepper_;
-  std::vector<physics::Louse> start_;
+  std::vector<state::Louse> start_;
 };
 
 struct Entry {
@@ -102,8 +102,7 @@ struct Entry {
 core::Expected<Entry> runners(const terrain::AnySurface& surface, std::string name,
                               physics::Equations equations, physics::Integrator integrator,
                               std::size_t lice) {
-  auto stepper =
-      physics::make_stepper(surface, equations, integrator, physics::Parameters{}, kNowhere, kTick);
+  auto stepper = physics::make_stepper(surface, equations, integrator, state::Parameters{}, kNowhere, kTick);
   if (!stepper) return tl::unexpected(stepper.error());
   return Entry{std::move(name), static_cast<double>(lice), nullptr,
                std::make_shared<Runners>(std::move(*stepper), lice)};

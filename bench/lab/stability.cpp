@@ -55,7 +55,7 @@ struct Cell {
   double sub_steps = 0.0;     ///< a tick
 };
 
-bool is_finite(const physics::Louse& louse) {
+bool is_finite(const state::Louse& louse) {
   return std::isfinite(louse.position.x) && std::isfinite(louse.position.y) &&
          std::isfinite(louse.velocity.x) && std::isfinite(louse.velocity.y);
 }
@@ -66,7 +66,7 @@ double penetration(const terrain::Rectangle& walls, core::Vec2 p) {
 
 /// Runs one louse between elastic walls and fills the cell's results.
 core::Expected<void> run(Cell& cell, const EggCrate& crate, Integrator integrator, double seconds) {
-  const physics::Parameters parameters{kGravity, 0.0, cell.friction, 0.0, 1.0};
+  const state::Parameters parameters{kGravity, 0.0, cell.friction, 0.0, 1.0};
   const terrain::AnySurface& surface = crate.surface;
   const terrain::Rectangle walls = crate.walls;
   const auto stepper = physics::make_stepper(surface, physics::Equations::kSurface, integrator, parameters,
@@ -78,14 +78,14 @@ core::Expected<void> run(Cell& cell, const EggCrate& crate, Integrator integrato
                       walls.y_min + 0.46 * (walls.y_max - walls.y_min)};
   const core::Vec2 along{0.8, 0.6};
   const terrain::SurfaceSample s = sample_of(surface, at);
-  physics::Louse louse =
+  state::Louse louse =
       louse_at(at, (cell.speed / std::sqrt(physics::squared_length_in_space(s, along))) * along);
   const double floor = kGravity * crate.lowest;
   const double start = energy_of(s, louse.velocity, kGravity) - floor;
   double lowest = start;
   physics::StepCounters counters;
   const long ticks = std::lround(seconds * cell.rate);
-  for (long tick = 1; tick <= ticks && louse.phase != physics::Phase::kResting; ++tick) {
+  for (long tick = 1; tick <= ticks && louse.phase != state::Phase::kResting; ++tick) {
     (*stepper)->advance({&louse, 1}, counters);
     if (!is_finite(louse)) {
       cell.first_nan = static_cast<double>(tick) / cell.rate;

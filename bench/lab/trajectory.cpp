@@ -32,10 +32,10 @@ struct TrajectoryOptions {
   bool quick = false;
 };
 
-void print_row(double t, const terrain::AnySurface& surface, const physics::Louse& louse,
-               const physics::Parameters& parameters) {
+void print_row(double t, const terrain::AnySurface& surface, const state::Louse& louse,
+               const state::Parameters& parameters) {
   const core::Vec2 v = louse.velocity;
-  const bool flies = louse.phase == physics::Phase::kFlying;
+  const bool flies = louse.phase == state::Phase::kFlying;
   const terrain::SurfaceSample s = sample_of(surface, louse.position);
   const double z = flies ? louse.flight_z : s.z;
   double energy = flies ? 0.5 * (dot(v, v) + louse.flight_vz * louse.flight_vz) + parameters.gravity * z
@@ -49,16 +49,16 @@ void print_row(double t, const terrain::AnySurface& surface, const physics::Lous
 }
 
 /// What only the exact equations have, and what does not go together.
-core::Expected<physics::Parameters> parameters_of(const TrajectoryOptions& options,
-                                                  const physics::Louse& louse, physics::Equations equations) {
+core::Expected<state::Parameters> parameters_of(const TrajectoryOptions& options, const state::Louse& louse,
+                                                physics::Equations equations) {
   const auto contact = contact_named(options.contact);
   if (!contact) return tl::unexpected(contact.error());
   const double thrust_max =
-      louse.thrust_kind == physics::ThrustKind::kNone ? 0.0 : 1.0;  // without any, energy is kept
-  physics::Parameters parameters{options.gravity, options.drag, options.friction, thrust_max, 1.0};
+      louse.thrust_kind == state::ThrustKind::kNone ? 0.0 : 1.0;  // without any, energy is kept
+  state::Parameters parameters{options.gravity, options.drag, options.friction, thrust_max, 1.0};
   parameters.contact = *contact;
   parameters.central_gravity = options.central_gravity;
-  const bool flies = *contact == physics::SurfaceContact::kUnilateral;
+  const bool flies = *contact == state::SurfaceContact::kUnilateral;
   if (equations != physics::Equations::kSurface && (flies || options.central_gravity > 0.0)) {
     return core::fail("--equations", "the document's have neither flight nor central gravity",
                       "take --equations surface");
@@ -69,7 +69,7 @@ core::Expected<physics::Parameters> parameters_of(const TrajectoryOptions& optio
   return parameters;
 }
 
-core::Expected<physics::Louse> start_of(const TrajectoryOptions& options) {
+core::Expected<state::Louse> start_of(const TrajectoryOptions& options) {
   const auto state = numbers_of<4>(options.state);
   if (!state)
     return core::fail("--state", "\"" + options.state + "\" is not x,y,vx,vy",
@@ -78,7 +78,7 @@ core::Expected<physics::Louse> start_of(const TrajectoryOptions& options) {
   if (!thrust)
     return core::fail("--thrust", "\"" + options.thrust + "\" is not tx,ty",
                       "in m/s^2, for example --thrust 1.5,0");
-  physics::Louse louse = louse_at({(*state)[0], (*state)[1]}, {(*state)[2], (*state)[3]});
+  state::Louse louse = louse_at({(*state)[0], (*state)[1]}, {(*state)[2], (*state)[3]});
   push(louse, {(*thrust)[0], (*thrust)[1]});
   return louse;
 }

@@ -23,7 +23,7 @@ std::uint64_t digest_of_file(const Scenario& scenario) {
 }  // namespace
 
 core::Expected<GoldenRegister> GoldenRegister::read(const std::filesystem::path& file) {
-  const auto text = map::read_whole_file(file, kMaxBytes);
+  const auto text = core::read_whole_file(file, kMaxBytes);
   if (!text) return tl::unexpected(text.error());
   GoldenRegister result;
   std::istringstream lines(*text);

@@ -21,8 +21,8 @@ struct Event {
   std::uint64_t step = 0;
   Kind kind = Kind::kInput;
   match::PlayerId player = 0;
-  physics::Thrust thrust;                ///< of kInput
-  std::uint32_t ticks = physics::kHeld;  ///< of kInput: how long it acts
+  state::Thrust thrust;                ///< of kInput
+  std::uint32_t ticks = state::kHeld;  ///< of kInput: how long it acts
 };
 
 struct GoldenHash {

@@ -18,7 +18,7 @@
 namespace woodlouse::scenario {
 namespace {
 
-using map::Problems;
+using json::Problems;
 using MapPointer = std::shared_ptr<const map::Map>;
 
 constexpr std::size_t kMaxBytes = 16u << 20;
@@ -121,11 +121,11 @@ Scenario read_fields(const json::Value& root, const std::filesystem::path& file,
   constexpr std::uint64_t kAny = std::numeric_limits<std::uint64_t>::max();
   constexpr std::uint64_t kMaxBehavior = 1'000'000;
   Scenario scenario;
-  const map::Fields fields(
+  const json::Fields fields(
       root, {"about", "behavior", "map", "spawns", "tick_hz", "seed", "script", "hashes"}, problems);
-  if (const auto about = fields.find("about")) map::text_in(*about, 1, 1000, problems);
+  if (const auto about = fields.find("about")) json::text_in(*about, 1, 1000, problems);
   if (const auto behavior = fields.demand("behavior", "0 until --update sets it")) {
-    scenario.behavior = static_cast<int>(map::integer_in(*behavior, 0, kMaxBehavior, problems).value_or(0));
+    scenario.behavior = static_cast<int>(json::integer_in(*behavior, 0, kMaxBehavior, problems).value_or(0));
     if (!behavior->is(json::Kind::kString)) scenario.behavior_place = place_of(*behavior, text);
   }
   if (const auto map = fields.demand("map")) {
@@ -136,10 +136,10 @@ Scenario read_fields(const json::Value& root, const std::filesystem::path& file,
   }
   if (const auto hz = fields.find("tick_hz")) {
     scenario.settings.tick_hz =
-        static_cast<std::uint32_t>(map::integer_in(*hz, 1, 1000, problems).value_or(60));
+        static_cast<std::uint32_t>(json::integer_in(*hz, 1, 1000, problems).value_or(60));
   }
   if (const auto seed = fields.find("seed")) {
-    scenario.settings.seed = map::integer_in(*seed, 0, kAny, problems).value_or(0);
+    scenario.settings.seed = json::integer_in(*seed, 0, kAny, problems).value_or(0);
   }
   const auto script = fields.demand("script");
   if (const auto hashes = fields.demand("hashes", "\"hashes\": {\"60\": null}, and --update fills them in")) {
@@ -156,7 +156,7 @@ Scenario read_fields(const json::Value& root, const std::filesystem::path& file,
 }  // namespace
 
 ReadScenario read_scenario(const std::filesystem::path& file, const std::filesystem::path& maps) {
-  auto text = map::read_whole_file(file, kMaxBytes);
+  auto text = core::read_whole_file(file, kMaxBytes);
   if (!text) return {std::nullopt, {text.error()}};
   Problems problems(file.string());
   const auto document = json::parse_file(*text, file.string(), {});

@@ -13,7 +13,7 @@
 namespace woodlouse::scenario {
 namespace {
 
-using map::Problems;
+using json::Problems;
 
 constexpr std::string_view kPlayerWants = "a player's number, a list of them, or \"all\"";
 constexpr std::string_view kThrustWants =
@@ -37,8 +37,8 @@ struct Rule {
   Whom whom = Whom::kListed;
   std::vector<match::PlayerId> players;
   ThrustChoice choice = ThrustChoice::kGiven;
-  physics::Thrust thrust;
-  std::uint32_t ticks = physics::kHeld;
+  state::Thrust thrust;
+  std::uint32_t ticks = state::kHeld;
 };
 
 void read_players(const json::Value& value, Rule& rule, Problems& problems) {
@@ -51,30 +51,30 @@ void read_players(const json::Value& value, Rule& rule, Problems& problems) {
   for (const json::Value& number : numbers) {
     if (!number.is(json::Kind::kInteger))
       return problems.add(number, "names no player", std::string(kPlayerWants));
-    const auto player = map::integer_in(number, 1, kMaxLice, problems);
+    const auto player = json::integer_in(number, 1, kMaxLice, problems);
     if (player) rule.players.push_back(static_cast<match::PlayerId>(*player));
   }
 }
 
 void read_thrust(const json::Value& value, Rule& rule, Problems& problems) {
-  constexpr map::Range kUnit{-1.0, 1.0, {}};
+  constexpr json::Range kUnit{-1.0, 1.0, {}};
   if (value.is(json::Kind::kNull)) return;
   if (value.is(json::Kind::kString) && value.text() == "random") {
     rule.choice = ThrustChoice::kRandom;
   } else if (value.is_number()) {
-    const auto along = map::number_in(value, kUnit, problems);
-    rule.thrust = {physics::ThrustKind::kAlongHeading, {along.value_or(0.0), 0.0}};
+    const auto along = json::number_in(value, kUnit, problems);
+    rule.thrust = {state::ThrustKind::kAlongHeading, {along.value_or(0.0), 0.0}};
   } else if (value.is(json::Kind::kArray)) {
-    const auto pair = map::pair_in(value, kUnit, problems);
+    const auto pair = json::pair_in(value, kUnit, problems);
     if (pair && core::dot(*pair, *pair) > 1.0)
       problems.add(value, "is longer than 1", std::string(kThrustWants));
-    rule.thrust = {physics::ThrustKind::kMapVector, pair.value_or(core::Vec2{})};
+    rule.thrust = {state::ThrustKind::kMapVector, pair.value_or(core::Vec2{})};
   } else {
     problems.add(value, "is no thrust", std::string(kThrustWants));
   }
 }
 
-void read_action(const json::Value& value, const map::Fields& fields, Rule& rule, Problems& problems) {
+void read_action(const json::Value& value, const json::Fields& fields, Rule& rule, Problems& problems) {
   constexpr std::pair<std::string_view, Event::Kind> kActions[] = {{"join", Event::Kind::kJoin},
                                                                    {"leave", Event::Kind::kLeave},
                                                                    {"respawn", Event::Kind::kRespawn},
@@ -86,7 +86,7 @@ void read_action(const json::Value& value, const map::Fields& fields, Rule& rule
     ++found;
     rule.kind = kind;
     if (kind == Event::Kind::kJoin) {
-      rule.joins = map::integer_in(*action, 1, kMaxLice, problems).value_or(0);
+      rule.joins = json::integer_in(*action, 1, kMaxLice, problems).value_or(0);
     } else {
       read_players(*action, rule, problems);
     }
@@ -100,24 +100,24 @@ void read_action(const json::Value& value, const map::Fields& fields, Rule& rule
   if (!is_input) return;
   if (const auto thrust = fields.demand("thrust", kThrustWants)) read_thrust(*thrust, rule, problems);
   if (const auto ticks = fields.find("ticks")) {
-    rule.ticks = static_cast<std::uint32_t>(map::integer_in(*ticks, 1, kMaxTicks, problems).value_or(1));
+    rule.ticks = static_cast<std::uint32_t>(json::integer_in(*ticks, 1, kMaxTicks, problems).value_or(1));
   }
 }
 
 Rule read_rule(const json::Value& value, std::uint64_t last_tick, Problems& problems) {
   Rule rule(value);
-  const map::Fields fields(
+  const json::Fields fields(
       value, {"at", "every", "until", "join", "leave", "respawn", "player", "thrust", "ticks"}, problems);
   const std::uint64_t last_step = last_tick - 1;
   if (const auto at = fields.demand("at", "the step before which it happens")) {
-    rule.at = map::integer_in(*at, 0, last_step, problems).value_or(0);
+    rule.at = json::integer_in(*at, 0, last_step, problems).value_or(0);
   }
   rule.until = last_step;
   if (const auto every = fields.find("every")) {
-    rule.every = map::integer_in(*every, 1, kMaxTicks, problems).value_or(1);
+    rule.every = json::integer_in(*every, 1, kMaxTicks, problems).value_or(1);
   }
   if (const auto until = fields.find("until")) {
-    rule.until = map::integer_in(*until, rule.at, last_step, problems).value_or(rule.at);
+    rule.until = json::integer_in(*until, rule.at, last_step, problems).value_or(rule.at);
     if (rule.every == 0) problems.add(*until, "repeats nothing", "\"every\" says after how many steps");
   }
   read_action(value, fields, rule, problems);
@@ -178,11 +178,11 @@ class Layout {
   }
 
   /// Half of them along the heading, half map vectors, in the wire's quanta of 1/128.
-  physics::Thrust random_thrust() {
+  state::Thrust random_thrust() {
     const auto quanta = [this] { return (static_cast<double>(random_.next() % 257) - 128.0) * 0x1p-7; };
     const double first = quanta();
-    if (random_.next() % 2 == 0) return {physics::ThrustKind::kAlongHeading, {first, 0.0}};
-    return {physics::ThrustKind::kMapVector, {0.5 * first, 0.5 * quanta()}};
+    if (random_.next() % 2 == 0) return {state::ThrustKind::kAlongHeading, {first, 0.0}};
+    return {state::ThrustKind::kMapVector, {0.5 * first, 0.5 * quanta()}};
   }
 
   void count_input(const Rule& rule, std::uint64_t step, match::PlayerId player) {

@@ -18,6 +18,6 @@ inline constexpr std::size_t kMaxEvents = 1'000'000;   ///< of one scenario
 /// The events of steps before `last_tick`. `seed` draws the random thrusts. Reports what is wrong with a
 /// rule, a player who is not there, and what comes after the last tick.
 std::vector<Event> read_script(const json::Value& script, std::uint64_t last_tick, std::uint64_t seed,
-                               map::Problems& problems);
+                               json::Problems& problems);
 
 }  // namespace woodlouse::scenario

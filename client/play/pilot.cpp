@@ -9,8 +9,8 @@ namespace {
 constexpr std::chrono::milliseconds kAskAgain{200};
 
 /// The order the louse's own state describes: repeating it asks for an ack and changes nothing.
-ThrustOrder order_in_force(const physics::Louse* louse) {
-  if (louse == nullptr || louse->thrust_ticks == 0) return {{physics::ThrustKind::kMapVector, {}}, 1};
+ThrustOrder order_in_force(const state::Louse* louse) {
+  if (louse == nullptr || louse->thrust_ticks == 0) return {{state::ThrustKind::kMapVector, {}}, 1};
   return {{louse->thrust_kind, louse->thrust}, louse->thrust_ticks};
 }
 
@@ -25,7 +25,7 @@ void Lead::observe(const protocol::Ack& ack) {
   margin_ = std::clamp(margin_ - 0.1 * std::clamp(early - kTarget, -1.0, 1.0), kSmallest, kLargest);
 }
 
-Pilot::Pilot(std::shared_ptr<const terrain::Terrain> terrain, const physics::Parameters& parameters,
+Pilot::Pilot(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters,
              std::uint32_t tick_hz, std::uint32_t id)
     : id_(id), steering_(tick_hz), lead_(tick_hz) {
   if (terrain != nullptr) ways_ = {terrain->domain(), parameters.edges};
@@ -35,9 +35,9 @@ Pilot::Pilot(std::shared_ptr<const terrain::Terrain> terrain, const physics::Par
 protocol::Input Pilot::order(std::uint64_t tick, const ThrustOrder& wanted) {
   protocol::Input input;
   input.seq = ++seq_;
-  input.is_pair = wanted.thrust.kind == physics::ThrustKind::kMapVector;
+  input.is_pair = wanted.thrust.kind == state::ThrustKind::kMapVector;
   input.thrust = wanted.thrust.value;
-  if (wanted.ticks != physics::kHeld) input.ticks = wanted.ticks;
+  if (wanted.ticks != state::kHeld) input.ticks = wanted.ticks;
   input.tick = tick;
   if (prediction_) prediction_->sent(input.seq, tick, wanted);
   last_tick_ = tick;
@@ -48,7 +48,7 @@ std::optional<protocol::Input> Pilot::update(TimePoint now, ServerClock& clock, 
   if (!clock.running()) return std::nullopt;
   ahead_ = std::max(ahead_, clock.tick(now) + lead_.ticks(rtt_seconds));
   auto next = static_cast<std::uint64_t>(std::max(0.0, ahead_));
-  const physics::Louse* louse = nullptr;
+  const state::Louse* louse = nullptr;
   if (prediction_) {
     prediction_->advance(next);
     next = std::max(next, prediction_->tick());
@@ -103,7 +103,7 @@ void Pilot::fade(TimePoint now) {
 }
 
 std::optional<LouseSample> Pilot::sample() const {
-  const physics::Louse* louse = prediction_ ? prediction_->louse() : nullptr;
+  const state::Louse* louse = prediction_ ? prediction_->louse() : nullptr;
   if (louse == nullptr) return std::nullopt;
   const double part = std::clamp(ahead_ - static_cast<double>(prediction_->tick()), 0.0, 1.0);
   LouseSample result;

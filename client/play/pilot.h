@@ -43,7 +43,7 @@ class Lead {
 class Pilot {
  public:
   /// terrain: the one that is played on; null where it is not known exactly: nothing is predicted.
-  Pilot(std::shared_ptr<const terrain::Terrain> terrain, const physics::Parameters& parameters,
+  Pilot(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters,
         std::uint32_t tick_hz, std::uint32_t id);
 
   /// Runs the prediction on to now and says what to send, at most one input a tick.

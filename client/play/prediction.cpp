@@ -7,10 +7,10 @@
 namespace woodlouse::client {
 namespace {
 
-physics::Louse louse_of(const protocol::ExactState& state) {
-  physics::Louse louse;
+state::Louse louse_of(const protocol::ExactState& state) {
+  state::Louse louse;
   louse.id = state.id;
-  louse.phase = static_cast<physics::Phase>(state.phase);
+  louse.phase = static_cast<state::Phase>(state.phase);
   louse.flight_z = state.flight_z;
   louse.flight_vz = state.flight_vz;
   louse.position = state.position;
@@ -18,14 +18,14 @@ physics::Louse louse_of(const protocol::ExactState& state) {
   louse.heading = state.heading;
   louse.thrust = state.thrust;
   louse.distance = state.distance;
-  louse.thrust_kind = static_cast<physics::ThrustKind>(state.thrust_kind);
+  louse.thrust_kind = static_cast<state::ThrustKind>(state.thrust_kind);
   louse.thrust_ticks = state.thrust_ticks;
   return louse;
 }
 
 }  // namespace
 
-Prediction::Prediction(std::shared_ptr<const terrain::Terrain> terrain, const physics::Parameters& parameters,
+Prediction::Prediction(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters,
                        std::uint32_t tick_hz)
     : ways_(terrain->domain(), parameters.edges), world_(std::move(terrain), parameters, 1.0 / tick_hz) {}
 
@@ -85,7 +85,7 @@ void Prediction::forget() {
   correction_ = {};
 }
 
-const physics::Louse* Prediction::louse() const { return id_ ? world_.find(*id_) : nullptr; }
+const state::Louse* Prediction::louse() const { return id_ ? world_.find(*id_) : nullptr; }
 
 std::optional<core::Vec2> Prediction::position_at(std::uint64_t tick) const {
   if (history_.empty() || tick < history_.front().tick || tick > history_.back().tick) return std::nullopt;

@@ -24,7 +24,7 @@ class Prediction {
       600;  ///< further than this from the base nothing is run: start anew
   static constexpr std::size_t kHistory = 256;  ///< ticks whose positions are remembered
 
-  Prediction(std::shared_ptr<const terrain::Terrain> terrain, const physics::Parameters& parameters,
+  Prediction(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters,
              std::uint32_t tick_hz);
 
   /// An input was sent, asking for step `tick`. REQUIRES seq and tick above those before.
@@ -37,7 +37,7 @@ class Prediction {
   void forget();
 
   /// The louse before step tick(); null before the first ack.
-  [[nodiscard]] const physics::Louse* louse() const;
+  [[nodiscard]] const state::Louse* louse() const;
   [[nodiscard]] std::uint64_t tick() const { return tick_; }
   [[nodiscard]] std::size_t pending() const { return pending_.size(); }
   [[nodiscard]] double step_seconds() const { return world_.step_seconds(); }
@@ -62,7 +62,7 @@ class Prediction {
 
   Ways ways_;
   physics::World world_;
-  std::optional<physics::LouseId> id_;
+  std::optional<state::LouseId> id_;
   std::uint64_t tick_ = 0;
   std::deque<Pending> pending_;
   std::deque<Past> history_;  ///< ascending, without holes

@@ -15,8 +15,8 @@ class Ways {
  public:
   /// Of a map that ends at its rim: straight ones.
   Ways() = default;
-  Ways(const terrain::Rectangle& domain, physics::Edges edges) {
-    if (edges != physics::Edges::kWrap) return;
+  Ways(const terrain::Rectangle& domain, state::Edges edges) {
+    if (edges != state::Edges::kWrap) return;
     rim_.emplace(domain, edges);
     period_ = {domain.x_max - domain.x_min, domain.y_max - domain.y_min};
   }

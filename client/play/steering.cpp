@@ -80,9 +80,9 @@ bool Steering::pushing(TimePoint now) const {
   return !braking(now) && (cruise_ || push_held_ || now < push_until_);
 }
 
-physics::Thrust Steering::wanted(TimePoint now) const {
-  if (braking(now)) return {physics::ThrustKind::kAlongHeading, {-1.0, 0.0}};
-  if (pushing(now)) return {physics::ThrustKind::kMapVector, wire_vector(heading())};
+state::Thrust Steering::wanted(TimePoint now) const {
+  if (braking(now)) return {state::ThrustKind::kAlongHeading, {-1.0, 0.0}};
+  if (pushing(now)) return {state::ThrustKind::kMapVector, wire_vector(heading())};
   return {};
 }
 
@@ -96,12 +96,12 @@ double Steering::seconds_left(TimePoint now) const {
 }
 
 std::optional<ThrustOrder> Steering::poll(TimePoint now) {
-  const physics::Thrust want = wanted(now);
-  if (want.kind == physics::ThrustKind::kNone) {
+  const state::Thrust want = wanted(now);
+  if (want.kind == state::ThrustKind::kNone) {
     if (sent_until_ <= now) return std::nullopt;  // what was sent has ended, or is about to, by itself
     sent_until_ = kPast;
     sent_ = {};
-    return ThrustOrder{{physics::ThrustKind::kMapVector, {0.0, 0.0}}, 1};
+    return ThrustOrder{{state::ThrustKind::kMapVector, {0.0, 0.0}}, 1};
   }
   const TimePoint until = wanted_until(now);
   const bool same = want == sent_ && sent_until_ > now;

@@ -20,7 +20,7 @@ enum class Turn : std::uint8_t { kLeft, kRight };
 
 /// What one input message asks for.
 struct ThrustOrder {
-  physics::Thrust thrust;
+  state::Thrust thrust;
   std::uint32_t ticks = 0;  ///< how long it acts, >= 1
   friend bool operator==(const ThrustOrder&, const ThrustOrder&) = default;
 };
@@ -60,7 +60,7 @@ class Steering {
   [[nodiscard]] double seconds_left(TimePoint now) const;
 
  private:
-  [[nodiscard]] physics::Thrust wanted(TimePoint now) const;
+  [[nodiscard]] state::Thrust wanted(TimePoint now) const;
   [[nodiscard]] TimePoint wanted_until(TimePoint now) const;
 
   std::uint32_t tick_hz_;
@@ -71,7 +71,7 @@ class Steering {
   bool brake_held_ = false;
   TimePoint push_until_{};
   TimePoint brake_until_{};
-  physics::Thrust sent_;  ///< what the server was last told
+  state::Thrust sent_;  ///< what the server was last told
   TimePoint sent_until_{};
 };
 

@@ -25,11 +25,11 @@ EventSign sign_of(replay::MarkKind kind) {
 std::uint64_t shown_at(const replay::Mark& mark) { return mark.tick + 1; }
 
 /// The thrust that acts, as the panel of the game shows it.
-void fill_thrust_numbers(const physics::Louse& louse, double tick_hz, HudNumbers& hud) {
-  if (louse.thrust_kind == physics::ThrustKind::kNone) return;
-  const bool is_along = louse.thrust_kind == physics::ThrustKind::kAlongHeading;
+void fill_thrust_numbers(const state::Louse& louse, double tick_hz, HudNumbers& hud) {
+  if (louse.thrust_kind == state::ThrustKind::kNone) return;
+  const bool is_along = louse.thrust_kind == state::ThrustKind::kAlongHeading;
   hud.thrust = is_along ? louse.thrust.x : std::hypot(louse.thrust.x, louse.thrust.y);
-  hud.cruise = louse.thrust_ticks == physics::kHeld && hud.thrust != 0.0;
+  hud.cruise = louse.thrust_ticks == state::kHeld && hud.thrust != 0.0;
   if (!hud.cruise) hud.push_seconds = louse.thrust_ticks / tick_hz;
 }
 
@@ -136,7 +136,7 @@ Scene Screening::scene(const FrameFacts& facts) const {
                                                             : Mode::kPlay;
   scene.spectating = true;
   fill_louse_numbers(recording_.sight(), scene.follow_id, scene);
-  if (const physics::Louse* louse = recording_.louse(scene.follow_id))
+  if (const state::Louse* louse = recording_.louse(scene.follow_id))
     fill_thrust_numbers(*louse, recording_.archive().header().tick_hz, scene.hud);
   scene.chat = recording_.chat();
   scene.replay = bar();

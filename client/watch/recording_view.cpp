@@ -73,13 +73,13 @@ void RecordingView::prove(TimePoint deadline) {
 void RecordingView::extend_trails() {
   const terrain::Rectangle& domain = archive_->map()->terrain->domain();
   const double spacing = std::max(domain.x_max - domain.x_min, 1.0) / kTrailSpacings;
-  for (const physics::Louse& louse : playback_->match().world().lice())
+  for (const state::Louse& louse : playback_->match().world().lice())
     trails_.try_emplace(louse.id, spacing).first->second.add(louse.position);
 }
 
 void RecordingView::take_lice() {
   lice_.clear();
-  for (const physics::Louse& louse : playback_->match().world().lice()) {
+  for (const state::Louse& louse : playback_->match().world().lice()) {
     const auto label = labels_.find(louse.id);
     const replay::PlayerLabel* known = label == labels_.end() ? nullptr : &label->second;
     lice_[louse.id] = {{louse.position, louse.velocity, louse.heading, louse.distance},

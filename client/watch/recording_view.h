@@ -35,7 +35,7 @@ class RecordingView {
   [[nodiscard]] std::uint64_t tick() const { return playback_->tick(); }
   [[nodiscard]] Sight sight() const { return {archive_->map().get(), lice_, trails_, nullptr}; }
   /// The exact louse; null when it is not there.
-  [[nodiscard]] const physics::Louse* louse(std::uint32_t id) const {
+  [[nodiscard]] const state::Louse* louse(std::uint32_t id) const {
     return playback_->match().world().find(id);
   }
   /// The newest lines up to tick().

@@ -10,9 +10,7 @@
 namespace woodlouse::server {
 namespace {
 
-bool same_bytes(const physics::Louse& a, const physics::Louse& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
-}
+bool same_bytes(const state::Louse& a, const state::Louse& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 }  // namespace
 
@@ -26,7 +24,7 @@ Frame FrameEncoder::key(const Scene& scene) {
   json::append_integer(text, scene.tick);
   text += R"(,"louse":[)";
   key_rows_.clear();
-  for (const physics::Louse& louse : scene.lice) {
+  for (const state::Louse& louse : scene.lice) {
     if (!key_rows_.empty()) text += ',';
     const std::size_t begin = text.size();
     rows_.append(text, louse, scene.terrain);
@@ -57,7 +55,7 @@ Frame FrameEncoder::delta(const Scene& scene) {
     ++known;
   };
   bool first = true;
-  for (const physics::Louse& louse : scene.lice) {
+  for (const state::Louse& louse : scene.lice) {
     while (known != key_rows_.cend() && known->louse.id < louse.id) report_gone();
     const bool is_known = known != key_rows_.cend() && known->louse.id == louse.id;
     if (is_known && same_bytes(known->louse, louse)) {

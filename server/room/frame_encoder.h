@@ -24,11 +24,11 @@ namespace woodlouse::server {
 /// What there is to see at one tick.
 struct Scene {
   std::uint64_t tick = 0;
-  std::uint64_t index = 0;               ///< of the frame (frame.h)
-  std::span<const physics::Louse> lice;  ///< ascending id
+  std::uint64_t index = 0;             ///< of the frame (frame.h)
+  std::span<const state::Louse> lice;  ///< ascending id
   const terrain::Terrain& terrain;
   std::uint64_t hash = 0;  ///< of the state at `tick`
-  physics::HashLink link;  ///< what went into the hash besides the lice
+  state::HashLink link;    ///< what went into the hash besides the lice
 };
 
 class FrameEncoder {
@@ -42,7 +42,7 @@ class FrameEncoder {
 
  private:
   struct KeyRow {
-    physics::Louse louse;
+    state::Louse louse;
     std::size_t begin = 0;  ///< of its text in key_text_
     std::size_t end = 0;
   };

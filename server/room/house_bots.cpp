@@ -35,13 +35,13 @@ Vec2 drive(const View& view, Vec2 wanted) {
 }
 
 /// Cut to length 1 and to the wire's steps; towards zero, so that rounding never lengthens it.
-physics::Thrust as_thrust(Vec2 push) {
+state::Thrust as_thrust(Vec2 push) {
   const double size = length(push);
   if (size > 1.0) push = (1.0 / size) * push;
   const auto step = [](double v) {
     return std::trunc(v / protocol::kThrustQuantum) * protocol::kThrustQuantum;
   };
-  return {physics::ThrustKind::kMapVector, {step(push.x), step(push.y)}};
+  return {state::ThrustKind::kMapVector, {step(push.x), step(push.y)}};
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ HouseBot::HouseBot(std::uint32_t number, std::uint64_t seed)
   if (number >= kNames.size()) name_ += ' ' + std::to_string(number / kNames.size() + 1);
 }
 
-physics::Thrust HouseBot::decide(const View& view) {
+state::Thrust HouseBot::decide(const View& view) {
   stuck_ = length(view.louse.velocity) < kSlow ? stuck_ + 1 : 0;
   if (kick_left_ > 0) {
     --kick_left_;

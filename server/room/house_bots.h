@@ -23,9 +23,9 @@ enum class Character : std::uint8_t {
 
 /// What a bot sees.
 struct View {
-  const physics::Louse& louse;
+  const state::Louse& louse;
   const terrain::Terrain& terrain;
-  const physics::Parameters& parameters;
+  const state::Parameters& parameters;
 };
 
 class HouseBot {
@@ -39,7 +39,7 @@ class HouseBot {
   [[nodiscard]] Character character() const { return character_; }
 
   /// The thrust until the next decision: a map vector of length at most 1, in multiples of 1/128.
-  physics::Thrust decide(const View& view);
+  state::Thrust decide(const View& view);
 
  private:
   core::Vec2 roll(const View& view);

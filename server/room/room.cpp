@@ -185,11 +185,11 @@ void Room::steer_house_bots() {
   for (HouseMember& member : roster_.house) {
     // Spread over the period, so that no tick pays for all of them.
     if ((match_.tick() + member.louse) % period != 0) continue;
-    const physics::Louse* louse = match_.world().find(member.louse);
+    const state::Louse* louse = match_.world().find(member.louse);
     if (!louse) continue;
     const auto& world = match_.world();
-    const physics::Thrust thrust = member.bot.decide({*louse, world.terrain(), world.parameters()});
-    match_.file({member.louse, ++member.seq, thrust, physics::kHeld, 0});
+    const state::Thrust thrust = member.bot.decide({*louse, world.terrain(), world.parameters()});
+    match_.file({member.louse, ++member.seq, thrust, state::kHeld, 0});
   }
 }
 
@@ -215,7 +215,7 @@ void Room::send_acks(std::uint64_t tick, Time begun, const std::vector<PendingAc
     ack.margin_us = std::chrono::duration_cast<std::chrono::microseconds>(begun - pending.arrived).count();
     ack.late = pending.late;
     ack.clamped = pending.clamped;
-    if (const physics::Louse* louse = match_.world().find(pending.player))
+    if (const state::Louse* louse = match_.world().find(pending.player))
       ack.you = protocol::ExactState{match_.tick(),
                                      louse->id,
                                      louse->position,

@@ -26,8 +26,8 @@ std::uint32_t granted_state_hz(std::optional<std::uint32_t> wanted, std::uint32_
   return hz;
 }
 
-physics::Thrust thrust_of(const protocol::Input& input) {
-  return {input.is_pair ? physics::ThrustKind::kMapVector : physics::ThrustKind::kAlongHeading, input.thrust};
+state::Thrust thrust_of(const protocol::Input& input) {
+  return {input.is_pair ? state::ThrustKind::kMapVector : state::ThrustKind::kAlongHeading, input.thrust};
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ protocol::Welcome Room::welcome_for(const Member& member, const protocol::Join& 
                                     std::uint32_t state_hz) const {
   const map::Map& map = match_.map();
   const terrain::Rectangle& domain = map.terrain->domain();
-  const physics::Parameters& physics = map.definition.physics;
+  const state::Parameters& physics = map.definition.physics;
   protocol::Welcome welcome;
   welcome.id = member.louse;
   welcome.room = settings_.name;
@@ -132,7 +132,7 @@ void Room::remove(SessionId session) {
 void Room::on_message(SessionId session, Member& member, const protocol::Input& input, Time arrived) {
   const std::uint32_t seq = member.first_seq + input.seq;
   const match::Filed filed = match_.file(
-      {member.louse, seq, thrust_of(input), input.ticks.value_or(physics::kHeld), input.tick.value_or(0)});
+      {member.louse, seq, thrust_of(input), input.ticks.value_or(state::kHeld), input.tick.value_or(0)});
   if (filed.outcome != match::Filed::Outcome::kFiled) return drop_input(member, input, filed);
   const std::uint64_t ticks_late = filed.late ? filed.tick - input.tick.value_or(filed.tick) : 0;
   acks_.add(filed.tick, {session, member.louse, seq, arrived, filed.late, input.clamped, ticks_late});

@@ -24,7 +24,7 @@ struct Ground {
   physics::Attitude attitude;
 };
 
-double value(Column column, const physics::Louse& louse, const Ground& ground) {
+double value(Column column, const state::Louse& louse, const Ground& ground) {
   switch (column) {
     case Column::kId:
       return louse.id;
@@ -37,7 +37,7 @@ double value(Column column, const physics::Louse& louse, const Ground& ground) {
     case Column::kVy:
       return louse.velocity.y;
     case Column::kZ:
-      return louse.phase == physics::Phase::kFlying ? louse.flight_z : ground.sample.z;
+      return louse.phase == state::Phase::kFlying ? louse.flight_z : ground.sample.z;
     case Column::kHeadingX:
       return louse.heading.x;
     case Column::kHeadingY:
@@ -49,7 +49,7 @@ double value(Column column, const physics::Louse& louse, const Ground& ground) {
     case Column::kRoll:
       return ground.attitude.roll;
     case Column::kSpeed: {
-      const double vz = louse.phase == physics::Phase::kFlying
+      const double vz = louse.phase == state::Phase::kFlying
                             ? louse.flight_vz
                             : ground.sample.zx * louse.velocity.x + ground.sample.zy * louse.velocity.y;
       return std::sqrt(core::dot(louse.velocity, louse.velocity) + vz * vz);
@@ -81,7 +81,7 @@ RowWriter::RowWriter(RowLayout layout) : layout_(std::move(layout)) {
   needs_ground_ = std::any_of(layout_.fields.begin(), layout_.fields.end(), is_of_the_ground);
 }
 
-void RowWriter::append(std::string& out, const physics::Louse& louse, const terrain::Terrain& terrain) const {
+void RowWriter::append(std::string& out, const state::Louse& louse, const terrain::Terrain& terrain) const {
   Ground ground;
   if (needs_ground_) {
     ground.sample = terrain.sample(louse.position.x, louse.position.y);

@@ -25,7 +25,7 @@ class RowWriter {
   /// REQUIRES at least one field, all of them distinct.
   explicit RowWriter(RowLayout layout);
 
-  void append(std::string& out, const physics::Louse& louse, const terrain::Terrain& terrain) const;
+  void append(std::string& out, const state::Louse& louse, const terrain::Terrain& terrain) const;
   [[nodiscard]] const RowLayout& layout() const { return layout_; }
 
  private:

@@ -19,7 +19,7 @@ std::unique_ptr<GroundAhead> GroundAhead::make(const map::Map& map, boost::asio:
   return ahead;
 }
 
-GroundAhead::GroundAhead(const terrain::TiledGround& ground, const physics::Parameters& physics,
+GroundAhead::GroundAhead(const terrain::TiledGround& ground, const state::Parameters& physics,
                          boost::asio::thread_pool& worker)
     : worker_(worker),
       shared_(std::make_shared<Shared>(ground)),
@@ -27,13 +27,13 @@ GroundAhead::GroundAhead(const terrain::TiledGround& ground, const physics::Para
 
 GroundAhead::~GroundAhead() { shared_->stopping = true; }
 
-void GroundAhead::look(std::span<const physics::Louse> lice) {
+void GroundAhead::look(std::span<const state::Louse> lice) {
   turn_ = (turn_ + 1) % kTurns;
   if (shared_->at_work) return;
   const double farthest = static_cast<double>(terrain::BSplineTile::kCells) * shared_->ground.cell();
   for (std::size_t i = turn_; i < lice.size(); i += kTurns) {
-    const physics::Louse& louse = lice[i];
-    if (louse.phase == physics::Phase::kResting) continue;
+    const state::Louse& louse = lice[i];
+    if (louse.phase == state::Phase::kResting) continue;
     const double reach =
         kAheadSeconds * (std::sqrt(dot(louse.velocity, louse.velocity)) + 0.5 * kAheadSeconds * push_);
     add_around(louse.position, std::min(reach, farthest));

@@ -38,7 +38,7 @@ class GroundAhead {
   GroundAhead& operator=(const GroundAhead&) = delete;
 
   /// After a tick.
-  void look(std::span<const physics::Louse> lice);
+  void look(std::span<const state::Louse> lice);
   [[nodiscard]] GroundMetrics metrics() const;
 
  private:
@@ -50,7 +50,7 @@ class GroundAhead {
     std::atomic<bool> stopping{false};
   };
 
-  GroundAhead(const terrain::TiledGround& ground, const physics::Parameters& physics,
+  GroundAhead(const terrain::TiledGround& ground, const state::Parameters& physics,
               boost::asio::thread_pool& worker);
   void add_around(core::Vec2 place, double reach);
   void build();

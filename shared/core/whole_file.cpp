@@ -7,18 +7,18 @@
 
 #include "shared/core/joined.h"
 
-namespace woodlouse::map {
+namespace woodlouse::core {
 
-core::Expected<std::string> read_whole_file(const std::filesystem::path& file, std::size_t max_bytes) {
+Expected<std::string> read_whole_file(const std::filesystem::path& file, std::size_t max_bytes) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) {
-    return core::fail(file.string(), "no such file", "check the path, and the folder it starts from");
+    return fail(file.string(), "no such file", "check the path, and the folder it starts from");
   }
-  if (std::filesystem::is_directory(status)) return core::fail(file.string(), "is a folder, not a file");
+  if (std::filesystem::is_directory(status)) return fail(file.string(), "is a folder, not a file");
 
   std::ifstream in(file, std::ios::binary);
-  if (!in) return core::fail(file.string(), std::string("can't be opened: ") + std::strerror(errno));
+  if (!in) return fail(file.string(), std::string("can't be opened: ") + std::strerror(errno));
   // Read rather than trust a size: a pipe has none.
   std::string bytes;
   constexpr std::size_t kChunk = 1u << 16;
@@ -28,11 +28,11 @@ core::Expected<std::string> read_whole_file(const std::filesystem::path& file, s
     in.read(bytes.data() + before, kChunk);
     bytes.resize(before + static_cast<std::size_t>(in.gcount()));
   }
-  if (in.bad()) return core::fail(file.string(), "can't be read to its end");
+  if (in.bad()) return fail(file.string(), "can't be read to its end");
   if (bytes.size() > max_bytes) {
-    return core::fail(file.string(), core::joined({"longer than ", std::to_string(max_bytes >> 20), " MiB"}));
+    return fail(file.string(), joined({"longer than ", std::to_string(max_bytes >> 20), " MiB"}));
   }
   return bytes;
 }
 
-}  // namespace woodlouse::map
+}  // namespace woodlouse::core

@@ -7,9 +7,9 @@
 
 #include "shared/core/error.h"
 
-namespace woodlouse::map {
+namespace woodlouse::core {
 
 /// The whole file. Errors: it can't be opened or read, it is no regular file, it is longer than max_bytes.
-core::Expected<std::string> read_whole_file(const std::filesystem::path& file, std::size_t max_bytes);
+Expected<std::string> read_whole_file(const std::filesystem::path& file, std::size_t max_bytes);
 
-}  // namespace woodlouse::map
+}  // namespace woodlouse::core

@@ -22,7 +22,7 @@ struct DocumentEquations {
 
   template <typename F>
   static core::Vec2 acceleration(const terrain::SlopeSample& s, core::Vec2 v, const Drive& drive,
-                                 const Parameters& p) {
+                                 const state::Parameters& p) {
     const double zx2 = s.zx * s.zx;
     const double zy2 = s.zy * s.zy;
     const double zxy = s.zx * s.zy;

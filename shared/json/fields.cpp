@@ -7,7 +7,7 @@
 #include "shared/core/joined.h"
 #include "shared/json/text.h"
 
-namespace woodlouse::map {
+namespace woodlouse::json {
 namespace {
 
 /// Insertions, deletions and replacements between two words.
@@ -25,7 +25,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-std::string expected(std::string_view wanted, const json::Value& value) {
+std::string expected(std::string_view wanted, const Value& value) {
   return core::joined({wanted, " is wanted, not ", to_text(value.kind())});
 }
 
@@ -38,7 +38,7 @@ void Problems::add(std::size_t line, std::string_view field, std::string what, s
   add(core::Error{std::move(where), std::move(what), std::move(hint)});
 }
 
-void Problems::add(const json::Value& value, std::string what, std::string hint) {
+void Problems::add(const Value& value, std::string what, std::string hint) {
   if (is_full()) return;  // a line and a path cost a walk through the text
   add(value.line(), value.path(), std::move(what), std::move(hint));
 }
@@ -48,7 +48,7 @@ void Problems::add(core::Error error) {
   errors_.push_back(std::move(error));
 }
 
-std::optional<double> number_in(const json::Value& value, const Range& range, Problems& problems) {
+std::optional<double> number_in(const Value& value, const Range& range, Problems& problems) {
   if (!value.is_number()) {
     problems.add(value, expected("a number", value));
     return std::nullopt;
@@ -56,14 +56,14 @@ std::optional<double> number_in(const json::Value& value, const Range& range, Pr
   const double number = value.number();
   if (number >= range.min && number <= range.max) return number;
   const std::string unit = range.unit.empty() ? std::string() : core::joined({" ", range.unit});
-  problems.add(value, core::joined({json::double_text(number), unit, " is out of range"}),
-               core::joined({json::double_text(range.min), " to ", json::double_text(range.max), unit}));
+  problems.add(value, core::joined({double_text(number), unit, " is out of range"}),
+               core::joined({double_text(range.min), " to ", double_text(range.max), unit}));
   return std::nullopt;
 }
 
-std::optional<core::Vec2> pair_in(const json::Value& value, const Range& range, Problems& problems) {
-  const std::vector<json::Value> elements = value.children();
-  if (!value.is(json::Kind::kArray) || elements.size() != 2) {
+std::optional<core::Vec2> pair_in(const Value& value, const Range& range, Problems& problems) {
+  const std::vector<Value> elements = value.children();
+  if (!value.is(Kind::kArray) || elements.size() != 2) {
     problems.add(value, "a pair [x, y] is wanted");
     return std::nullopt;
   }
@@ -73,7 +73,7 @@ std::optional<core::Vec2> pair_in(const json::Value& value, const Range& range, 
   return core::Vec2{*x, *y};
 }
 
-std::optional<std::uint64_t> integer_in(const json::Value& value, std::uint64_t min, std::uint64_t max,
+std::optional<std::uint64_t> integer_in(const Value& value, std::uint64_t min, std::uint64_t max,
                                         Problems& problems) {
   const std::optional<std::uint64_t> number = value.unsigned_integer();
   if (number && *number >= min && *number <= max) return number;
@@ -84,14 +84,13 @@ std::optional<std::uint64_t> integer_in(const json::Value& value, std::uint64_t 
   return std::nullopt;
 }
 
-std::optional<std::string> text_in(const json::Value& value, std::size_t min, std::size_t max,
-                                   Problems& problems) {
-  if (!value.is(json::Kind::kString)) {
+std::optional<std::string> text_in(const Value& value, std::size_t min, std::size_t max, Problems& problems) {
+  if (!value.is(Kind::kString)) {
     problems.add(value, expected("text", value));
     return std::nullopt;
   }
   const std::string_view text = value.text();
-  const bool has_control = json::shown(text, text.size()) != text;
+  const bool has_control = shown(text, text.size()) != text;
   if (text.size() < min || text.size() > max) {
     problems.add(value, core::joined({"text of ", std::to_string(text.size()), " bytes"}),
                  core::joined({std::to_string(min), " to ", std::to_string(max), " bytes"}));
@@ -117,13 +116,13 @@ std::string did_you_mean(std::string_view text, std::initializer_list<std::strin
   return best.empty() ? std::string() : core::joined({"did you mean \"", best, "\"?"});
 }
 
-Fields::Fields(const json::Value& object, std::initializer_list<std::string_view> known, Problems& problems)
+Fields::Fields(const Value& object, std::initializer_list<std::string_view> known, Problems& problems)
     : object_(object), problems_(problems) {
-  if (!object.is(json::Kind::kObject)) {
+  if (!object.is(Kind::kObject)) {
     problems.add(object, expected("an object", object));
     return;
   }
-  for (const json::Value& member : object.children()) {
+  for (const Value& member : object.children()) {
     if (problems.is_full()) return;  // a suggestion costs more than its key
     if (std::find(known.begin(), known.end(), member.key()) != known.end()) continue;
     std::string hint = did_you_mean(member.key(), known);
@@ -135,17 +134,17 @@ Fields::Fields(const json::Value& object, std::initializer_list<std::string_view
   }
 }
 
-std::optional<json::Value> Fields::demand(std::string_view key, std::string_view hint) const {
-  std::optional<json::Value> value = object_.find(key);
-  if (!value && object_.is(json::Kind::kObject)) {
+std::optional<Value> Fields::demand(std::string_view key, std::string_view hint) const {
+  std::optional<Value> value = object_.find(key);
+  if (!value && object_.is(Kind::kObject)) {
     problems_.add(object_, core::joined({"\"", key, "\" is missing"}), std::string(hint));
   }
   return value;
 }
 
 double Fields::number_or(std::string_view key, const Range& range, double fallback) const {
-  const std::optional<json::Value> value = find(key);
+  const std::optional<Value> value = find(key);
   return value ? number_in(*value, range, problems_).value_or(fallback) : fallback;
 }
 
-}  // namespace woodlouse::map
+}  // namespace woodlouse::json

@@ -15,7 +15,7 @@
 #include "shared/core/vec2.h"
 #include "shared/json/document.h"
 
-namespace woodlouse::map {
+namespace woodlouse::json {
 
 /// What is wrong with one source; the first kMaxProblems, so that a file of garbage stays readable.
 class Problems {
@@ -26,7 +26,7 @@ class Problems {
 
   /// where = "source:line: field"; line 0 and an empty field are left out.
   void add(std::size_t line, std::string_view field, std::string what, std::string hint = {});
-  void add(const json::Value& value, std::string what, std::string hint = {});
+  void add(const Value& value, std::string what, std::string hint = {});
   void add(core::Error error);
 
   [[nodiscard]] bool is_full() const { return errors_.size() >= kMaxProblems; }
@@ -47,33 +47,32 @@ struct Range {
 };
 
 /// The value as a number in range; reports and gives nothing otherwise.
-std::optional<double> number_in(const json::Value& value, const Range& range, Problems& problems);
+std::optional<double> number_in(const Value& value, const Range& range, Problems& problems);
 /// The same for two of them, [x, y].
-std::optional<core::Vec2> pair_in(const json::Value& value, const Range& range, Problems& problems);
-std::optional<std::uint64_t> integer_in(const json::Value& value, std::uint64_t min, std::uint64_t max,
+std::optional<core::Vec2> pair_in(const Value& value, const Range& range, Problems& problems);
+std::optional<std::uint64_t> integer_in(const Value& value, std::uint64_t min, std::uint64_t max,
                                         Problems& problems);
 /// Text of min..max bytes without control characters.
-std::optional<std::string> text_in(const json::Value& value, std::size_t min, std::size_t max,
-                                   Problems& problems);
+std::optional<std::string> text_in(const Value& value, std::size_t min, std::size_t max, Problems& problems);
 
 /// The members of an object. Reports unknown ones at once, with the known one that looks most alike.
 class Fields {
  public:
-  Fields(const json::Value& object, std::initializer_list<std::string_view> known, Problems& problems);
+  Fields(const Value& object, std::initializer_list<std::string_view> known, Problems& problems);
 
   /// The member, or nothing when it is left out.
-  [[nodiscard]] std::optional<json::Value> find(std::string_view key) const { return object_.find(key); }
+  [[nodiscard]] std::optional<Value> find(std::string_view key) const { return object_.find(key); }
   /// The member; reports when it is left out.
-  [[nodiscard]] std::optional<json::Value> demand(std::string_view key, std::string_view hint = {}) const;
+  [[nodiscard]] std::optional<Value> demand(std::string_view key, std::string_view hint = {}) const;
   /// A number that may be left out.
   [[nodiscard]] double number_or(std::string_view key, const Range& range, double fallback) const;
 
  private:
-  json::Value object_;
+  Value object_;
   Problems& problems_;
 };
 
 /// ` (did you mean "drag"?)`'s inside, for the candidate nearest to `text`; empty when none is near.
 std::string did_you_mean(std::string_view text, std::initializer_list<std::string_view> candidates);
 
-}  // namespace woodlouse::map
+}  // namespace woodlouse::json

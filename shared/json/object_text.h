@@ -9,43 +9,43 @@
 #include "shared/core/vec2.h"
 #include "shared/json/text.h"
 
-namespace woodlouse::protocol {
+namespace woodlouse::json {
 
-class MessageText {
+class ObjectText {
  public:
-  explicit MessageText(std::string_view type) : out_("{\"type\":") { json::append_string(out_, type); }
+  explicit ObjectText(std::string_view type) : out_("{\"type\":") { append_string(out_, type); }
 
-  MessageText& text(std::string_view name, std::string_view value) {
-    json::append_string(key(name), value);
+  ObjectText& text(std::string_view name, std::string_view value) {
+    append_string(key(name), value);
     return *this;
   }
   template <std::integral T>
-  MessageText& integer(std::string_view name, T value) {
-    json::append_integer(key(name), value);
+  ObjectText& integer(std::string_view name, T value) {
+    append_integer(key(name), value);
     return *this;
   }
-  MessageText& number(std::string_view name, double value) {
-    json::append_double(key(name), value);
+  ObjectText& number(std::string_view name, double value) {
+    append_double(key(name), value);
     return *this;
   }
-  MessageText& boolean(std::string_view name, bool value) {
+  ObjectText& boolean(std::string_view name, bool value) {
     key(name) += value ? "true" : "false";
     return *this;
   }
-  MessageText& pair(std::string_view name, core::Vec2 value) {
-    json::append_double(key(name) += '[', value.x);
-    json::append_double(out_ += ',', value.y);
+  ObjectText& pair(std::string_view name, core::Vec2 value) {
+    append_double(key(name) += '[', value.x);
+    append_double(out_ += ',', value.y);
     out_ += ']';
     return *this;
   }
   /// A member that is JSON already.
-  MessageText& json(std::string_view name, std::string_view value) {
+  ObjectText& json(std::string_view name, std::string_view value) {
     key(name) += value;
     return *this;
   }
   /// An array: write(out, element) appends each element.
   template <typename Elements, typename Write>
-  MessageText& array(std::string_view name, const Elements& elements, Write write) {
+  ObjectText& array(std::string_view name, const Elements& elements, Write write) {
     key(name) += '[';
     bool first = true;
     for (const auto& element : elements) {
@@ -57,7 +57,7 @@ class MessageText {
   }
   /// An object: write(*this) appends its members.
   template <typename Write>
-  MessageText& object(std::string_view name, Write write) {
+  ObjectText& object(std::string_view name, Write write) {
     key(name) += '{';
     begins_ = true;
     write(*this);
@@ -71,7 +71,7 @@ class MessageText {
  private:
   std::string& key(std::string_view name) {
     if (!std::exchange(begins_, false)) out_ += ',';
-    json::append_string(out_, name);
+    append_string(out_, name);
     return out_ += ':';
   }
 
@@ -79,4 +79,4 @@ class MessageText {
   bool begins_ = false;  ///< an object was just opened: its first member needs no comma
 };
 
-}  // namespace woodlouse::protocol
+}  // namespace woodlouse::json

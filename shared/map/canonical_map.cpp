@@ -64,7 +64,7 @@ void append_function(std::string& out, const FunctionTerrain& function) {
   out += '}';
 }
 
-void append_physics(std::string& out, const physics::Parameters& physics) {
+void append_physics(std::string& out, const state::Parameters& physics) {
   out += "{\"gravity\":";
   json::append_double(out, physics.gravity);
   out += ",\"drag\":";
@@ -76,18 +76,18 @@ void append_physics(std::string& out, const physics::Parameters& physics) {
   out += ",\"edge_restitution\":";
   json::append_double(out, physics.edge_restitution);
   // What few maps have is left out where it is the default.
-  const physics::Parameters usual;
+  const state::Parameters usual;
   if (physics.central_gravity != usual.central_gravity) {
     out += ",\"central_gravity\":";
     json::append_double(out, physics.central_gravity);
   }
   if (physics.contact != usual.contact) {
     out += ",\"contact\":";
-    json::append_string(out, physics::to_text(physics.contact));
+    json::append_string(out, state::to_text(physics.contact));
   }
   if (physics.method != usual.method) {
     out += ",\"method\":";
-    json::append_string(out, physics::to_text(physics.method));
+    json::append_string(out, state::to_text(physics.method));
   }
   out += '}';
 }
@@ -114,9 +114,9 @@ std::string canonical_text(const MapDefinition& definition) {
   }
   out += ",\"surface\":";
   json::append_string(out, to_text(definition.surface));
-  if (definition.physics.edges != physics::Parameters{}.edges) {
+  if (definition.physics.edges != state::Parameters{}.edges) {
     out += ",\"edges\":";
-    json::append_string(out, physics::to_text(definition.physics.edges));
+    json::append_string(out, state::to_text(definition.physics.edges));
   }
   out += ",\"physics\":";
   append_physics(out, definition.physics);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSeamTolerance = 1e-9;
 
-void check_heights(const json::Value& value, const terrain::HeightGrid& grid, Problems& problems) {
+void check_heights(const json::Value& value, const terrain::HeightGrid& grid, json::Problems& problems) {
   const auto [low, high] = std::minmax_element(grid.heights.begin(), grid.heights.end());
   const double most = kSeamTolerance * (*high - *low);
   const terrain::SeamMismatch mismatch = terrain::seam_mismatch(grid);
@@ -34,7 +34,7 @@ double apart(const terrain::SurfaceSample& a, const terrain::SurfaceSample& b) {
                    std::abs(a.zxy - b.zxy), std::abs(a.zyy - b.zyy)});
 }
 
-void check_function(const json::Value& value, const FunctionTerrain& terrain, Problems& problems) {
+void check_function(const json::Value& value, const FunctionTerrain& terrain, json::Problems& problems) {
   const terrain::FunctionSurface unit(terrain.function, 1.0);
   double worst = 0.0;
   for (std::size_t k = 0; k <= 2 * terrain.grid; ++k) {
@@ -52,13 +52,13 @@ void check_function(const json::Value& value, const FunctionTerrain& terrain, Pr
 
 }  // namespace
 
-physics::Edges read_edges(const json::Value& value, const MapDefinition& definition, Problems& problems) {
-  const auto edges = value.is(json::Kind::kString) ? physics::edges_from_text(value.text()) : std::nullopt;
+state::Edges read_edges(const json::Value& value, const MapDefinition& definition, json::Problems& problems) {
+  const auto edges = value.is(json::Kind::kString) ? state::edges_from_text(value.text()) : std::nullopt;
   if (!edges) {
     problems.add(value, "is none of its choices", "walls or wrap");
-    return physics::Edges::kWalls;
+    return state::Edges::kWalls;
   }
-  if (*edges == physics::Edges::kWalls) return *edges;
+  if (*edges == state::Edges::kWalls) return *edges;
   if (definition.surface == SurfaceKind::kNaturalSpline) {
     problems.add(value, "a natural spline has ends, and edges that wrap have none",
                  "take the surface spline");

@@ -14,6 +14,6 @@ namespace woodlouse::map {
 ///                   on the unit square
 ///     natural ends, terrain read tile by tile, central gravity (the pull would jump)
 /// REQUIRES all else of the definition read.
-physics::Edges read_edges(const json::Value& value, const MapDefinition& definition, Problems& problems);
+state::Edges read_edges(const json::Value& value, const MapDefinition& definition, json::Problems& problems);
 
 }  // namespace woodlouse::map

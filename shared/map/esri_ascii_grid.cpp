@@ -105,7 +105,7 @@ bool begins_like_a_key(const Word& word) {
   return !key.empty() && key[0] >= 'a' && key[0] <= 'z' && key != "nan" && key != "inf";
 }
 
-Header read_header(Words& words, Problems& problems) {
+Header read_header(Words& words, json::Problems& problems) {
   Header header;
   while (begins_like_a_key(words.peek())) {
     const Word word = words.take();
@@ -113,8 +113,8 @@ Header read_header(Words& words, Problems& problems) {
     Entry* entry = header.find(key);
     if (entry == nullptr) {
       problems.add(word.line, quoted(word.text), "is no header key",
-                   did_you_mean(key, {"ncols", "nrows", "xllcorner", "xllcenter", "yllcorner", "yllcenter",
-                                      "cellsize", "dx", "dy", "nodata_value"}));
+                   json::did_you_mean(key, {"ncols", "nrows", "xllcorner", "xllcenter", "yllcorner",
+                                            "yllcenter", "cellsize", "dx", "dy", "nodata_value"}));
       if (!begins_like_a_key(words.peek())) words.take();
       if (problems.is_full()) break;
       continue;
@@ -135,7 +135,7 @@ Header read_header(Words& words, Problems& problems) {
   return header;
 }
 
-std::size_t count_of(const Entry& entry, std::string_view key, Problems& problems) {
+std::size_t count_of(const Entry& entry, std::string_view key, json::Problems& problems) {
   if (entry.line == 0) problems.add(0, key, "is missing from the header");
   if (!entry.value) return 0;
   const double value = *entry.value;
@@ -147,14 +147,14 @@ std::size_t count_of(const Entry& entry, std::string_view key, Problems& problem
   return 0;
 }
 
-double checked_spacing(const Entry& entry, std::string_view key, Problems& problems) {
+double checked_spacing(const Entry& entry, std::string_view key, json::Problems& problems) {
   if (!entry.value) return 1.0;
   if (*entry.value > 0.0 && *entry.value <= kMaxCoordinate) return *entry.value;
   problems.add(entry.line, key, "is not above 0, or too large");
   return 1.0;
 }
 
-void read_spacings(const Header& header, terrain::HeightGrid& grid, Problems& problems) {
+void read_spacings(const Header& header, terrain::HeightGrid& grid, json::Problems& problems) {
   if (header.cellsize.line != 0) {
     grid.dx = grid.dy = checked_spacing(header.cellsize, "cellsize", problems);
   } else if (header.dx.line == 0 || header.dy.line == 0) {
@@ -166,7 +166,7 @@ void read_spacings(const Header& header, terrain::HeightGrid& grid, Problems& pr
 
 /// The first knot's coordinate: the centre of the south-western cell.
 double origin_of(const Entry& corner, const Entry& center, std::string_view axis, double spacing,
-                 Problems& problems) {
+                 json::Problems& problems) {
   const std::string either = core::joined({axis, "llcorner or ", axis, "llcenter"});
   if (corner.line == 0 && center.line == 0) problems.add(0, either, "is missing from the header");
   if (corner.line != 0 && center.line != 0) {
@@ -184,7 +184,7 @@ std::string cell_name(std::size_t index, std::size_t columns) {
       {"row ", std::to_string(index / columns + 1), ", column ", std::to_string(index % columns + 1)});
 }
 
-void read_heights(Words& words, const Header& header, terrain::HeightGrid& grid, Problems& problems) {
+void read_heights(Words& words, const Header& header, terrain::HeightGrid& grid, json::Problems& problems) {
   const std::size_t total = grid.columns * grid.rows;
   grid.heights.resize(total);
   for (std::size_t index = 0; index < total && !problems.is_full(); ++index) {
@@ -221,7 +221,7 @@ void read_heights(Words& words, const Header& header, terrain::HeightGrid& grid,
 
 }  // namespace
 
-std::optional<terrain::HeightGrid> parse_esri_ascii_grid(std::string_view text, Problems& problems) {
+std::optional<terrain::HeightGrid> parse_esri_ascii_grid(std::string_view text, json::Problems& problems) {
   const std::size_t problems_before = problems.count();
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   Words words(text);

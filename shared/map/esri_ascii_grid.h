@@ -21,6 +21,6 @@ namespace woodlouse::map {
 
 /// The grid as the file has it: lengths and heights in its units, the south row first. Nothing, and at least
 /// one problem, when something is wrong.
-std::optional<terrain::HeightGrid> parse_esri_ascii_grid(std::string_view text, Problems& problems);
+std::optional<terrain::HeightGrid> parse_esri_ascii_grid(std::string_view text, json::Problems& problems);
 
 }  // namespace woodlouse::map

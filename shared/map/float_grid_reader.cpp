@@ -17,7 +17,7 @@ namespace {
 
 enum class Storage { kBySize, kWhole, kTiles };
 
-Storage read_storage(const Fields& fields, Problems& problems) {
+Storage read_storage(const json::Fields& fields, json::Problems& problems) {
   const auto value = fields.find("storage");
   if (!value) return Storage::kBySize;
   if (value->is(json::Kind::kString)) {
@@ -29,7 +29,7 @@ Storage read_storage(const Fields& fields, Problems& problems) {
 }
 
 /// Whether the file's frame is one that a map may have.
-bool check_frame(const json::Value& value, const terrain::GridFrame& frame, Problems& problems) {
+bool check_frame(const json::Value& value, const terrain::GridFrame& frame, json::Problems& problems) {
   if (!within(frame.dx, kSpacing) || !within(frame.dy, kSpacing)) {
     problems.add(value, "knots less than 1 mm or more than 1000 km apart", "choose another scale");
   } else if (!within(frame.x_origin, kOrigin) || !within(frame.y_origin, kOrigin)) {
@@ -41,7 +41,7 @@ bool check_frame(const json::Value& value, const terrain::GridFrame& frame, Prob
 }
 
 std::optional<TerrainDefinition> read_whole(const terrain::HeightSource& heights, double fill_level,
-                                            const std::string& source, Problems& problems) {
+                                            const std::string& source, json::Problems& problems) {
   auto grid = read_all_heights(heights, fill_level, source);
   if (grid) return std::move(*grid);
   problems.add(grid.error());
@@ -49,8 +49,8 @@ std::optional<TerrainDefinition> read_whole(const terrain::HeightSource& heights
 }
 
 /// The survey, if the file is the one that the map names the fingerprint of.
-std::optional<HeightSurvey> survey(const Fields& fields, const TiledTerrain& terrain,
-                                   const std::string& source, Problems& problems) {
+std::optional<HeightSurvey> survey(const json::Fields& fields, const TiledTerrain& terrain,
+                                   const std::string& source, json::Problems& problems) {
   auto result = survey_heights(*terrain.heights, terrain.fill_level, source);
   if (!result) {
     problems.add(result.error());
@@ -77,8 +77,8 @@ bool is_float_grid(const std::filesystem::path& file) {
 }
 
 std::optional<TerrainDefinition> read_float_grid(const json::Value& value, const std::filesystem::path& path,
-                                                 Problems& problems) {
-  const Fields fields(value, {"file", "scale", "fill_level", "storage", "fingerprint"}, problems);
+                                                 json::Problems& problems) {
+  const json::Fields fields(value, {"file", "scale", "fill_level", "storage", "fingerprint"}, problems);
   TiledTerrain terrain;
   terrain.scale = fields.number_or("scale", kGridScale, 1.0);
   terrain.fill_level = fields.number_or("fill_level", kHeight, 0.0);

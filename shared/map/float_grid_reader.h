@@ -17,6 +17,6 @@ bool is_float_grid(const std::filesystem::path& file);
 /// A HeightGrid, not yet checked, or a TiledTerrain; nothing, and at least one problem, when something is
 /// wrong. Knots without data are filled (terrain/fill_missing.h). `path`: the .flt.
 std::optional<TerrainDefinition> read_float_grid(const json::Value& value, const std::filesystem::path& path,
-                                                 Problems& problems);
+                                                 json::Problems& problems);
 
 }  // namespace woodlouse::map

@@ -254,7 +254,7 @@ core::Expected<std::shared_ptr<const FltGrid>> FltGrid::open(const std::filesyst
     return core::fail(header_file.string(), "no such file",
                       "the header of " + file.filename().string() + "; gdal_translate -of EHdr writes both");
   }
-  const auto text = read_whole_file(header_file, kMaxHeaderBytes);
+  const auto text = core::read_whole_file(header_file, kMaxHeaderBytes);
   if (!text) return tl::unexpected(text.error());
   const auto header = parse_flt_header(*text, header_file.string());
   if (!header) return tl::unexpected(header.error());

@@ -54,7 +54,7 @@ struct MapDefinition {
   std::variant<FunctionTerrain, terrain::HeightGrid, TiledTerrain>
       terrain;  ///< heights are in metres, scale applied
   SurfaceKind surface = SurfaceKind::kSpline;
-  physics::Parameters physics;
+  state::Parameters physics;
   std::vector<SpawnPoint> spawns;  ///< at least one
 };
 

@@ -20,7 +20,7 @@ constexpr std::size_t kMaxDepth = 8;
 constexpr std::size_t kMaxValues = 2 * kMaxKnots + 100'000;
 
 terrain::SplineEnds ends_of(const MapDefinition& definition) {
-  if (definition.physics.edges == physics::Edges::kWrap) return terrain::SplineEnds::kPeriodic;
+  if (definition.physics.edges == state::Edges::kWrap) return terrain::SplineEnds::kPeriodic;
   return definition.surface == SurfaceKind::kNaturalSpline ? terrain::SplineEnds::kNatural
                                                            : terrain::SplineEnds::kNotAKnot;
 }
@@ -49,7 +49,7 @@ std::shared_ptr<const Map> build(MapDefinition definition) {
   return map;
 }
 
-std::optional<MapDefinition> read(std::string_view text, const GridPlace& place, Problems& problems) {
+std::optional<MapDefinition> read(std::string_view text, const GridPlace& place, json::Problems& problems) {
   if (text.size() > kMaxMapBytes) {
     problems.add(0, {}, core::joined({"longer than ", std::to_string(kMaxMapBytes >> 20), " MiB"}));
     return std::nullopt;
@@ -72,7 +72,7 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 
 core::Expected<std::shared_ptr<const Map>> parse_map(std::string_view text, std::string_view source,
                                                      const std::filesystem::path& folder) {
-  Problems problems{std::string(source)};
+  json::Problems problems{std::string(source)};
   std::optional<MapDefinition> definition = read(text, folder, problems);
   if (!definition) return tl::unexpected(problems.errors().front());
   return build(std::move(*definition));
@@ -80,7 +80,7 @@ core::Expected<std::shared_ptr<const Map>> parse_map(std::string_view text, std:
 
 core::Expected<std::shared_ptr<const Map>> parse_overview(std::string_view text, std::string_view source,
                                                           const terrain::HeightGrid& overview) {
-  Problems problems{std::string(source)};
+  json::Problems problems{std::string(source)};
   std::optional<MapDefinition> definition = read(text, overview, problems);
   if (!definition) return tl::unexpected(problems.errors().front());
   auto map = std::make_shared<Map>();
@@ -93,15 +93,15 @@ core::Expected<std::shared_ptr<const Map>> parse_overview(std::string_view text,
 }
 
 core::Expected<std::shared_ptr<const Map>> load_map(const std::filesystem::path& file) {
-  const core::Expected<std::string> text = read_whole_file(file, kMaxMapBytes);
+  const core::Expected<std::string> text = core::read_whole_file(file, kMaxMapBytes);
   if (!text) return tl::unexpected(text.error());
   return parse_map(*text, file.string(), folder_of(file));
 }
 
 std::vector<core::Error> check_map(const std::filesystem::path& file) {
-  const core::Expected<std::string> text = read_whole_file(file, kMaxMapBytes);
+  const core::Expected<std::string> text = core::read_whole_file(file, kMaxMapBytes);
   if (!text) return {text.error()};
-  Problems problems(file.string());
+  json::Problems problems(file.string());
   read(*text, folder_of(file), problems);
   return std::move(problems.errors());
 }

@@ -13,28 +13,28 @@
 namespace woodlouse::map {
 namespace {
 
-constexpr Range kGravity{0.0, 1000.0, "m/s^2"};
-constexpr Range kDrag{0.0, 100.0, "1/s"};
-constexpr Range kFriction{0.0, 10.0, ""};
-constexpr Range kThrustMax{0.0, 1000.0, "m/s^2"};
-constexpr Range kEdgeRestitution{0.0, 1.0, ""};
-constexpr Range kSpawnSpeed{0.0, 1000.0, "m/s"};
-constexpr Range kCentralGravity{0.0, 1e6, "m^3/s^2"};
-constexpr Range kDegrees{-360.0, 360.0, "degrees"};
-constexpr Range kCoordinate{-1e12, 1e12, "m"};
-constexpr Range kHeadingComponent{-1e6, 1e6, ""};
+constexpr json::Range kGravity{0.0, 1000.0, "m/s^2"};
+constexpr json::Range kDrag{0.0, 100.0, "1/s"};
+constexpr json::Range kFriction{0.0, 10.0, ""};
+constexpr json::Range kThrustMax{0.0, 1000.0, "m/s^2"};
+constexpr json::Range kEdgeRestitution{0.0, 1.0, ""};
+constexpr json::Range kSpawnSpeed{0.0, 1000.0, "m/s"};
+constexpr json::Range kCentralGravity{0.0, 1e6, "m^3/s^2"};
+constexpr json::Range kDegrees{-360.0, 360.0, "degrees"};
+constexpr json::Range kCoordinate{-1e12, 1e12, "m"};
+constexpr json::Range kHeadingComponent{-1e6, 1e6, ""};
 constexpr std::size_t kMaxNameBytes = 64;
 constexpr std::size_t kMaxSpawns = 1024;
 /// A pair this near to length 1 is taken as it stands, so that a written unit vector reads back bit for bit.
 constexpr double kUnitTolerance = 1e-14;
 
-SurfaceKind read_surface(const json::Value& value, Problems& problems) {
+SurfaceKind read_surface(const json::Value& value, json::Problems& problems) {
   if (value.is(json::Kind::kString)) {
     const std::string_view text = value.text();
     if (text == "spline") return SurfaceKind::kSpline;
     if (text == "natural_spline") return SurfaceKind::kNaturalSpline;
     if (text == "function") return SurfaceKind::kFunction;
-    const std::string hint = did_you_mean(text, {"spline", "natural_spline", "function"});
+    const std::string hint = json::did_you_mean(text, {"spline", "natural_spline", "function"});
     problems.add(value, "is no kind of surface", hint.empty() ? "spline, natural_spline or function" : hint);
   } else {
     problems.add(value, "the name of a surface is wanted", "spline, natural_spline or function");
@@ -44,8 +44,8 @@ SurfaceKind read_surface(const json::Value& value, Problems& problems) {
 
 /// One of the texts that `from_text` knows; `wanted` lists them.
 template <typename E, typename FromText>
-void read_choice(const Fields& fields, std::string_view key, E& out, FromText from_text, std::string wanted,
-                 Problems& problems) {
+void read_choice(const json::Fields& fields, std::string_view key, E& out, FromText from_text,
+                 std::string wanted, json::Problems& problems) {
   const auto value = fields.find(key);
   if (!value) return;
   const std::optional<E> found = value->is(json::Kind::kString) ? from_text(value->text()) : std::nullopt;
@@ -56,12 +56,12 @@ void read_choice(const Fields& fields, std::string_view key, E& out, FromText fr
   }
 }
 
-physics::Parameters read_physics(const json::Value& value, Problems& problems) {
-  const Fields fields(value,
-                      {"gravity", "drag", "friction", "thrust_max", "edge_restitution", "central_gravity",
-                       "contact", "method"},
-                      problems);
-  physics::Parameters result;
+state::Parameters read_physics(const json::Value& value, json::Problems& problems) {
+  const json::Fields fields(value,
+                            {"gravity", "drag", "friction", "thrust_max", "edge_restitution",
+                             "central_gravity", "contact", "method"},
+                            problems);
+  state::Parameters result;
   result.gravity = fields.number_or("gravity", kGravity, result.gravity);
   result.drag = fields.number_or("drag", kDrag, result.drag);
   result.friction = fields.number_or("friction", kFriction, result.friction);
@@ -69,27 +69,27 @@ physics::Parameters read_physics(const json::Value& value, Problems& problems) {
   result.edge_restitution = fields.number_or("edge_restitution", kEdgeRestitution, result.edge_restitution);
   // "+ 0.0" turns -0.0 into 0.0: the canonical text leaves both out, and must read back the same.
   result.central_gravity = fields.number_or("central_gravity", kCentralGravity, result.central_gravity) + 0.0;
-  read_choice(fields, "contact", result.contact, physics::contact_from_text, "bilateral or unilateral",
+  read_choice(fields, "contact", result.contact, state::contact_from_text, "bilateral or unilateral",
               problems);
-  read_choice(fields, "method", result.method, physics::method_from_text, "standard, cheap or precise",
+  read_choice(fields, "method", result.method, state::method_from_text, "standard, cheap or precise",
               problems);
-  if (result.contact == physics::SurfaceContact::kUnilateral && result.central_gravity > 0.0) {
+  if (result.contact == state::SurfaceContact::kUnilateral && result.central_gravity > 0.0) {
     problems.add(*fields.find("contact"), "flight knows no pull but gravity's",
                  "leave central_gravity out, or take bilateral");
   }
   return result;
 }
 
-core::Vec2 read_heading(const json::Value& value, Problems& problems) {
+core::Vec2 read_heading(const json::Value& value, json::Problems& problems) {
   if (value.is_number()) {
-    const std::optional<double> degrees = number_in(value, kDegrees, problems);
+    const std::optional<double> degrees = json::number_in(value, kDegrees, problems);
     return degrees ? heading_from_degrees(*degrees) : core::Vec2{1.0, 0.0};
   }
   if (!value.is(json::Kind::kArray)) {
     problems.add(value, "degrees or a pair [x, y] are wanted", "degrees run counter-clockwise, 0 is east");
     return {1.0, 0.0};
   }
-  const core::Vec2 pair = pair_in(value, kHeadingComponent, problems).value_or(core::Vec2{1.0, 0.0});
+  const core::Vec2 pair = json::pair_in(value, kHeadingComponent, problems).value_or(core::Vec2{1.0, 0.0});
   const double square = core::dot(pair, pair);
   if (std::abs(square - 1.0) <= kUnitTolerance) return pair;
   if (square < 1e-12) {
@@ -101,7 +101,7 @@ core::Vec2 read_heading(const json::Value& value, Problems& problems) {
 }
 
 std::vector<SpawnPoint> read_spawns(const json::Value& value, const terrain::Rectangle& domain,
-                                    Problems& problems) {
+                                    json::Problems& problems) {
   std::vector<SpawnPoint> result;
   const std::vector<json::Value> points = value.children();
   if (!value.is(json::Kind::kArray) || points.empty() || points.size() > kMaxSpawns) {
@@ -109,11 +109,11 @@ std::vector<SpawnPoint> read_spawns(const json::Value& value, const terrain::Rec
     return result;
   }
   for (const json::Value& point : points) {
-    const Fields fields(point, {"position", "heading", "speed"}, problems);
+    const json::Fields fields(point, {"position", "heading", "speed"}, problems);
     SpawnPoint spawn;
     if (const auto position = fields.demand("position", "[x, y] in metres")) {
       spawn.position =
-          pair_in(*position, kCoordinate, problems).value_or(core::Vec2{domain.x_min, domain.y_min});
+          json::pair_in(*position, kCoordinate, problems).value_or(core::Vec2{domain.x_min, domain.y_min});
       if (!domain.contains(spawn.position.x, spawn.position.y)) {
         problems.add(*position, "lies outside the map",
                      core::joined({"x ", json::double_text(domain.x_min), " to ",
@@ -176,11 +176,11 @@ std::vector<SpawnPoint> default_spawns(const terrain::Rectangle& domain) {
 }
 
 std::optional<MapDefinition> read_definition(const json::Value& root, const GridPlace& place,
-                                             Problems& problems) {
-  const Fields fields(root, {"name", "terrain", "surface", "edges", "physics", "spawns"}, problems);
+                                             json::Problems& problems) {
+  const json::Fields fields(root, {"name", "terrain", "surface", "edges", "physics", "spawns"}, problems);
   MapDefinition result;
   if (const auto name = fields.demand("name")) {
-    result.name = text_in(*name, 1, kMaxNameBytes, problems).value_or("");
+    result.name = json::text_in(*name, 1, kMaxNameBytes, problems).value_or("");
   }
   const auto terrain_value =
       fields.demand("terrain", "{\"function\": ...}, {\"file\": ...} or {\"heights\": ...}");

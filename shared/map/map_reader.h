@@ -12,7 +12,7 @@ namespace woodlouse::map {
 
 /// Nothing, and at least one problem, when something is wrong.
 std::optional<MapDefinition> read_definition(const json::Value& root, const GridPlace& place,
-                                             Problems& problems);
+                                             json::Problems& problems);
 
 /// Where lice start on a map that does not say: eight points on a ring around the middle, looking inwards.
 std::vector<SpawnPoint> default_spawns(const terrain::Rectangle& domain);

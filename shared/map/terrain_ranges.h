@@ -5,13 +5,15 @@
 
 namespace woodlouse::map {
 
-inline constexpr Range kGridScale{1e-6, 1e6, ""};
-inline constexpr Range kSpacing{1e-3, 1e6, "m"};
-inline constexpr Range kOrigin{-1e7, 1e7, "m"};
-inline constexpr Range kHeight{-1e6, 1e6, "m"};
+inline constexpr json::Range kGridScale{1e-6, 1e6, ""};
+inline constexpr json::Range kSpacing{1e-3, 1e6, "m"};
+inline constexpr json::Range kOrigin{-1e7, 1e7, "m"};
+inline constexpr json::Range kHeight{-1e6, 1e6, "m"};
 /// 89.4 degrees between neighbouring knots. Steeper is a wall, and walls are the map's edge's business.
 inline constexpr double kMaxSlope = 100.0;
 
-inline bool within(double value, const Range& range) { return value >= range.min && value <= range.max; }
+inline bool within(double value, const json::Range& range) {
+  return value >= range.min && value <= range.max;
+}
 
 }  // namespace woodlouse::map

@@ -16,15 +16,15 @@ namespace {
 
 using terrain::HeightGrid;
 
-constexpr Range kFunctionScale{0.1, 1e5, "m"};
+constexpr json::Range kFunctionScale{0.1, 1e5, "m"};
 constexpr std::uint64_t kMinFunctionGrid = 2;
 constexpr std::uint64_t kMaxFunctionGrid = 999;
 constexpr std::size_t kMinKnotsEachWay = 4;
 /// 89.4 degrees between neighbouring knots. Steeper is a wall, and walls are the map's edge's business.
 constexpr double kMaxSlope = 100.0;
 
-FunctionTerrain read_function(const json::Value& value, const json::Value& name, Problems& problems) {
-  const Fields fields(value, {"function", "grid", "scale"}, problems);
+FunctionTerrain read_function(const json::Value& value, const json::Value& name, json::Problems& problems) {
+  const json::Fields fields(value, {"function", "grid", "scale"}, problems);
   FunctionTerrain result;
   if (!name.is(json::Kind::kString)) {
     problems.add(name, "the name of a function is wanted",
@@ -33,12 +33,12 @@ FunctionTerrain read_function(const json::Value& value, const json::Value& name,
     result.function = *function;
   } else {
     const std::string hint =
-        did_you_mean(name.text(), {"parabolic_pot", "wavy_pot", "volcano", "hills", "waves"});
+        json::did_you_mean(name.text(), {"parabolic_pot", "wavy_pot", "volcano", "hills", "waves"});
     problems.add(name, "is no function we have",
                  hint.empty() ? "parabolic_pot, wavy_pot, volcano, hills or waves" : hint);
   }
   if (const auto grid = fields.find("grid")) {
-    result.grid = integer_in(*grid, kMinFunctionGrid, kMaxFunctionGrid, problems).value_or(result.grid);
+    result.grid = json::integer_in(*grid, kMinFunctionGrid, kMaxFunctionGrid, problems).value_or(result.grid);
   }
   result.scale = fields.number_or("scale", kFunctionScale, result.scale);
   return result;
@@ -46,8 +46,8 @@ FunctionTerrain read_function(const json::Value& value, const json::Value& name,
 
 /// The path of a grid file, if it stays in the map's folder.
 std::optional<std::filesystem::path> grid_path(const json::Value& name, const std::filesystem::path& folder,
-                                               Problems& problems) {
-  const std::optional<std::string> text = text_in(name, 1, 255, problems);
+                                               json::Problems& problems) {
+  const std::optional<std::string> text = json::text_in(name, 1, 255, problems);
   if (!text) return std::nullopt;
   if (folder.empty()) {
     problems.add(name, "a map that comes without a folder can't name a file", "send its heights in place");
@@ -74,15 +74,15 @@ std::optional<std::filesystem::path> grid_path(const json::Value& name, const st
 /// An ESRI ASCII grid, its middle laid at the origin: real-world coordinates would cost digits and help
 /// nobody.
 std::optional<HeightGrid> read_ascii_grid(const json::Value& value, const json::Value& name,
-                                          const std::filesystem::path& path, Problems& problems) {
-  const Fields fields(value, {"file", "scale"}, problems);
+                                          const std::filesystem::path& path, json::Problems& problems) {
+  const json::Fields fields(value, {"file", "scale"}, problems);
   const double scale = fields.number_or("scale", kGridScale, 1.0);
-  const core::Expected<std::string> text = read_whole_file(path, kMaxMapBytes);
+  const core::Expected<std::string> text = core::read_whole_file(path, kMaxMapBytes);
   if (!text) {
     problems.add(name, text.error().text());
     return std::nullopt;
   }
-  Problems grid_problems(path.string());
+  json::Problems grid_problems(path.string());
   std::optional<HeightGrid> grid = parse_esri_ascii_grid(*text, grid_problems);
   for (core::Error& error : grid_problems.errors()) problems.add(std::move(error));
   if (!grid) return std::nullopt;
@@ -97,7 +97,7 @@ std::optional<HeightGrid> read_ascii_grid(const json::Value& value, const json::
 /// In place of a big map's heights those of its overview. How steep it is is nobody's business: nothing runs
 /// on it.
 std::optional<TerrainDefinition> read_overview(const json::Value& value, const HeightGrid& overview,
-                                               Problems& problems) {
+                                               json::Problems& problems) {
   const bool is_whole = overview.columns >= kMinKnotsEachWay && overview.rows >= kMinKnotsEachWay &&
                         overview.heights.size() == overview.columns * overview.rows;
   const bool is_placed = within(overview.dx, kSpacing) && within(overview.dy, kSpacing) &&
@@ -111,7 +111,7 @@ std::optional<TerrainDefinition> read_overview(const json::Value& value, const H
 }
 
 std::optional<TerrainDefinition> read_grid_file(const json::Value& value, const json::Value& name,
-                                                const GridPlace& place, Problems& problems) {
+                                                const GridPlace& place, json::Problems& problems) {
   if (const auto* overview = std::get_if<HeightGrid>(&place))
     return read_overview(value, *overview, problems);
   const auto path = grid_path(name, std::get<std::filesystem::path>(place), problems);
@@ -121,7 +121,7 @@ std::optional<TerrainDefinition> read_grid_file(const json::Value& value, const 
   return std::nullopt;
 }
 
-void read_rows(const json::Value& value, double scale, HeightGrid& grid, Problems& problems) {
+void read_rows(const json::Value& value, double scale, HeightGrid& grid, json::Problems& problems) {
   const std::vector<json::Value> rows = value.children();
   if (!value.is(json::Kind::kArray) || rows.size() < kMinKnotsEachWay) {
     problems.add(value, "at least 4 rows of heights are wanted",
@@ -145,28 +145,28 @@ void read_rows(const json::Value& value, double scale, HeightGrid& grid, Problem
     }
     if (problems.is_full()) return;
     for (const json::Value& height : heights) {
-      grid.heights.push_back(scale * number_in(height, kHeight, problems).value_or(0.0));
+      grid.heights.push_back(scale * json::number_in(height, kHeight, problems).value_or(0.0));
     }
   }
 }
 
-HeightGrid read_inline(const json::Value& value, const json::Value& heights, Problems& problems) {
-  const Fields fields(value, {"origin", "spacing", "heights", "scale"}, problems);
+HeightGrid read_inline(const json::Value& value, const json::Value& heights, json::Problems& problems) {
+  const json::Fields fields(value, {"origin", "spacing", "heights", "scale"}, problems);
   const double scale = fields.number_or("scale", kGridScale, 1.0);
   HeightGrid grid;
   core::Vec2 spacing{1.0, 1.0};
   if (const auto found = fields.demand("spacing", "metres between knots: a number or [dx, dy]")) {
     if (found->is(json::Kind::kArray)) {
-      spacing = pair_in(*found, kSpacing, problems).value_or(spacing);
+      spacing = json::pair_in(*found, kSpacing, problems).value_or(spacing);
     } else {
-      spacing.x = spacing.y = number_in(*found, kSpacing, problems).value_or(1.0);
+      spacing.x = spacing.y = json::number_in(*found, kSpacing, problems).value_or(1.0);
     }
   }
   grid.dx = scale * spacing.x;
   grid.dy = scale * spacing.y;
   read_rows(heights, scale, grid, problems);
   if (const auto origin = fields.find("origin")) {
-    const core::Vec2 corner = pair_in(*origin, kOrigin, problems).value_or(core::Vec2{});
+    const core::Vec2 corner = json::pair_in(*origin, kOrigin, problems).value_or(core::Vec2{});
     grid.x_origin = scale * corner.x;
     grid.y_origin = scale * corner.y;
   } else if (grid.columns != 0 && grid.rows != 0) {
@@ -177,7 +177,7 @@ HeightGrid read_inline(const json::Value& value, const json::Value& heights, Pro
 }
 
 /// What only shows once the scale is applied.
-void check_grid(const json::Value& value, const HeightGrid& grid, Problems& problems) {
+void check_grid(const json::Value& value, const HeightGrid& grid, json::Problems& problems) {
   if (!within(grid.dx, kSpacing) || !within(grid.dy, kSpacing)) {
     problems.add(value, "knots less than 1 mm or more than 1000 km apart", "choose another scale");
     return;
@@ -206,17 +206,17 @@ void check_grid(const json::Value& value, const HeightGrid& grid, Problems& prob
 }  // namespace
 
 std::optional<TerrainDefinition> read_terrain(const json::Value& value, const GridPlace& place,
-                                              Problems& problems) {
+                                              json::Problems& problems) {
   const std::size_t problems_before = problems.count();
   const auto function = value.find("function");
   const auto file = value.find("file");
   const auto heights = value.find("heights");
   const int ways = (function ? 1 : 0) + (file ? 1 : 0) + (heights ? 1 : 0);
   if (ways != 1) {
-    const Fields fields(value,
-                        {"function", "grid", "scale", "file", "fill_level", "storage", "fingerprint",
-                         "origin", "spacing", "heights"},
-                        problems);
+    const json::Fields fields(value,
+                              {"function", "grid", "scale", "file", "fill_level", "storage", "fingerprint",
+                               "origin", "spacing", "heights"},
+                              problems);
     if (value.is(json::Kind::kObject)) {
       problems.add(value, core::joined({"exactly one of function, file and heights is wanted, not ",
                                         std::to_string(ways)}));

@@ -19,6 +19,6 @@ using GridPlace = std::variant<std::filesystem::path, terrain::HeightGrid>;
 
 /// Nothing, and at least one problem, when something is wrong.
 std::optional<TerrainDefinition> read_terrain(const json::Value& value, const GridPlace& place,
-                                              Problems& problems);
+                                              json::Problems& problems);
 
 }  // namespace woodlouse::map

@@ -4,7 +4,7 @@
 
 namespace woodlouse::match {
 
-void InputQueue::remove_player(physics::LouseId player) {
+void InputQueue::remove_player(state::LouseId player) {
   players_.erase(player);
   std::erase_if(waiting_, [player](const auto& entry) { return entry.first.player == player; });
 }

@@ -14,19 +14,19 @@ namespace woodlouse::match {
 
 /// A player's thrust as the wire brought it, checked and rounded (protocol/codec.h).
 struct Input {
-  physics::LouseId player = 0;
+  state::LouseId player = 0;
   std::uint32_t seq = 0;  ///< the player's own count, ascending
-  physics::Thrust thrust;
-  std::uint32_t ticks = physics::kHeld;  ///< how long it acts; kHeld: until the next input
+  state::Thrust thrust;
+  std::uint32_t ticks = state::kHeld;  ///< how long it acts; kHeld: until the next input
   std::uint64_t wanted_tick = 0;  ///< the tick it asks for; 0, or one that is past: the next step takes it
 };
 
 /// An input as a step applied it; what the hash covers (40 bytes, no padding, in this order).
 struct AppliedInput {
-  physics::LouseId player = 0;
+  state::LouseId player = 0;
   std::uint32_t seq = 0;
   core::Vec2 thrust;
-  physics::ThrustKind kind = physics::ThrustKind::kNone;
+  state::ThrustKind kind = state::ThrustKind::kNone;
   std::uint32_t ticks = 0;
   std::uint64_t tick = 0;
   friend bool operator==(const AppliedInput&, const AppliedInput&) = default;
@@ -49,7 +49,7 @@ struct Filed {
 
 /// Who may file inputs, and the highest seq of his that was filed; nothing: none yet.
 struct PlayerSeq {
-  physics::LouseId player = 0;
+  state::LouseId player = 0;
   std::optional<std::uint32_t> last_seq;
   friend bool operator==(const PlayerSeq&, const PlayerSeq&) = default;
 };
@@ -61,8 +61,8 @@ class InputQueue {
   /// horizon: how many ticks ahead an input may ask for.
   explicit InputQueue(std::uint64_t horizon) : horizon_(horizon) {}
 
-  void add_player(physics::LouseId player) { players_.try_emplace(player); }
-  void remove_player(physics::LouseId player);
+  void add_player(state::LouseId player) { players_.try_emplace(player); }
+  void remove_player(state::LouseId player);
   /// next_tick: the step that will run next.
   Filed file(const Input& input, std::uint64_t next_tick);
   /// Files an input that a step of the past is known to have applied, under its own tick; who waits there
@@ -85,13 +85,13 @@ class InputQueue {
   };
   struct Key {
     std::uint64_t tick;
-    physics::LouseId player;
+    state::LouseId player;
     std::uint32_t seq;
     friend auto operator<=>(const Key&, const Key&) = default;
   };
 
   std::uint64_t horizon_;
-  std::map<physics::LouseId, Player> players_;
+  std::map<state::LouseId, Player> players_;
   std::map<Key, AppliedInput> waiting_;
 };
 

@@ -75,7 +75,7 @@ Filed Match::file(const Input& input) { return inputs_.file(input, tick_); }
 void Match::spawn(PlayerId player, double distance) {
   const auto& spawns = map_->definition.spawns;
   const map::SpawnPoint& point = spawns[static_cast<std::size_t>(random_.next() % spawns.size())];
-  physics::Louse louse;
+  state::Louse louse;
   louse.id = player;
   louse.position = point.position;
   louse.heading = point.heading;
@@ -88,7 +88,7 @@ void Match::change_roster() {
   record_.roster.clear();
   for (const RosterChange& change : pending_roster_) {
     // A respawn or leave of a louse that is gone by now changes nothing and is not recorded.
-    const physics::Louse* louse = world_.find(change.player);
+    const state::Louse* louse = world_.find(change.player);
     if ((louse != nullptr) == (change.action == RosterAction::kJoin)) continue;
     const double distance = louse != nullptr ? louse->distance : 0.0;
     if (louse != nullptr) world_.erase(change.player);
@@ -115,7 +115,7 @@ const StepRecord& Match::advance() {
   hasher_.reset();
   hasher_.append(std::span<const AppliedInput>(record_.inputs));
   link_ = {hash_, hasher_.value(), tick_, random_.state()};
-  hash_ = physics::state_hash(hasher_, link_, world_.lice());
+  hash_ = state::state_hash(hasher_, link_, world_.lice());
   record_.hash = hash_;
   return record_;
 }

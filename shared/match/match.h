@@ -31,7 +31,7 @@ inline constexpr int kBehavior = 6;
 /// How far ahead an input may ask for its tick.
 inline constexpr std::uint64_t kHorizonSeconds = 2;
 
-using PlayerId = physics::LouseId;
+using PlayerId = state::LouseId;
 
 /// Everything one step did; with the header, all that a replay needs.
 struct StepRecord {
@@ -86,7 +86,7 @@ class Match {
   /// Of the state at tick(); 0 at tick 0 unless restored.
   [[nodiscard]] std::uint64_t hash() const { return hash_; }
   /// What went into hash() besides the lice.
-  [[nodiscard]] const physics::HashLink& link() const { return link_; }
+  [[nodiscard]] const state::HashLink& link() const { return link_; }
   [[nodiscard]] bool contains(PlayerId player) const { return world_.find(player) != nullptr; }
 
  private:
@@ -103,7 +103,7 @@ class Match {
   PlayerId next_player_ = 1;
   std::uint64_t tick_ = 0;
   std::uint64_t hash_ = 0;
-  physics::HashLink link_;
+  state::HashLink link_;
   core::StableHasher hasher_;
   StepRecord record_;
 };

@@ -31,24 +31,24 @@ bool is_on(const terrain::Rectangle& domain, core::Vec2 at) {
          at.y <= domain.y_max + slack_y;
 }
 
-std::string_view fault_of(const map::Map& map, const physics::Louse& louse) {
+std::string_view fault_of(const map::Map& map, const state::Louse& louse) {
   if (!is_on(map.terrain->domain(), louse.position)) return "is not on the map";
   if (!is_within(louse.velocity, kMaxSpeed) || !is_within(louse.flight_vz, kMaxSpeed)) return "is too fast";
   if (!is_within(louse.flight_z, kMaxHeight)) return "flies too high";
   if (!is_within(louse.heading, 1.5)) return "has no heading of length 1";
   if (!is_within(louse.thrust, 1.0)) return "has a thrust above 1";
   if (!is_within(louse.distance, kMaxDistance)) return "has gone too far";
-  if (louse.phase > physics::Phase::kFlying || louse.thrust_kind > physics::ThrustKind::kMapVector) {
+  if (louse.phase > state::Phase::kFlying || louse.thrust_kind > state::ThrustKind::kMapVector) {
     return "has a phase or kind of thrust that is none";
   }
-  const bool may_fly = map.definition.physics.contact == physics::SurfaceContact::kUnilateral;
-  if (louse.phase == physics::Phase::kFlying && !may_fly) return "flies where nobody can";
+  const bool may_fly = map.definition.physics.contact == state::SurfaceContact::kUnilateral;
+  if (louse.phase == state::Phase::kFlying && !may_fly) return "flies where nobody can";
   return {};
 }
 
 std::string fault_of_lice(const map::Map& map, const MatchState& state) {
-  physics::LouseId before = 0;
-  for (const physics::Louse& louse : state.lice) {
+  state::LouseId before = 0;
+  for (const state::Louse& louse : state.lice) {
     const std::string name = joined({"louse ", std::to_string(louse.id)});
     if (louse.id <= before || louse.id >= state.next_player) return joined({name, " is out of order"});
     before = louse.id;
@@ -59,7 +59,7 @@ std::string fault_of_lice(const map::Map& map, const MatchState& state) {
 }
 
 std::string fault_of_players(const MatchState& state) {
-  physics::LouseId before = 0;
+  state::LouseId before = 0;
   for (const PlayerSeq& entry : state.players) {
     if (entry.player <= before || entry.player >= state.next_player) {
       return joined({"player ", std::to_string(entry.player), " is out of order"});
@@ -85,9 +85,8 @@ std::string fault_of_waiting(const MatchState& state, std::uint64_t horizon) {
     if (input.tick < state.tick || input.tick - state.tick > horizon) {
       return joined({name, " is for tick ", std::to_string(input.tick)});
     }
-    const auto owner =
-        std::lower_bound(state.players.begin(), state.players.end(), input.player,
-                         [](const PlayerSeq& p, physics::LouseId id) { return p.player < id; });
+    const auto owner = std::lower_bound(state.players.begin(), state.players.end(), input.player,
+                                        [](const PlayerSeq& p, state::LouseId id) { return p.player < id; });
     if (owner == state.players.end() || owner->player != input.player)
       return joined({name, " has no player"});
     if (owner->last_seq < input.seq) return joined({name, " has a seq above the player's last"});
@@ -110,7 +109,7 @@ std::string why_not(const map::Map& map, const MatchSettings& settings, const Ma
   }
   core::StableHasher hasher;
   const std::uint64_t hash =
-      physics::state_hash(hasher, {state.previous, state.inputs, state.tick, state.generator}, state.lice);
+      state::state_hash(hasher, {state.previous, state.inputs, state.tick, state.generator}, state.lice);
   if (hash == state.hash) return {};
   return joined({"its hash is ", core::to_hex(hash), ", not ", core::to_hex(state.hash)});
 }

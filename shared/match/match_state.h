@@ -16,7 +16,7 @@ enum class RosterAction : std::uint32_t { kJoin = 0, kLeave = 1, kRespawn = 2 };
 /// A change of who plays, as applied in a step.
 struct RosterChange {
   RosterAction action = RosterAction::kJoin;
-  physics::LouseId player = 0;
+  state::LouseId player = 0;
   friend bool operator==(const RosterChange&, const RosterChange&) = default;
 };
 
@@ -26,11 +26,11 @@ struct MatchState {
   std::uint64_t previous = 0;  ///< the hash of the tick before
   std::uint64_t inputs = 0;    ///< the hash of the inputs that led here
   std::uint64_t generator = 0;
-  physics::LouseId next_player = 1;   ///< above every id used so far
+  state::LouseId next_player = 1;     ///< above every id used so far
   std::vector<PlayerSeq> players;     ///< who may file inputs, by ascending id
   std::vector<AppliedInput> waiting;  ///< filed for this tick or later, by (tick, player, seq)
   std::vector<RosterChange> roster;   ///< queued for the next step, in the order they came
-  std::vector<physics::Louse> lice;   ///< by ascending id
+  std::vector<state::Louse> lice;     ///< by ascending id
 };
 
 struct MatchSettings;

@@ -47,7 +47,7 @@ struct BatchLists {
 struct BatchContext {
   terrain::BicubicSpline::View spline;  ///< on BatchGround::kBicubicSpline
   core::Vec2 slope;                     ///< on BatchGround::kPlane
-  Parameters parameters;
+  state::Parameters parameters;
   terrain::Rectangle interior;  ///< who leaves it meets a wall or a seam
   double tick = 0.0;            ///< [s]
   SubStepRules rules;
@@ -57,8 +57,8 @@ struct BatchContext {
 /// the others are left where they were then, in lists.left.
 struct BatchStep {
   int width = 0;  ///< lanes; 0: no batched step
-  void (*advance)(const BatchContext&, Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists,
-                  StepCounters& counters) = nullptr;
+  void (*advance)(const BatchContext&, state::Louse* lice, std::span<const std::uint32_t> moving,
+                  BatchLists& lists, StepCounters& counters) = nullptr;
 };
 
 /// The grounds that have a batched step.

@@ -31,7 +31,7 @@ struct LaneFields {
   static constexpr int kFields = 8;
   L field[kFields];  ///< x y vx vy heading_x heading_y tx ty
 
-  [[gnu::always_inline]] inline void load(Louse* const* lice) {
+  [[gnu::always_inline]] inline void load(state::Louse* const* lice) {
     const double* from[L::kCount];
     for (int part = 0; part < kFields; part += L::kRow) {
       for (int l = 0; l < L::kCount; ++l) from[l] = row(*lice[l]) + part;
@@ -39,7 +39,7 @@ struct LaneFields {
     }
   }
   /// Writes `count` fields of the lanes of `done`.
-  [[gnu::always_inline]] inline void store(Louse* const* lice, unsigned done) const {
+  [[gnu::always_inline]] inline void store(state::Louse* const* lice, unsigned done) const {
     double discarded[L::kRow];
     double* to[L::kCount];
     for (int part = 0; part < kFields; part += L::kRow) {
@@ -49,9 +49,9 @@ struct LaneFields {
   }
 
  private:
-  static_assert(offsetof(Louse, thrust) - offsetof(Louse, position) == 6 * sizeof(double));
-  static double* row(Louse& louse) {
-    return reinterpret_cast<double*>(reinterpret_cast<char*>(&louse) + offsetof(Louse, position));
+  static_assert(offsetof(state::Louse, thrust) - offsetof(state::Louse, position) == 6 * sizeof(double));
+  static double* row(state::Louse& louse) {
+    return reinterpret_cast<double*>(reinterpret_cast<char*>(&louse) + offsetof(state::Louse, position));
   }
 };
 
@@ -63,7 +63,7 @@ class LaneStepper {
       : context_(context), ground_(context), shortest_(context.tick / SubStepRules::kMaxSubSteps) {}
 
   /// See BatchStep.
-  void advance(Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists,
+  void advance(state::Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists,
                StepCounters& counters) {
     lists.left.clear();
     lists.again.clear();
@@ -101,13 +101,14 @@ class LaneStepper {
     unsigned active;  ///< lanes that hold a louse
     unsigned special;
     unsigned finished;
-    Louse* lice[kCount];
+    state::Louse* lice[kCount];
     alignas(64) double after[kCount];
   };
 
   /// One sub-step for each of `count` lice; tick_of(i): who and how far.
   template <typename TickOf>
-  void run(Louse* lice, std::size_t count, const TickOf& tick_of, BatchLists& lists, StepCounters& counters) {
+  void run(state::Louse* lice, std::size_t count, const TickOf& tick_of, BatchLists& lists,
+           StepCounters& counters) {
     for (std::size_t from = 0; from < count; from += kBlock) {
       const std::size_t size = count - from < kBlock ? count - from : kBlock;
       const std::size_t batches = (size + kCount - 1) / kCount;
@@ -193,13 +194,13 @@ class LaneStepper {
     using core::select;
     unsigned kinds = 0;
     for (std::size_t l = 0; l < kCount; ++l) kinds |= static_cast<unsigned>(batch.lice[l]->thrust_kind);
-    if ((kinds & static_cast<unsigned>(ThrustKind::kAlongHeading)) == 0) {
+    if ((kinds & static_cast<unsigned>(state::ThrustKind::kAlongHeading)) == 0) {
       batch.drive = drive_of_map_vector(batch.thrust, context_.parameters.thrust_max);
       return;
     }
     unsigned along = 0;
     for (std::size_t l = 0; l < kCount; ++l)
-      along |= (batch.lice[l]->thrust_kind == ThrustKind::kAlongHeading ? 1u : 0u) << l;
+      along |= (batch.lice[l]->thrust_kind == state::ThrustKind::kAlongHeading ? 1u : 0u) << l;
     const auto is_along = L::Mask::of(along);
     const Pair<L> thrust = batch.thrust;
     batch.drive =
@@ -310,7 +311,7 @@ class LaneStepper {
 };
 
 template <typename L, typename F, typename G>
-void advance_lanes(const BatchContext& context, Louse* lice, std::span<const std::uint32_t> moving,
+void advance_lanes(const BatchContext& context, state::Louse* lice, std::span<const std::uint32_t> moving,
                    BatchLists& lists, StepCounters& counters) {
   LaneStepper<L, F, G>(context).advance(lice, moving, lists, counters);
 }

@@ -27,7 +27,7 @@ class CompiledSteps final : public GroundSteps {
  public:
   CompiledSteps(const S& ground, const StepRules& rules) : ground_(ground), rules_(rules) {}
 
-  void advance(std::span<Louse> lice, std::span<const std::uint32_t> moving, const BatchStep& batch,
+  void advance(std::span<state::Louse> lice, std::span<const std::uint32_t> moving, const BatchStep& batch,
                BatchLists& lists, StepCounters& counters) const override {
     const auto& surface = surface_of(ground_);
     const OneStepper stepper(surface, rules_.parameters, rules_.walls, rules_.tick);
@@ -37,7 +37,7 @@ class CompiledSteps final : public GroundSteps {
     for (const std::uint32_t index : moving) stepper.advance(lice[index], counters);
   }
 
-  [[nodiscard]] bool holds(const Louse& louse) const override {
+  [[nodiscard]] bool holds(const state::Louse& louse) const override {
     const auto& surface = surface_of(ground_);
     return OneStepper(surface, rules_.parameters, rules_.walls, rules_.tick).holds(louse);
   }
@@ -48,7 +48,7 @@ class CompiledSteps final : public GroundSteps {
   static constexpr bool kHasLanes =
       std::is_same_v<S, terrain::BicubicSpline> || std::is_same_v<S, terrain::PlaneSurface>;
 
-  void advance_batched(const OneStepper& stepper, std::span<Louse> lice,
+  void advance_batched(const OneStepper& stepper, std::span<state::Louse> lice,
                        std::span<const std::uint32_t> moving, const BatchStep& batch, BatchLists& lists,
                        StepCounters& counters) const {
     // Whoever leaves the interior takes the scalar step, which knows of walls and seams.
@@ -73,7 +73,7 @@ class CompiledSteps final : public GroundSteps {
 /// Compiles every combination of the forces that a map may leave out.
 template <typename I, typename S>
 std::unique_ptr<const GroundSteps> with_forces(const S& ground, const StepRules& rules) {
-  const Parameters& p = rules.parameters;
+  const state::Parameters& p = rules.parameters;
   const auto make = [&]<typename F>(F) -> std::unique_ptr<const GroundSteps> {
     return std::make_unique<const CompiledSteps<S, F, I>>(ground, rules);
   };
@@ -112,11 +112,11 @@ std::unique_ptr<const GroundSteps> with_main_forces(const S& ground, const StepR
 template <typename S>
 std::unique_ptr<const GroundSteps> steps_with_every_force(const S& ground, const StepRules& rules) {
   switch (rules.parameters.method) {
-    case Method::kCheap:
+    case state::Method::kCheap:
       return with_main_forces<VerletQ>(ground, rules);
-    case Method::kPrecise:
+    case state::Method::kPrecise:
       return with_main_forces<Precise>(ground, rules);
-    case Method::kStandard:
+    case state::Method::kStandard:
       break;
   }
   return with_forces<Nystrom4>(ground, rules);

@@ -27,7 +27,7 @@ template <typename F>
 inline constexpr bool kConservative = !F::drag && !F::friction && !F::thrust && !F::central;
 
 /// Whether such a map is stepped with none of these forces compiled in.
-inline bool conserves_energy(const Parameters& p) {
+inline bool conserves_energy(const state::Parameters& p) {
   return !(p.drag > 0.0) && !(p.friction > 0.0) && !(p.thrust_max > 0.0) && !(p.central_gravity > 0.0);
 }
 

@@ -31,7 +31,7 @@ struct Flight {
 
 /// g + v'Hv: the normal force's sign; below 0 a unilateral contact ends.
 template <typename Sample>
-double lift(const Sample& s, core::Vec2 v, const Parameters& p) {
+double lift(const Sample& s, core::Vec2 v, const state::Parameters& p) {
   return p.gravity + curvature_along(s, v);
 }
 
@@ -51,7 +51,7 @@ inline core::Vec2 landed_velocity(const terrain::SlopeSample& s, const Flight& f
 template <terrain::Surface S>
 class Flyer {
  public:
-  Flyer(const S& surface, const Parameters& parameters, const Rim& rim, double tick)
+  Flyer(const S& surface, const state::Parameters& parameters, const Rim& rim, double tick)
       : surface_(surface),
         parameters_(parameters),
         rim_(rim),
@@ -121,7 +121,7 @@ class Flyer {
   }
 
   const S& surface_;
-  const Parameters& parameters_;
+  const state::Parameters& parameters_;
   const Rim& rim_;
   double longest_;
 };

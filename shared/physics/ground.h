@@ -36,7 +36,8 @@ class Ground {
     Contact contact;      ///< the walls it may lean on: no velocity along their normals
   };
 
-  Ground(const S& surface, const Parameters& parameters) : surface_(surface), parameters_(parameters) {}
+  Ground(const S& surface, const state::Parameters& parameters)
+      : surface_(surface), parameters_(parameters) {}
 
   [[nodiscard]] const S& surface() const { return surface_; }
 
@@ -85,7 +86,7 @@ class Ground {
   }
 
   const S& surface_;
-  const Parameters& parameters_;
+  const state::Parameters& parameters_;
 };
 
 /// The motion's right side through one sub-step, as integrators ask for it.

@@ -26,15 +26,15 @@ class GroundSteps {
   /// Moves lice[moving[0]], lice[moving[1]], ..., none of them resting, through one tick. batch: for as many
   /// at once as it can; width 0: none, and so REQUIRED of every ground but the bicubic spline and the plane.
   /// lists: room for it.
-  virtual void advance(std::span<Louse> lice, std::span<const std::uint32_t> moving, const BatchStep& batch,
-                       BatchLists& lists, StepCounters& counters) const = 0;
+  virtual void advance(std::span<state::Louse> lice, std::span<const std::uint32_t> moving,
+                       const BatchStep& batch, BatchLists& lists, StepCounters& counters) const = 0;
   /// Whether friction, brake and walls hold this louse where it is.
-  [[nodiscard]] virtual bool holds(const Louse& louse) const = 0;
+  [[nodiscard]] virtual bool holds(const state::Louse& louse) const = 0;
 };
 
 /// What the steps need besides the ground.
 struct StepRules {
-  Parameters parameters;
+  state::Parameters parameters;
   terrain::Rectangle walls;
   double tick = 0.0;  ///< [s]
 };

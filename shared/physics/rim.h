@@ -28,14 +28,14 @@ struct Turns {
 class Rim {
  public:
   /// Walls: infinite sides keep nobody. Wrapping: the domain is one period; REQUIRES it finite.
-  Rim(const terrain::Rectangle& domain, Edges edges)
+  Rim(const terrain::Rectangle& domain, state::Edges edges)
       : domain_(domain),
         interior_(domain),
         walls_(domain),
         tolerance_(1e-13 *
                    (finite_extent(domain.x_min, domain.x_max) + finite_extent(domain.y_min, domain.y_max))),
         edges_(edges) {
-    if (edges == Edges::kWalls) return;
+    if (edges == state::Edges::kWalls) return;
     constexpr double kNever = std::numeric_limits<double>::infinity();
     assert(domain.x_max - domain.x_min < kNever && domain.y_max - domain.y_min < kNever);
     interior_.x_max = before(domain.x_max);
@@ -43,7 +43,7 @@ class Rim {
     walls_ = {-kNever, -kNever, kNever, kNever};
   }
 
-  [[nodiscard]] bool wraps() const { return edges_ == Edges::kWrap; }
+  [[nodiscard]] bool wraps() const { return edges_ == state::Edges::kWrap; }
   /// The positions a louse may have.
   [[nodiscard]] const terrain::Rectangle& interior() const { return interior_; }
   /// How near to a wall is at the wall [m].
@@ -185,7 +185,7 @@ class Rim {
   terrain::Rectangle interior_;  ///< what positions lie in
   terrain::Rectangle walls_;     ///< infinite where the edges wrap
   double tolerance_;
-  Edges edges_;
+  state::Edges edges_;
 };
 
 }  // namespace woodlouse::physics

@@ -40,7 +40,7 @@ class Stepper {
 
  public:
   /// walls: where the louse is kept (infinite: nowhere), or one period where the edges wrap; tick: [s].
-  Stepper(const S& surface, const Parameters& parameters, const terrain::Rectangle& walls, double tick)
+  Stepper(const S& surface, const state::Parameters& parameters, const terrain::Rectangle& walls, double tick)
       : surface_(surface),
         parameters_(parameters),
         ground_(surface, parameters),
@@ -48,18 +48,18 @@ class Stepper {
         tick_(tick),
         shortest_(tick / SubStepRules::kMaxSubSteps),
         rules_(parameters, (kKeepsEnergy ? 0.5 : 1.0) * surface.cell(), tick),
-        unilateral_(E::kExact && kCurved && parameters.contact == SurfaceContact::kUnilateral) {}
+        unilateral_(E::kExact && kCurved && parameters.contact == state::SurfaceContact::kUnilateral) {}
 
   [[nodiscard]] const SubStepRules& rules() const { return rules_; }
 
   /// Moves the louse through one tick. Its thrust is not counted down here.
-  void advance(Louse& louse, StepCounters& counters) const {
+  void advance(state::Louse& louse, StepCounters& counters) const {
     ++counters.louse_steps;
     finish(louse, tick_, 0, counters);
   }
 
   /// The rest of a tick, of which `remaining` [s] is left after `pieces` sub-steps in lanes (batch.h).
-  void finish(Louse& louse, double remaining, int pieces, StepCounters& counters) const {
+  void finish(state::Louse& louse, double remaining, int pieces, StepCounters& counters) const {
     const Drive drive = drive_of(louse);
     const bool turns_with_v = kRules && (F::friction || (F::thrust && drive.along != 0.0));
     I integrator;
@@ -71,14 +71,14 @@ class Stepper {
         ++counters.capped;
         break;
       }
-      if (louse.phase == Phase::kFlying) {
+      if (louse.phase == state::Phase::kFlying) {
         remaining -= fly(louse, at, remaining, counters);
         continue;
       }
       Start start = begin(at, drive, bounces, counters);
       at = start.at;
       if (kRules && start.speed2 == 0.0 && !set_off(start, louse.heading, drive)) {
-        louse.phase = Phase::kResting;
+        louse.phase = state::Phase::kResting;
         break;
       }
       const double speed = std::sqrt(start.speed2);
@@ -99,7 +99,7 @@ class Stepper {
           remaining -= time;
           integrator = I{};
           if (halt == Halt::kTurnsBack) continue;
-          louse.phase = Phase::kResting;
+          louse.phase = state::Phase::kResting;
           ++counters.stops;
           break;
         }
@@ -124,7 +124,7 @@ class Stepper {
       const bool flies = unilateral_ && takes_off(start, field, integrator, h, end);
       if (flies) {
         const Flight flight = taken_off(surface_.sample(end.position.x, end.position.y), end);
-        louse.phase = Phase::kFlying;
+        louse.phase = state::Phase::kFlying;
         louse.flight_z = flight.height;
         louse.flight_vz = flight.climb;
         ++counters.flights;
@@ -141,8 +141,8 @@ class Stepper {
   }
 
   /// Whether friction, brake and walls hold this louse where it is. False while it moves.
-  [[nodiscard]] bool holds(const Louse& louse) const {
-    if (louse.phase == Phase::kFlying || louse.velocity != core::Vec2{}) return false;
+  [[nodiscard]] bool holds(const state::Louse& louse) const {
+    if (louse.phase == state::Phase::kFlying || louse.velocity != core::Vec2{}) return false;
     const Drive drive = drive_of(louse);
     Start start;
     start.at = {louse.position, {}};
@@ -165,7 +165,7 @@ class Stepper {
 
   enum class Halt { kNo, kRests, kTurnsBack };
 
-  [[nodiscard]] Drive drive_of(const Louse& louse) const {
+  [[nodiscard]] Drive drive_of(const state::Louse& louse) const {
     return F::thrust ? physics::drive_of(louse, parameters_.thrust_max) : Drive{};
   }
 
@@ -305,7 +305,7 @@ class Stepper {
   }
 
   /// One piece of a flight; the time it took.
-  double fly(Louse& louse, Motion& at, double remaining, StepCounters& counters) const {
+  double fly(state::Louse& louse, Motion& at, double remaining, StepCounters& counters) const {
     Flight flight{at, louse.flight_z, louse.flight_vz};
     const double speed = std::sqrt(dot(at.velocity, at.velocity) + louse.flight_vz * louse.flight_vz);
     const auto piece = Flyer<S>(surface_, parameters_, rim_, tick_).fly(flight, remaining);
@@ -319,7 +319,7 @@ class Stepper {
     if (piece.landed) {
       at.position = rim_.inside(at.position);
       at.velocity = landed_velocity(surface_.sample(at.position.x, at.position.y), flight);
-      louse.phase = Phase::kMoving;
+      louse.phase = state::Phase::kMoving;
       louse.flight_z = louse.flight_vz = 0.0;
     }
     return piece.time < remaining ? piece.time : remaining;
@@ -356,7 +356,7 @@ class Stepper {
   }
 
   const S& surface_;
-  const Parameters& parameters_;
+  const state::Parameters& parameters_;
   Ground ground_;
   Rim rim_;
   double tick_;

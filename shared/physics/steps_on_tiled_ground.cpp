@@ -5,11 +5,11 @@ namespace woodlouse::physics {
 std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::TiledGround& ground,
                                                      const StepRules& rules) {
   switch (rules.parameters.method) {
-    case Method::kCheap:
+    case state::Method::kCheap:
       return with_main_forces<VerletQ>(ground, rules);
-    case Method::kPrecise:
+    case state::Method::kPrecise:
       return with_main_forces<Precise>(ground, rules);
-    case Method::kStandard:
+    case state::Method::kStandard:
       break;
   }
   return with_main_forces<Nystrom4>(ground, rules);

@@ -20,7 +20,7 @@ class SubStepRules {
   static constexpr double kMaxSubSteps = 256.0;  ///< of a tick
 
   /// way: the longest that a sub-step may lead, the side of the surface's smallest cell or a part of it [m].
-  SubStepRules(const Parameters& p, double way, double tick)
+  SubStepRules(const state::Parameters& p, double way, double tick)
       : longest_(p.drag > 0.0 && kDecay / p.drag < tick ? kDecay / p.drag : tick),
         inverse_way2_(1.0 / (way * way)),
         swing_factor_(p.gravity * p.gravity / (kSwing * kSwing * kSwing * kSwing)),

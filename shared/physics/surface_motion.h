@@ -78,10 +78,11 @@ template <typename T>
           {}};
 }
 
-inline Drive drive_of(const Louse& louse, double thrust_max) {
-  if (louse.thrust_kind == ThrustKind::kMapVector) return drive_of_map_vector(louse.thrust, thrust_max);
+inline Drive drive_of(const state::Louse& louse, double thrust_max) {
+  if (louse.thrust_kind == state::ThrustKind::kMapVector)
+    return drive_of_map_vector(louse.thrust, thrust_max);
   Drive drive;
-  if (louse.thrust_kind == ThrustKind::kAlongHeading) drive.along = louse.thrust.x * thrust_max;
+  if (louse.thrust_kind == state::ThrustKind::kAlongHeading) drive.along = louse.thrust.x * thrust_max;
   return drive;
 }
 
@@ -134,7 +135,7 @@ inline constexpr double kStandstill2 = 1e-200;
 /// root: divisions and roots are most of what a step waits for.
 template <typename F, typename Sample, typename T>
 [[gnu::always_inline]] inline Pair<T> acceleration(const Sample& s, Pair<T> v, const BasicDrive<T>& drive,
-                                                   const Parameters& p) {
+                                                   const state::Parameters& p) {
   using core::any, core::magnitude, core::select, core::square_root;
   const T w2 = T(1.0) + s.zx * s.zx + s.zy * s.zy;
   const T lift = T(p.gravity) + curvature_along(s, v);
@@ -181,7 +182,8 @@ struct SurfaceEquations {
   static constexpr bool kExact = true;
   template <typename F, typename Sample, typename T>
   [[gnu::always_inline]] static inline Pair<T> acceleration(const Sample& s, Pair<T> v,
-                                                            const BasicDrive<T>& drive, const Parameters& p) {
+                                                            const BasicDrive<T>& drive,
+                                                            const state::Parameters& p) {
     return physics::acceleration<F>(s, v, drive, p);
   }
 };
@@ -190,7 +192,8 @@ struct SurfaceEquations {
 ///     v' = c (u - k sigma G),  sigma w^2 = g + v'Hv',  u = v + k push,  c = 1 / (1 + k resistance),
 /// solved in closed form; the resistance (drag, friction, drive along v) is taken at v, then once more at v'.
 template <typename F, typename Sample>
-core::Vec2 implicit_kick(const Sample& s, core::Vec2 v, double k, const Drive& drive, const Parameters& p) {
+core::Vec2 implicit_kick(const Sample& s, core::Vec2 v, double k, const Drive& drive,
+                         const state::Parameters& p) {
   const double w2 = 1.0 + s.zx * s.zx + s.zy * s.zy;
   const core::Vec2 gradient{s.zx, s.zy};
   core::Vec2 u = v;
@@ -237,7 +240,7 @@ struct RestingBalance {
 
 template <typename F>
 RestingBalance resting_balance(const terrain::SlopeSample& s, core::Vec2 heading, const Drive& drive,
-                               const Parameters& p) {
+                               const state::Parameters& p) {
   const double w2 = 1.0 + s.zx * s.zx + s.zy * s.zy;
   RestingBalance balance;
   balance.pull = {-p.gravity / w2 * s.zx, -p.gravity / w2 * s.zy};

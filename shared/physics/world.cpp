@@ -19,36 +19,38 @@ enum class List {
   kNone,
 };
 
-List list_of(const Louse& louse) {
-  if (louse.phase != Phase::kResting) return List::kMoving;
-  return louse.thrust_ticks != 0 && louse.thrust_ticks != kHeld ? List::kWaiting : List::kNone;
+List list_of(const state::Louse& louse) {
+  if (louse.phase != state::Phase::kResting) return List::kMoving;
+  return louse.thrust_ticks != 0 && louse.thrust_ticks != state::kHeld ? List::kWaiting : List::kNone;
 }
 
 /// The lanes' ground for a map, if they can step it: flight, central gravity and the other methods are not in
 /// them.
-std::optional<BatchGround> batch_ground(const terrain::Terrain& terrain, const Parameters& p) {
-  if (p.central_gravity > 0.0 || p.method == Method::kCheap) return std::nullopt;
-  if (p.contact == SurfaceContact::kUnilateral) return std::nullopt;
+std::optional<BatchGround> batch_ground(const terrain::Terrain& terrain, const state::Parameters& p) {
+  if (p.central_gravity > 0.0 || p.method == state::Method::kCheap) return std::nullopt;
+  if (p.contact == state::SurfaceContact::kUnilateral) return std::nullopt;
   if (std::holds_alternative<terrain::PlaneSurface>(terrain.surface()))
     return BatchGround::kPlane;  // nothing to split
-  return p.method == Method::kStandard && std::holds_alternative<terrain::BicubicSpline>(terrain.surface())
+  return p.method == state::Method::kStandard &&
+                 std::holds_alternative<terrain::BicubicSpline>(terrain.surface())
              ? std::optional(BatchGround::kBicubicSpline)
              : std::nullopt;
 }
 
-void clear_thrust(Louse& louse) {
+void clear_thrust(state::Louse& louse) {
   louse.thrust = {};
-  louse.thrust_kind = ThrustKind::kNone;
+  louse.thrust_kind = state::ThrustKind::kNone;
   louse.thrust_ticks = 0;
 }
 
 }  // namespace
 
-World::World(std::shared_ptr<const terrain::Terrain> terrain, const Parameters& parameters, double step)
+World::World(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters,
+             double step)
     : World(terrain, parameters, step, terrain->domain()) {}
 
-World::World(std::shared_ptr<const terrain::Terrain> terrain, const Parameters& parameters, double step,
-             const terrain::Rectangle& walls)
+World::World(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters,
+             double step, const terrain::Rectangle& walls)
     : terrain_(std::move(terrain)), parameters_(parameters), step_(step), walls_(walls) {
   assert(terrain_ != nullptr && step > 0.0);
   ground_steps_ = std::visit(
@@ -66,37 +68,38 @@ void World::use(InstructionSet set) {
   batch_ = ground ? find_batch_step(set, *ground, forces) : BatchStep{};
 }
 
-std::size_t World::index_of(LouseId id) const {
-  const auto at = std::lower_bound(lice_.begin(), lice_.end(), id,
-                                   [](const Louse& louse, LouseId wanted) { return louse.id < wanted; });
+std::size_t World::index_of(state::LouseId id) const {
+  const auto at =
+      std::lower_bound(lice_.begin(), lice_.end(), id,
+                       [](const state::Louse& louse, state::LouseId wanted) { return louse.id < wanted; });
   return at != lice_.end() && at->id == id ? static_cast<std::size_t>(at - lice_.begin()) : lice_.size();
 }
 
-const Louse* World::find(LouseId id) const {
+const state::Louse* World::find(state::LouseId id) const {
   const std::size_t index = index_of(id);
   return index < lice_.size() ? &lice_[index] : nullptr;
 }
 
-void World::settle(Louse& louse) const {
-  louse.phase = ground_steps_->holds(louse) ? Phase::kResting : Phase::kMoving;
+void World::settle(state::Louse& louse) const {
+  louse.phase = ground_steps_->holds(louse) ? state::Phase::kResting : state::Phase::kMoving;
 }
 
-void World::insert(const Louse& louse) {
+void World::insert(const state::Louse& louse) {
   assert(find(louse.id) == nullptr);
   const auto at = std::lower_bound(lice_.begin(), lice_.end(), louse.id,
-                                   [](const Louse& a, LouseId id) { return a.id < id; });
-  Louse& placed = *lice_.insert(at, louse);
+                                   [](const state::Louse& a, state::LouseId id) { return a.id < id; });
+  state::Louse& placed = *lice_.insert(at, louse);
   if (const Rim rim(walls_, parameters_.edges); rim.wraps()) {
     rim.carry_home(placed.position);
   } else {
     placed.position.x = std::clamp(placed.position.x, walls_.x_min, walls_.x_max);
     placed.position.y = std::clamp(placed.position.y, walls_.y_min, walls_.y_max);
   }
-  if (placed.phase != Phase::kFlying) settle(placed);
+  if (placed.phase != state::Phase::kFlying) settle(placed);
   lists_are_stale_ = true;
 }
 
-bool World::erase(LouseId id) {
+bool World::erase(state::LouseId id) {
   const std::size_t index = index_of(id);
   if (index == lice_.size()) return false;
   lice_.erase(lice_.begin() + static_cast<std::ptrdiff_t>(index));
@@ -104,16 +107,16 @@ bool World::erase(LouseId id) {
   return true;
 }
 
-bool World::set_thrust(LouseId id, const Thrust& thrust, std::uint32_t ticks) {
+bool World::set_thrust(state::LouseId id, const state::Thrust& thrust, std::uint32_t ticks) {
   const std::size_t index = index_of(id);
   if (index == lice_.size()) return false;
-  Louse& louse = lice_[index];
+  state::Louse& louse = lice_[index];
   const List before = list_of(louse);
   louse.thrust = thrust.value;
   louse.thrust_kind = thrust.kind;
   louse.thrust_ticks = ticks;
-  if (thrust.kind == ThrustKind::kNone || ticks == 0) clear_thrust(louse);
-  if (louse.phase == Phase::kResting) settle(louse);
+  if (thrust.kind == state::ThrustKind::kNone || ticks == 0) clear_thrust(louse);
+  if (louse.phase == state::Phase::kResting) settle(louse);
   if (list_of(louse) != before) lists_are_stale_ = true;
   return true;
 }
@@ -135,10 +138,10 @@ void World::step() {
   ground_steps_->advance(lice_, moving_, batch_, batch_lists_, counters_);
   for (const auto* list : {&moving_, &waiting_}) {
     for (const std::uint32_t index : *list) {
-      Louse& louse = lice_[index];
-      if (louse.thrust_ticks != 0 && louse.thrust_ticks != kHeld && --louse.thrust_ticks == 0) {
+      state::Louse& louse = lice_[index];
+      if (louse.thrust_ticks != 0 && louse.thrust_ticks != state::kHeld && --louse.thrust_ticks == 0) {
         clear_thrust(louse);
-        if (louse.phase == Phase::kResting) settle(louse);
+        if (louse.phase == state::Phase::kResting) settle(louse);
       }
       lists_are_stale_ |= list_of(louse) != (list == &moving_ ? List::kMoving : List::kWaiting);
     }

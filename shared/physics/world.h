@@ -29,9 +29,9 @@ class GroundSteps;
 class World {
  public:
   /// step: seconds per tick, > 0. Walls stand at the terrain's edge.
-  World(std::shared_ptr<const terrain::Terrain> terrain, const Parameters& parameters, double step);
+  World(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters, double step);
   /// The same with walls elsewhere; infinite ones keep nobody (laboratory and tests).
-  World(std::shared_ptr<const terrain::Terrain> terrain, const Parameters& parameters, double step,
+  World(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters, double step,
         const terrain::Rectangle& walls);
 
   /// Chooses how many lice are stepped at once; every choice gives the same bits. REQUIRES is_available(set).
@@ -41,41 +41,41 @@ class World {
   /// Adds a louse; its position is moved into the domain where it lies outside (by whole periods where the
   /// edges wrap). REQUIRES a fresh id and finite fields. A louse at rest that the terrain or its thrust would
   /// move is woken.
-  void insert(const Louse& louse);
+  void insert(const state::Louse& louse);
   /// Replaces all lice by these, bit for bit: none is moved, woken or put to rest. REQUIRES ascending ids and
   /// a state that a step of such a world left.
-  void restore(std::span<const Louse> lice) {
+  void restore(std::span<const state::Louse> lice) {
     lice_.assign(lice.begin(), lice.end());
     lists_are_stale_ = true;
   }
   /// Removes it; false when there is none of that id.
-  bool erase(LouseId id);
+  bool erase(state::LouseId id);
   /// Replaces its thrust for `ticks` ticks (kHeld: until the next); wakes it where that moves it.
   /// REQUIRES |value| <= 1. False when there is none of that id.
-  bool set_thrust(LouseId id, const Thrust& thrust, std::uint32_t ticks);
+  bool set_thrust(state::LouseId id, const state::Thrust& thrust, std::uint32_t ticks);
   /// Steps every louse that is not at rest.
   void step();
 
   /// Every louse, by ascending id.
-  [[nodiscard]] std::span<const Louse> lice() const { return lice_; }
+  [[nodiscard]] std::span<const state::Louse> lice() const { return lice_; }
   /// The louse of that id, or null; valid until the next change.
-  [[nodiscard]] const Louse* find(LouseId id) const;
+  [[nodiscard]] const state::Louse* find(state::LouseId id) const;
   [[nodiscard]] const terrain::Terrain& terrain() const { return *terrain_; }
-  [[nodiscard]] const Parameters& parameters() const { return parameters_; }
+  [[nodiscard]] const state::Parameters& parameters() const { return parameters_; }
   [[nodiscard]] double step_seconds() const { return step_; }
   [[nodiscard]] const StepCounters& counters() const { return counters_; }
 
  private:
-  [[nodiscard]] std::size_t index_of(LouseId id) const;
-  void settle(Louse& louse) const;
+  [[nodiscard]] std::size_t index_of(state::LouseId id) const;
+  void settle(state::Louse& louse) const;
   void collect();
 
   std::shared_ptr<const terrain::Terrain> terrain_;
-  Parameters parameters_;
+  state::Parameters parameters_;
   double step_;
   terrain::Rectangle walls_;
   std::shared_ptr<const GroundSteps> ground_steps_;  ///< compiled for the terrain, the method and the forces
-  std::vector<Louse> lice_;                          ///< ascending id
+  std::vector<state::Louse> lice_;                   ///< ascending id
   std::vector<std::uint32_t> moving_;                ///< indices into lice_ of whom a step moves, ascending
   std::vector<std::uint32_t> waiting_;               ///< of those at rest whose thrust is to be counted down
   bool lists_are_stale_ = false;  ///< lice_ or who is in which list changed since they were made

@@ -7,7 +7,7 @@ namespace {
 void append_name(std::string& out, Column column) { json::append_string(out, to_text(column)); }
 
 std::string line_of(const Join& join) {
-  MessageText text("join");
+  json::ObjectText text("join");
   text.integer("protocol", join.protocol).text("role", to_text(join.role)).text("name", join.name);
   if (!join.room.empty()) text.text("room", join.room);
   if (!join.fields.empty()) text.array("fields", join.fields, append_name);
@@ -17,7 +17,7 @@ std::string line_of(const Join& join) {
 }
 
 std::string line_of(const Input& input) {
-  MessageText text("input");
+  json::ObjectText text("input");
   text.integer("seq", input.seq);
   if (input.is_pair) {
     text.pair("thrust", input.thrust);
@@ -30,15 +30,19 @@ std::string line_of(const Input& input) {
 }
 
 std::string line_of(const Chat& chat) {
-  return std::move(MessageText("chat").text("text", chat.text)).line();
+  return std::move(json::ObjectText("chat").text("text", chat.text)).line();
 }
-std::string line_of(const List&) { return MessageText("list").line(); }
-std::string line_of(const GetMap&) { return MessageText("get_map").line(); }
-std::string line_of(const Resync&) { return MessageText("resync").line(); }
-std::string line_of(const Respawn&) { return MessageText("respawn").line(); }
-std::string line_of(const Leave&) { return MessageText("leave").line(); }
-std::string line_of(const Ping& ping) { return std::move(MessageText("ping").integer("t", ping.t)).line(); }
-std::string line_of(const Pong& pong) { return std::move(MessageText("pong").integer("t", pong.t)).line(); }
+std::string line_of(const List&) { return json::ObjectText("list").line(); }
+std::string line_of(const GetMap&) { return json::ObjectText("get_map").line(); }
+std::string line_of(const Resync&) { return json::ObjectText("resync").line(); }
+std::string line_of(const Respawn&) { return json::ObjectText("respawn").line(); }
+std::string line_of(const Leave&) { return json::ObjectText("leave").line(); }
+std::string line_of(const Ping& ping) {
+  return std::move(json::ObjectText("ping").integer("t", ping.t)).line();
+}
+std::string line_of(const Pong& pong) {
+  return std::move(json::ObjectText("pong").integer("t", pong.t)).line();
+}
 
 }  // namespace
 

@@ -18,12 +18,12 @@ std::string rows_of(const Overview& overview) {
 }
 
 std::string line_of(const Hello& hello) {
-  MessageText text("hello");
+  json::ObjectText text("hello");
   text.integer("protocol", hello.protocol).integer("behavior", hello.behavior);
   text.text("server", hello.server).text("session", hello.session);
   text.array("rooms", hello.rooms, json::append_string)
       .array("features", hello.features, json::append_string);
-  text.object("limits", [&](MessageText& limits) {
+  text.object("limits", [&](json::ObjectText& limits) {
     limits.integer("line", hello.limits.line).integer("depth", hello.limits.depth);
     limits.integer("messages_per_s", hello.limits.messages_per_s).integer("burst", hello.limits.burst);
     limits.integer("outbox_bytes", hello.limits.outbox_bytes)
@@ -35,7 +35,7 @@ std::string line_of(const Hello& hello) {
 }
 
 std::string line_of(const Welcome& welcome) {
-  MessageText text("welcome");
+  json::ObjectText text("welcome");
   text.integer("id", welcome.id).text("resume_token", welcome.resume_token).text("room", welcome.room);
   text.integer("tick", welcome.tick)
       .integer("tick_hz", welcome.tick_hz)
@@ -46,11 +46,11 @@ std::string line_of(const Welcome& welcome) {
     json::append_double(out, welcome.format == Format::kExact ? 1.0 : quantum(column));
   });
   text.text("format", to_text(welcome.format));
-  text.object("map", [&](MessageText& map) {
+  text.object("map", [&](json::ObjectText& map) {
     map.text("name", welcome.map_name).text("hash", core::to_hex(welcome.map_hash));
     map.array("extent", welcome.extent, json::append_double).integer("bytes", welcome.map_bytes);
   });
-  text.object("physics", [&](MessageText& physics) {
+  text.object("physics", [&](json::ObjectText& physics) {
     physics.number("gravity", welcome.physics.gravity).number("drag", welcome.physics.drag);
     physics.number("friction", welcome.physics.friction).number("thrust_max", welcome.physics.thrust_max);
     physics.number("edge_restitution", welcome.physics.edge_restitution);
@@ -71,11 +71,11 @@ std::string line_of(const Frame&) {
 }
 
 std::string line_of(const Ack& ack) {
-  MessageText text("ack");
+  json::ObjectText text("ack");
   text.integer("seq", ack.seq).integer("tick", ack.tick).integer("margin_us", ack.margin_us);
   text.boolean("late", ack.late).boolean("dropped", ack.dropped).boolean("clamped", ack.clamped);
   if (ack.you) {
-    text.object("you", [&](MessageText& you) {
+    text.object("you", [&](json::ObjectText& you) {
       you.integer("tick", ack.you->tick).integer("id", ack.you->id);
       you.number("x", ack.you->position.x).number("y", ack.you->position.y);
       you.number("vx", ack.you->velocity.x).number("vy", ack.you->velocity.y);
@@ -91,7 +91,7 @@ std::string line_of(const Ack& ack) {
 }
 
 std::string line_of(const Event& event) {
-  MessageText text("event");
+  json::ObjectText text("event");
   text.integer("n", event.n).integer("tick", event.tick).text("kind", to_text(event.kind));
   text.integer("id", event.id).text("name", event.name);
   if (event.kind == EventKind::kJoined) text.text("role", to_text(event.role));
@@ -100,24 +100,24 @@ std::string line_of(const Event& event) {
 }
 
 std::string line_of(const Notice& notice) {
-  return std::move(MessageText("notice").text("code", notice.code).text("text", notice.text)).line();
+  return std::move(json::ObjectText("notice").text("code", notice.code).text("text", notice.text)).line();
 }
 
 std::string line_of(const ErrorMessage& error) {
-  MessageText text("error");
+  json::ObjectText text("error");
   text.text("code", error.code).text("text", error.text).boolean("fatal", error.fatal);
   if (error.retry_after_ms) text.integer("retry_after_ms", *error.retry_after_ms);
   return std::move(text).line();
 }
 
 std::string line_of(const Bye& bye) {
-  MessageText text("bye");
+  json::ObjectText text("bye");
   text.text("code", bye.code).text("text", bye.text).boolean("resumable", bye.resumable);
   return std::move(text).line();
 }
 
 std::string line_of(const Rooms& rooms) {
-  MessageText text("rooms");
+  json::ObjectText text("rooms");
   text.array("rooms", rooms.rooms, [](std::string& out, const RoomEntry& room) {
     json::append_string(out += "{\"name\":", room.name);
     json::append_string(out += ",\"map\":", room.map);
@@ -130,8 +130,12 @@ std::string line_of(const Rooms& rooms) {
 }
 
 std::string line_of(const MapMessage& map) { return encode_map(map, {}); }
-std::string line_of(const Ping& ping) { return std::move(MessageText("ping").integer("t", ping.t)).line(); }
-std::string line_of(const Pong& pong) { return std::move(MessageText("pong").integer("t", pong.t)).line(); }
+std::string line_of(const Ping& ping) {
+  return std::move(json::ObjectText("ping").integer("t", ping.t)).line();
+}
+std::string line_of(const Pong& pong) {
+  return std::move(json::ObjectText("pong").integer("t", pong.t)).line();
+}
 
 }  // namespace
 
@@ -140,13 +144,13 @@ std::string encode(const ServerMessage& message) {
 }
 
 std::string encode_map(const MapMessage& message, std::string_view knots_json) {
-  MessageText text("map");
+  json::ObjectText text("map");
   text.text("name", message.name)
       .text("hash", core::to_hex(message.hash))
       .json("definition", message.definition);
   if (!knots_json.empty()) text.json("knots", knots_json);
   if (message.overview) {
-    text.boolean("overview", true).object("knots", [&](MessageText& knots) {
+    text.boolean("overview", true).object("knots", [&](json::ObjectText& knots) {
       knots.pair("origin", message.overview->origin).pair("spacing", message.overview->spacing);
       knots.integer("columns", message.overview->columns).integer("rows", message.overview->rows);
       knots.json("heights", rows_of(*message.overview));

@@ -7,8 +7,8 @@ namespace woodlouse::replay {
 namespace {
 
 using core::joined;
-using map::Fields;
-using map::Problems;
+using json::Fields;
+using json::Problems;
 
 constexpr std::size_t kMaxPathBytes = 4096;
 
@@ -25,7 +25,7 @@ void read_map(const json::Value& value, Header& header, Problems& problems) {
   } else if (definition) {
     header.map_definition = definition->raw();
   } else {
-    header.map_file = map::text_in(*file, 1, kMaxPathBytes, problems).value_or("");
+    header.map_file = json::text_in(*file, 1, kMaxPathBytes, problems).value_or("");
   }
 }
 

@@ -9,6 +9,6 @@ namespace woodlouse::replay {
 
 /// The header, every field checked. A line of another format, version or behavior is one problem, that names
 /// both.
-Header read_header(const json::Value& root, map::Problems& problems);
+Header read_header(const json::Value& root, json::Problems& problems);
 
 }  // namespace woodlouse::replay

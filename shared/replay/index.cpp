@@ -33,7 +33,7 @@ void ReplayIndex::add(const KeyframePlace& place, const Keyframe& keyframe) {
   keyframes.push_back(place);
   last_tick = std::max(last_tick, place.tick);
   if (keyframes.size() > 1) return;
-  for (const physics::Louse& louse : keyframe.state.lice) {  // a fork's: nobody saw them join
+  for (const state::Louse& louse : keyframe.state.lice) {  // a fork's: nobody saw them join
     const auto label = keyframe.labels.find(louse.id);
     add_player({louse.id, label != keyframe.labels.end() ? label->second : PlayerLabel{}, place.tick, {}});
   }

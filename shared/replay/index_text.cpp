@@ -13,8 +13,8 @@
 namespace woodlouse::replay {
 namespace {
 
-using map::Fields;
-using map::Problems;
+using json::Fields;
+using json::Problems;
 using Values = std::vector<json::Value>;
 
 constexpr json::Limits kLimits{8, 4'000'000};
@@ -70,7 +70,7 @@ void read_rows(const Fields& fields, std::string_view key, std::size_t columns, 
 }
 
 std::uint64_t number(const json::Value& value, std::uint64_t max, Problems& problems) {
-  return map::integer_in(value, 0, max, problems).value_or(0);
+  return json::integer_in(value, 0, max, problems).value_or(0);
 }
 
 match::PlayerId player_id(const json::Value& value, Problems& problems) {

@@ -13,24 +13,24 @@ constexpr std::size_t kMaxTextBytes = 4096;
 
 }  // namespace
 
-std::uint64_t demand_integer(const map::Fields& fields, std::string_view key, std::uint64_t min,
-                             std::uint64_t max, map::Problems& problems) {
+std::uint64_t demand_integer(const json::Fields& fields, std::string_view key, std::uint64_t min,
+                             std::uint64_t max, json::Problems& problems) {
   const auto value = fields.demand(key);
-  return value ? map::integer_in(*value, min, max, problems).value_or(min) : min;
+  return value ? json::integer_in(*value, min, max, problems).value_or(min) : min;
 }
 
-std::string text_of(const json::Value& value, map::Problems& problems) {
+std::string text_of(const json::Value& value, json::Problems& problems) {
   if (value.is(json::Kind::kString) && value.text().size() <= kMaxTextBytes) return std::string(value.text());
   problems.add(value, core::joined({"text of at most ", std::to_string(kMaxTextBytes), " bytes is wanted"}));
   return {};
 }
 
-std::string demand_text(const map::Fields& fields, std::string_view key, map::Problems& problems) {
+std::string demand_text(const json::Fields& fields, std::string_view key, json::Problems& problems) {
   const auto value = fields.demand(key);
   return value ? text_of(*value, problems) : std::string();
 }
 
-protocol::Role role_of(const json::Value& value, map::Problems& problems) {
+protocol::Role role_of(const json::Value& value, json::Problems& problems) {
   const std::string text = text_of(value, problems);
   for (const protocol::Role known :
        {protocol::Role::kPlayer, protocol::Role::kBot, protocol::Role::kSpectator}) {
@@ -47,7 +47,7 @@ std::optional<std::uint64_t> unsigned_text(std::string_view text, int base) {
   return value;
 }
 
-std::uint64_t demand_hash(const map::Fields& fields, std::string_view key, map::Problems& problems) {
+std::uint64_t demand_hash(const json::Fields& fields, std::string_view key, json::Problems& problems) {
   const auto value = fields.demand(key);
   if (!value) return 0;
   const std::string_view text = value->is(json::Kind::kString) ? value->text() : std::string_view();

@@ -18,18 +18,18 @@ inline constexpr std::uint64_t kMaxTick = std::uint64_t{1}
 
 inline constexpr std::uint64_t kMaxOffset = std::uint64_t{1} << 53;  ///< [bytes]
 
-std::uint64_t demand_integer(const map::Fields& fields, std::string_view key, std::uint64_t min,
-                             std::uint64_t max, map::Problems& problems);
+std::uint64_t demand_integer(const json::Fields& fields, std::string_view key, std::uint64_t min,
+                             std::uint64_t max, json::Problems& problems);
 
 /// Text for people: bounded, otherwise as it was said.
-std::string text_of(const json::Value& value, map::Problems& problems);
-std::string demand_text(const map::Fields& fields, std::string_view key, map::Problems& problems);
+std::string text_of(const json::Value& value, json::Problems& problems);
+std::string demand_text(const json::Fields& fields, std::string_view key, json::Problems& problems);
 
 /// player, bot or spectator.
-protocol::Role role_of(const json::Value& value, map::Problems& problems);
+protocol::Role role_of(const json::Value& value, json::Problems& problems);
 
 /// 16 lower-case hex digits.
-std::uint64_t demand_hash(const map::Fields& fields, std::string_view key, map::Problems& problems);
+std::uint64_t demand_hash(const json::Fields& fields, std::string_view key, json::Problems& problems);
 
 /// A whole text as an unsigned number of that base.
 std::optional<std::uint64_t> unsigned_text(std::string_view text, int base);

@@ -18,9 +18,9 @@ namespace woodlouse::replay {
 namespace {
 
 using core::joined;
-using map::Fields;
-using map::Problems;
-using map::Range;
+using json::Fields;
+using json::Problems;
+using json::Range;
 
 constexpr json::Limits kLimits{8, 4'000'000};
 constexpr std::uint64_t kMaxUint32 = std::numeric_limits<std::uint32_t>::max();
@@ -54,7 +54,7 @@ void read_change(const json::Value& value, StepLine& line, Problems& problems) {
     const Fields fields =
         is_join ? Fields(value, {key, "name", "role"}, problems) : Fields(value, {key}, problems);
     line.step.roster.push_back(
-        {action, as<match::PlayerId>(map::integer_in(*player, 1, kMaxUint32 - 1, problems))});
+        {action, as<match::PlayerId>(json::integer_in(*player, 1, kMaxUint32 - 1, problems))});
     line.labels.push_back(is_join ? read_label(fields, problems) : std::nullopt);
     return;
   }
@@ -66,22 +66,22 @@ double read_component(const json::Value& value, Problems& problems) {
   constexpr Range kUnit{-1.0, 1.0, ""};
   constexpr Range kQuanta{-128.0, 128.0, "/ 128"};
   if (value.is(json::Kind::kInteger)) {
-    const double quanta = map::number_in(value, kQuanta, problems).value_or(0.0);
+    const double quanta = json::number_in(value, kQuanta, problems).value_or(0.0);
     return (quanta == 0.0 ? 0.0 : quanta) * kThrustQuantum;
   }
-  return map::number_in(value, kUnit, problems).value_or(0.0);
+  return json::number_in(value, kUnit, problems).value_or(0.0);
 }
 
 void read_thrust(const json::Value& value, match::AppliedInput& input, Problems& problems) {
   if (value.is(json::Kind::kNull)) return;
   if (!value.is(json::Kind::kArray)) {
-    input.kind = physics::ThrustKind::kAlongHeading;
+    input.kind = state::ThrustKind::kAlongHeading;
     input.thrust.x = read_component(value, problems);
     return;
   }
   const std::vector<json::Value> pair = value.children();
   if (pair.size() != 2) return problems.add(value, "a pair [x, y] is wanted");
-  input.kind = physics::ThrustKind::kMapVector;
+  input.kind = state::ThrustKind::kMapVector;
   input.thrust = {read_component(pair[0], problems), read_component(pair[1], problems)};
   if (core::dot(input.thrust, input.thrust) > 1.0) problems.add(value, "is longer than 1");
 }
@@ -89,15 +89,15 @@ void read_thrust(const json::Value& value, match::AppliedInput& input, Problems&
 /// `values` from its front: player, seq, thrust.
 match::AppliedInput read_push(std::span<const json::Value> values, Problems& problems) {
   match::AppliedInput input;
-  input.player = as<match::PlayerId>(map::integer_in(values[0], 1, kMaxUint32 - 1, problems));
-  input.seq = as<std::uint32_t>(map::integer_in(values[1], 0, kMaxUint32, problems));
-  input.ticks = physics::kHeld;
+  input.player = as<match::PlayerId>(json::integer_in(values[0], 1, kMaxUint32 - 1, problems));
+  input.seq = as<std::uint32_t>(json::integer_in(values[1], 0, kMaxUint32, problems));
+  input.ticks = state::kHeld;
   read_thrust(values[2], input, problems);
   return input;
 }
 
 std::uint32_t read_ticks(const json::Value& value, Problems& problems) {
-  return as<std::uint32_t>(map::integer_in(value, 0, physics::kHeld - 1, problems));
+  return as<std::uint32_t>(json::integer_in(value, 0, state::kHeld - 1, problems));
 }
 
 void read_input(const json::Value& value, StepLine& line, Problems& problems) {
@@ -143,22 +143,22 @@ StepLine read_step(const json::Value& root, Problems& problems) {
 
 // ---- a keyframe ------------------------------------------------------------------------------------------
 
-physics::Louse read_louse(const json::Value& row, Problems& problems) {
-  physics::Louse louse;
+state::Louse read_louse(const json::Value& row, Problems& problems) {
+  state::Louse louse;
   const std::vector<json::Value> values = row.children();
-  if (!row.is(json::Kind::kArray) || values.size() != kLouseFields) {
-    problems.add(row, joined({"a row of ", std::to_string(kLouseFields), " numbers is wanted"}));
+  if (!row.is(json::Kind::kArray) || values.size() != state::kLouseFields) {
+    problems.add(row, joined({"a row of ", std::to_string(state::kLouseFields), " numbers is wanted"}));
     return louse;
   }
   std::size_t index = 0;
-  visit_fields(louse, [&](std::string_view, auto& field) {
+  state::visit_fields(louse, [&](std::string_view, auto& field) {
     const json::Value& value = values[index++];
     using Field = std::remove_cvref_t<decltype(field)>;
     if constexpr (std::is_same_v<Field, double>) {
-      field = map::number_in(value, kCoordinate, problems).value_or(0.0);
+      field = json::number_in(value, kCoordinate, problems).value_or(0.0);
     } else {
       const std::uint64_t max = std::is_enum_v<Field> ? std::uint64_t{2} : kMaxUint32;
-      field = static_cast<Field>(as<std::uint32_t>(map::integer_in(value, 0, max, problems)));
+      field = static_cast<Field>(as<std::uint32_t>(json::integer_in(value, 0, max, problems)));
     }
   });
   return louse;
@@ -167,8 +167,8 @@ physics::Louse read_louse(const json::Value& row, Problems& problems) {
 void read_columns(const json::Value& columns, Problems& problems) {
   const std::vector<json::Value> names = columns.children();
   std::size_t index = 0;
-  bool same = names.size() == kLouseFields;
-  visit_fields(physics::Louse{}, [&](std::string_view name, const auto&) {
+  bool same = names.size() == state::kLouseFields;
+  state::visit_fields(state::Louse{}, [&](std::string_view name, const auto&) {
     same = same && names[index].is(json::Kind::kString) && names[index].text() == name;
     ++index;
   });
@@ -181,9 +181,9 @@ void read_player(const json::Value& value, Keyframe& keyframe, Problems& problem
     return problems.add(value, "[player, seq, name, role] is wanted");
   }
   match::PlayerSeq player;
-  player.player = as<match::PlayerId>(map::integer_in(values[0], 1, kMaxUint32 - 1, problems));
+  player.player = as<match::PlayerId>(json::integer_in(values[0], 1, kMaxUint32 - 1, problems));
   if (!values[1].is(json::Kind::kNull)) {
-    player.last_seq = as<std::uint32_t>(map::integer_in(values[1], 0, kMaxUint32, problems));
+    player.last_seq = as<std::uint32_t>(json::integer_in(values[1], 0, kMaxUint32, problems));
   }
   keyframe.state.players.push_back(player);
   if (values.size() == 2) return;
@@ -196,7 +196,7 @@ void read_waiting(const json::Value& value, Keyframe& keyframe, Problems& proble
     return problems.add(value, "[tick, player, seq, thrust, ticks] is wanted");
   }
   match::AppliedInput input = read_push(std::span(values).subspan(1), problems);
-  input.tick = map::integer_in(values[0], 0, 2 * kMaxTick, problems).value_or(0);
+  input.tick = json::integer_in(values[0], 0, 2 * kMaxTick, problems).value_or(0);
   if (values.size() > 4) input.ticks = read_ticks(values[4], problems);
   keyframe.state.waiting.push_back(input);
 }

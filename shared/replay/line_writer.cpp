@@ -42,17 +42,17 @@ void append_component(std::string& out, double value) {
 }
 
 /// null, a number along the heading, or a pair: as on the wire, so that the kind needs no field of its own.
-void append_thrust(std::string& out, physics::ThrustKind kind, core::Vec2 value) {
+void append_thrust(std::string& out, state::ThrustKind kind, core::Vec2 value) {
   switch (kind) {
-    case physics::ThrustKind::kNone:
+    case state::ThrustKind::kNone:
       assert(is_plus_zero(value.x) && is_plus_zero(value.y));
       out += "null";
       return;
-    case physics::ThrustKind::kAlongHeading:
+    case state::ThrustKind::kAlongHeading:
       assert(is_plus_zero(value.y));
       append_component(out, value.x);
       return;
-    case physics::ThrustKind::kMapVector:
+    case state::ThrustKind::kMapVector:
       out += '[';
       append_component(out, value.x);
       out += ',';
@@ -109,7 +109,7 @@ void append_input(std::string& out, const match::AppliedInput& input, std::optio
   append_number(out, ",", input.seq);
   out += ',';
   append_thrust(out, input.kind, input.thrust);
-  const bool has_ticks = input.ticks != physics::kHeld;
+  const bool has_ticks = input.ticks != state::kHeld;
   if (margin) {
     out += ',';
     json::append_integer(out, *margin);
@@ -126,7 +126,7 @@ void append_waiting(std::string& out, const match::AppliedInput& input) {
   append_number(out, ",", input.seq);
   out += ',';
   append_thrust(out, input.kind, input.thrust);
-  if (input.ticks != physics::kHeld) append_number(out, ",", input.ticks);
+  if (input.ticks != state::kHeld) append_number(out, ",", input.ticks);
   out += ']';
 }
 
@@ -149,7 +149,7 @@ void append_player(std::string& out, const match::PlayerSeq& player, const Playe
 
 void append_columns(std::string& out) {
   char before = '[';
-  visit_fields(physics::Louse{}, [&](std::string_view name, const auto&) {
+  state::visit_fields(state::Louse{}, [&](std::string_view name, const auto&) {
     out += before;
     before = ',';
     json::append_string(out, name);
@@ -157,9 +157,9 @@ void append_columns(std::string& out) {
   out += ']';
 }
 
-void append_louse(std::string& out, const physics::Louse& louse) {
+void append_louse(std::string& out, const state::Louse& louse) {
   char before = '[';
-  visit_fields(louse, [&](std::string_view, const auto& field) {
+  state::visit_fields(louse, [&](std::string_view, const auto& field) {
     out += before;
     before = ',';
     using Field = std::remove_cvref_t<decltype(field)>;
@@ -233,7 +233,7 @@ void append_keyframe(std::string& out, const match::MatchState& state, const Pla
   out += ",\"columns\":";
   append_columns(out);
   out += ",\"lice\":";
-  append_list(out, state.lice, [&](const physics::Louse& louse) { append_louse(out, louse); });
+  append_list(out, state.lice, [&](const state::Louse& louse) { append_louse(out, louse); });
   out += "}\n";
 }
 

@@ -54,9 +54,9 @@ struct FieldText {
   std::string text;
 };
 
-std::vector<FieldText> field_texts(const physics::Louse& louse) {
+std::vector<FieldText> field_texts(const state::Louse& louse) {
   std::vector<FieldText> result;
-  visit_fields(louse, [&](std::string_view name, const auto& field) {
+  state::visit_fields(louse, [&](std::string_view name, const auto& field) {
     using Field = std::remove_cvref_t<decltype(field)>;
     if constexpr (std::is_same_v<Field, double>) {
       result.push_back({name, std::bit_cast<std::uint64_t>(field), json::double_text(field)});
@@ -110,8 +110,7 @@ std::string unlike_players(const match::MatchState& recorded, std::vector<match:
 
 }  // namespace
 
-std::string first_difference(std::span<const physics::Louse> recorded,
-                             std::span<const physics::Louse> rerun) {
+std::string first_difference(std::span<const state::Louse> recorded, std::span<const state::Louse> rerun) {
   std::size_t k = 0;
   for (; k < recorded.size() && k < rerun.size() && recorded[k].id == rerun[k].id; ++k) {
     const std::vector<FieldText> a = field_texts(recorded[k]);
@@ -124,7 +123,7 @@ std::string first_difference(std::span<const physics::Louse> recorded,
   }
   if (k == recorded.size() && k == rerun.size()) return {};
   const bool only_recorded = k == rerun.size() || (k < recorded.size() && recorded[k].id < rerun[k].id);
-  const physics::LouseId id = only_recorded ? recorded[k].id : rerun[k].id;
+  const state::LouseId id = only_recorded ? recorded[k].id : rerun[k].id;
   return joined(
       {"louse ", std::to_string(id), only_recorded ? " is only in the recording" : " is only in the re-run"});
 }

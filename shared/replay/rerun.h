@@ -51,6 +51,6 @@ class Rerun {
 };
 
 /// The first louse and field in which the two differ, with both values in full; empty: the same bits.
-std::string first_difference(std::span<const physics::Louse> recorded, std::span<const physics::Louse> rerun);
+std::string first_difference(std::span<const state::Louse> recorded, std::span<const state::Louse> rerun);
 
 }  // namespace woodlouse::replay

@@ -7,7 +7,7 @@
 
 #include "shared/core/vec2.h"
 
-namespace woodlouse::physics {
+namespace woodlouse::state {
 
 /// Names a louse for as long as its match lasts; never used again.
 using LouseId = std::uint32_t;
@@ -52,4 +52,4 @@ struct Louse {
 };
 static_assert(sizeof(Louse) == 104 && std::is_trivially_copyable_v<Louse>);
 
-}  // namespace woodlouse::physics
+}  // namespace woodlouse::state

@@ -1,4 +1,4 @@
-// A louse's fields by name, in the order of physics::Louse: the columns of a keyframe's rows and of the
+// A louse's fields by name, in the order of Louse: the columns of a keyframe's rows and of the
 // wire's `all`, and what a difference is reported by.
 #pragma once
 
@@ -7,12 +7,12 @@
 
 #include "shared/state/louse.h"
 
-namespace woodlouse::replay {
+namespace woodlouse::state {
 
 inline constexpr std::size_t kLouseFields = 15;
 
 /// Calls visit(name, field) for each. The fields are uint32 or double; phase and thrust_kind are their enums.
-/// L is a physics::Louse, const or not.
+/// L is a Louse, const or not.
 template <typename L, typename Visit>
 void visit_fields(L&& louse, const Visit& visit) {
   visit(std::string_view("id"), louse.id);
@@ -32,4 +32,4 @@ void visit_fields(L&& louse, const Visit& visit) {
   visit(std::string_view("ticks_left"), louse.thrust_ticks);
 }
 
-}  // namespace woodlouse::replay
+}  // namespace woodlouse::state

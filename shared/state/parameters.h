@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-namespace woodlouse::physics {
+namespace woodlouse::state {
 
 /// Whether a louse can leave the surface.
 enum class SurfaceContact {
@@ -67,4 +67,4 @@ struct Parameters {
   friend bool operator==(const Parameters&, const Parameters&) = default;
 };
 
-}  // namespace woodlouse::physics
+}  // namespace woodlouse::state

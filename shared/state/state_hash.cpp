@@ -1,6 +1,6 @@
 #include "shared/state/state_hash.h"
 
-namespace woodlouse::physics {
+namespace woodlouse::state {
 
 std::uint64_t state_hash(core::StableHasher& hasher, const HashLink& link, std::span<const Louse> lice) {
   hasher.reset();
@@ -12,4 +12,4 @@ std::uint64_t state_hash(core::StableHasher& hasher, const HashLink& link, std::
   return hasher.value();
 }
 
-}  // namespace woodlouse::physics
+}  // namespace woodlouse::state

@@ -15,7 +15,7 @@
 #include "shared/core/stable_hash.h"
 #include "shared/state/louse.h"
 
-namespace woodlouse::physics {
+namespace woodlouse::state {
 
 /// What besides the lice goes into a tick's hash; with the rows of a key, enough to recompute it.
 struct HashLink {
@@ -27,4 +27,4 @@ struct HashLink {
 
 std::uint64_t state_hash(core::StableHasher& hasher, const HashLink& link, std::span<const Louse> lice);
 
-}  // namespace woodlouse::physics
+}  // namespace woodlouse::state

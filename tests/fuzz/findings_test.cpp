@@ -57,7 +57,7 @@ std::string map_error(std::string_view text) {
 }
 
 std::string grid_error(std::string_view text) {
-  map::Problems problems("g.asc");
+  json::Problems problems("g.asc");
   const auto grid = map::parse_esri_ascii_grid(text, problems);
   return grid ? std::string() : problems.errors().front().text();
 }

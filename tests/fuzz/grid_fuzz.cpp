@@ -42,10 +42,10 @@ void check_same_frame(const Grid& a, const Grid& b) {
 }
 
 void check_ascii(std::string_view text) {
-  map::Problems problems("grid.asc");
+  json::Problems problems("grid.asc");
   const auto grid = map::parse_esri_ascii_grid(text, problems);
   demand(grid.has_value() == (problems.count() == 0), "a grid is refused for a reason");
-  demand(problems.count() <= map::Problems::kMaxProblems, "the list of problems is bounded");
+  demand(problems.count() <= json::Problems::kMaxProblems, "the list of problems is bounded");
   for (const core::Error& error : problems.errors()) {
     demand(error.where.starts_with("grid.asc"), "an error names its place", error.where);
     demand_readable(error.text());
@@ -61,7 +61,7 @@ void check_ascii(std::string_view text) {
       written += ' ';
     }
   }
-  map::Problems none("written.asc");
+  json::Problems none("written.asc");
   const auto again = map::parse_esri_ascii_grid(written, none);
   demand(again.has_value(), "what is written can be read",
          none.count() == 0 ? "" : none.errors().front().text());

@@ -33,10 +33,10 @@ const std::filesystem::path kGrids = std::filesystem::path(WOODLOUSE_SOURCE_DIR)
 void check_problems(std::string_view text) {
   const auto document = json::parse_file(text, "map.json", {8, 100'000});
   if (!document) return;
-  map::Problems problems("map.json");
+  json::Problems problems("map.json");
   const auto definition = map::read_definition(document->root(), kGrids, problems);
   demand(definition.has_value() == (problems.count() == 0), "a map is refused for a reason");
-  demand(problems.count() <= map::Problems::kMaxProblems, "the list of problems is bounded");
+  demand(problems.count() <= json::Problems::kMaxProblems, "the list of problems is bounded");
   for (const core::Error& error : problems.errors()) {
     demand(!error.where.empty(), "an error names its place", error.what);
     demand_readable(error.text());
@@ -52,7 +52,7 @@ void check_same(const terrain::HeightGrid& a, const terrain::HeightGrid& b) {
          "the heights read back bit for bit");
 }
 
-void check_same(const physics::Parameters& a, const physics::Parameters& b) {
+void check_same(const state::Parameters& a, const state::Parameters& b) {
   demand(same_bits(a.gravity, b.gravity) && same_bits(a.drag, b.drag) && same_bits(a.friction, b.friction) &&
              same_bits(a.thrust_max, b.thrust_max) && same_bits(a.edge_restitution, b.edge_restitution) &&
              same_bits(a.central_gravity, b.central_gravity) && a.contact == b.contact &&
@@ -98,10 +98,10 @@ void check_play(const std::shared_ptr<const map::Map>& map) {
     match::Input input;
     input.player = player;
     input.seq = static_cast<std::uint32_t>(tick);
-    input.thrust = {physics::ThrustKind::kMapVector, {0.5, tick % 2 == 0 ? 0.25 : -0.75}};
+    input.thrust = {state::ThrustKind::kMapVector, {0.5, tick % 2 == 0 ? 0.25 : -0.75}};
     match.file(input);
     match.advance();
-    const physics::Louse& louse = *match.world().find(player);
+    const state::Louse& louse = *match.world().find(player);
     for (const double value :
          {louse.position.x, louse.position.y, louse.velocity.x, louse.velocity.y, louse.heading.x,
           louse.heading.y, louse.flight_z, louse.flight_vz, louse.distance}) {

@@ -111,7 +111,7 @@ void check_round_trip(const Line& line) {
 // ---- keyframes -------------------------------------------------------------------------------------------
 
 void check_finite(const match::Match& match) {
-  for (const physics::Louse& louse : match.world().lice()) {
+  for (const state::Louse& louse : match.world().lice()) {
     for (const double value :
          {louse.position.x, louse.position.y, louse.velocity.x, louse.velocity.y, louse.heading.x,
           louse.heading.y, louse.flight_z, louse.flight_vz, louse.distance}) {
@@ -127,7 +127,7 @@ void check_keyframe(const Header& header, const std::shared_ptr<const map::Map>&
   if (state.tick != 0) {
     core::StableHasher hasher;
     state.hash =
-        physics::state_hash(hasher, {state.previous, state.inputs, state.tick, state.generator}, state.lice);
+        state::state_hash(hasher, {state.previous, state.inputs, state.tick, state.generator}, state.lice);
   }
   const std::vector<match::PlayerSeq> players = state.players;
   const auto rerun = Rerun::from(map, settings, std::move(keyframe), kSource + ":2");
@@ -140,7 +140,7 @@ void check_keyframe(const Header& header, const std::shared_ptr<const map::Map>&
       match::AppliedInput input;
       input.tick = line.step.tick;
       input.player = player.player;
-      input.kind = physics::ThrustKind::kMapVector;
+      input.kind = state::ThrustKind::kMapVector;
       input.thrust = {0.5, -0.5};
       input.ticks = 2;
       line.step.inputs.push_back(input);

@@ -58,8 +58,8 @@ std::string recording(const Seed& seed, replay::Encoding encoding) {
       match::Input input;
       input.player = 1;
       input.seq = ++seq;
-      input.thrust = step % 2 == 0 ? physics::Thrust{physics::ThrustKind::kMapVector, {0.5, -0.25}}
-                                   : physics::Thrust{physics::ThrustKind::kAlongHeading, {0.75, 0.0}};
+      input.thrust = step % 2 == 0 ? state::Thrust{state::ThrustKind::kMapVector, {0.5, -0.25}}
+                                   : state::Thrust{state::ThrustKind::kAlongHeading, {0.75, 0.0}};
       input.wanted_tick = match.tick() + random.next() % 8;
       if (step % 4 == 0) input.ticks = 5;
       match.file(input);

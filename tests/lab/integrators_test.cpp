@@ -9,6 +9,7 @@
 
 using namespace woodlouse;
 using namespace woodlouse::physics;
+using namespace woodlouse::state;
 using terrain::AnySurface;
 using terrain::FunctionName;
 using terrain::FunctionSurface;
@@ -16,8 +17,8 @@ using tests::moving;
 
 namespace {
 
-Louse rolled(const AnySurface& surface, Equations equations, Integrator integrator, const Parameters& p,
-             Louse louse, double rate, double seconds) {
+state::Louse rolled(const AnySurface& surface, Equations equations, Integrator integrator,
+                    const state::Parameters& p, state::Louse louse, double rate, double seconds) {
   const auto stepper = make_stepper(surface, equations, integrator, p, tests::kNowhere, 1.0 / rate);
   REQUIRE(stepper.has_value());
   StepCounters counters;
@@ -26,23 +27,24 @@ Louse rolled(const AnySurface& surface, Equations equations, Integrator integrat
   return louse;
 }
 
-double apart(const Louse& a, const Louse& b) {
+double apart(const state::Louse& a, const state::Louse& b) {
   return std::hypot(a.position.x - b.position.x, a.position.y - b.position.y);
 }
 
-const Louse kStart = moving({0.8, 0.0}, {0.0, 1.5});
-const Parameters kFree{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0};
+const state::Louse kStart = moving({0.8, 0.0}, {0.0, 1.5});
+const state::Parameters kFree{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0};
 
 }  // namespace
 
 TEST_CASE("each integrator converges with its order on a smooth surface") {
   const AnySurface surface = FunctionSurface(FunctionName::kHills, 1.0);
-  const Parameters p{.gravity = 9.81, .drag = 0.3, .friction = 0.0, .thrust_max = 0.0};
+  const state::Parameters p{.gravity = 9.81, .drag = 0.3, .friction = 0.0, .thrust_max = 0.0};
   const std::map<Integrator, double> orders = {{Integrator::kExplicitEuler, 1}, {Integrator::kFalseEuler, 1},
                                                {Integrator::kVerletQ, 2},       {Integrator::kVerletQ4, 4},
                                                {Integrator::kRungeKutta4, 4},   {Integrator::kNystrom4, 4},
                                                {Integrator::kDormandPrince5, 5}};
-  const Louse exact = rolled(surface, Equations::kSurface, Integrator::kDormandPrince5, p, kStart, 6400, 2);
+  const state::Louse exact =
+      rolled(surface, Equations::kSurface, Integrator::kDormandPrince5, p, kStart, 6400, 2);
   for (const auto& [integrator, order] : orders) {
     const double coarse_rate = order == 1 ? 3200 : (order == 5 ? 80 : 200);
     const double coarse =
@@ -56,8 +58,8 @@ TEST_CASE("each integrator converges with its order on a smooth surface") {
 
 TEST_CASE("drag and friction keep the orders of those that treat them implicitly") {
   const AnySurface surface = FunctionSurface(FunctionName::kParabolicPot, 1.0);
-  const Parameters rough{.gravity = 9.81, .drag = 0.2, .friction = 0.05, .thrust_max = 0.0};
-  const Louse exact =
+  const state::Parameters rough{.gravity = 9.81, .drag = 0.2, .friction = 0.05, .thrust_max = 0.0};
+  const state::Louse exact =
       rolled(surface, Equations::kSurface, Integrator::kDormandPrince5, rough, kStart, 6400, 1);
   for (const auto& [integrator, order] :
        std::map<Integrator, double>{{Integrator::kVerletQ, 2}, {Integrator::kNystrom4, 4}}) {
@@ -72,7 +74,8 @@ TEST_CASE("drag and friction keep the orders of those that treat them implicitly
 TEST_CASE("splitting at knot lines gives the spline's own order back") {
   const AnySurface surface =
       terrain::BicubicSpline(terrain::sample_function(FunctionName::kWavyPot, 1.0, 10));
-  const Louse exact = rolled(surface, Equations::kSurface, Integrator::kPrecise, kFree, kStart, 3840, 2);
+  const state::Louse exact =
+      rolled(surface, Equations::kSurface, Integrator::kPrecise, kFree, kStart, 3840, 2);
   const double coarse =
       apart(rolled(surface, Equations::kSurface, Integrator::kPrecise, kFree, kStart, 120, 2), exact);
   const double fine =
@@ -90,12 +93,13 @@ TEST_CASE("Dormand-Prince meets the reference trajectories without friction to 1
   for (std::size_t row = 0; row < t.rows.size(); ++row) {
     if (t.number(row, "mu") != 0.0) continue;
     const AnySurface surface = FunctionSurface(*terrain::function_from_text(t.text(row, "surface")), 1.0);
-    Louse louse =
+    state::Louse louse =
         moving({t.number(row, "x0"), t.number(row, "y0")}, {t.number(row, "vx0"), t.number(row, "vy0")});
     louse.thrust = {t.number(row, "thrust_x"), t.number(row, "thrust_y")};
-    louse.thrust_kind = ThrustKind::kMapVector;
-    const Parameters p{.gravity = 9.81, .drag = t.number(row, "drag"), .friction = 0.0, .thrust_max = 1.0};
-    const Louse end =
+    louse.thrust_kind = state::ThrustKind::kMapVector;
+    const state::Parameters p{
+        .gravity = 9.81, .drag = t.number(row, "drag"), .friction = 0.0, .thrust_max = 1.0};
+    const state::Louse end =
         rolled(surface, Equations::kSurface, Integrator::kDormandPrince5, p, louse, 240, t.number(row, "t"));
     INFO("row " << row);
     CHECK(std::hypot(end.position.x - t.number(row, "x"), end.position.y - t.number(row, "y")) < 1e-9);
@@ -110,7 +114,7 @@ TEST_CASE("the document's equations and False Euler give the document's trajecto
       {"spline", terrain::Interpolation::kNaturalDocument},
       {"biquadratic", terrain::Interpolation::kBiquadratic},
       {"blended", terrain::Interpolation::kBlendedDocument}};
-  const Parameters p{.gravity = 9.81, .drag = 0.2, .friction = 0.05, .thrust_max = 0.0};
+  const state::Parameters p{.gravity = 9.81, .drag = 0.2, .friction = 0.05, .thrust_max = 0.0};
   int inside = 0;
   for (std::size_t row = 0; row < t.rows.size(); ++row) {
     // The document checks no bounds: where a stencil reaches over the rim its numbers mean nothing.
@@ -123,8 +127,8 @@ TEST_CASE("the document's equations and False Euler give the document's trajecto
     REQUIRE(surface.has_value());
     const Equations equations =
         t.number(row, "corrected_cramer") != 0 ? Equations::kLocalPlane : Equations::kAsPrinted;
-    const Louse end = rolled(*surface, equations, Integrator::kFalseEuler, p,
-                             moving({0.35, -0.2}, {0.3, 0.4}), 200, t.number(row, "step") / 200);
+    const state::Louse end = rolled(*surface, equations, Integrator::kFalseEuler, p,
+                                    moving({0.35, -0.2}, {0.3, 0.4}), 200, t.number(row, "step") / 200);
     CHECK(end.position.x == Approx(t.number(row, "x")).margin(1e-9).epsilon(0));
     CHECK(end.position.y == Approx(t.number(row, "y")).margin(1e-9).epsilon(0));
     CHECK(end.velocity.x == Approx(t.number(row, "vx")).margin(1e-9).epsilon(0));
@@ -142,7 +146,7 @@ TEST_CASE("the energy error of Verlet-Q stays bounded without a trend") {
   double worst_late = 0.0;
   const auto stepper =
       make_stepper(surface, Equations::kSurface, Integrator::kVerletQ, kFree, tests::kNowhere, 1.0 / 120);
-  Louse louse = kStart;
+  state::Louse louse = kStart;
   StepCounters counters;
   for (long i = 0; i < 120 * 1000; ++i) {
     (*stepper)->advance({&louse, 1}, counters);

@@ -23,7 +23,7 @@ std::string heights(const std::string& north_east, const std::string& north_seco
 TEST_CASE("a map that wraps has a periodic spline and says so wherever it is read back") {
   const auto map = parse_map("{\"name\":\"m\"," + heights("0", "1") + ",\"edges\":\"wrap\"}", "m.json", {});
   REQUIRE(map);
-  CHECK((*map)->definition.physics.edges == physics::Edges::kWrap);
+  CHECK((*map)->definition.physics.edges == state::Edges::kWrap);
   const auto domain = (*map)->terrain->domain();
   const auto west = (*map)->terrain->sample(domain.x_min, 0.3);
   const auto east = (*map)->terrain->sample(domain.x_max, 0.3);

@@ -15,14 +15,14 @@ std::string header(const std::string& more = {}) {
 }
 
 std::optional<terrain::HeightGrid> parse(std::string_view text) {
-  Problems problems("g.asc");
+  json::Problems problems("g.asc");
   auto grid = parse_esri_ascii_grid(text, problems);
   CHECK(grid.has_value() == (problems.count() == 0));
   return grid;
 }
 
 std::vector<std::string> problems_of(std::string_view text) {
-  Problems problems("g.asc");
+  json::Problems problems("g.asc");
   CHECK_FALSE(parse_esri_ascii_grid(text, problems));
   std::vector<std::string> result;
   for (const core::Error& error : problems.errors()) result.push_back(error.text());
@@ -158,13 +158,13 @@ TEST_CASE("too few and too many heights and words that are no numbers are errors
 TEST_CASE("garbage in a large grid is reported up to a bound") {
   std::string text = "ncols 100\nnrows 100\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
   for (int k = 0; k < 10000; ++k) text += "x ";
-  CHECK(problems_of(text).size() == Problems::kMaxProblems);
+  CHECK(problems_of(text).size() == json::Problems::kMaxProblems);
 }
 
 TEST_CASE("no prefix of a grid file and no flipped byte of it does harm") {
   const std::string whole = header("NODATA_value -9999\n") + kRows;
   for (std::size_t length = 0; length < whole.size(); ++length) {
-    Problems problems("g.asc");
+    json::Problems problems("g.asc");
     const auto grid = parse_esri_ascii_grid(std::string_view(whole).substr(0, length), problems);
     CHECK(grid.has_value() == (problems.count() == 0));
   }
@@ -172,7 +172,7 @@ TEST_CASE("no prefix of a grid file and no flipped byte of it does harm") {
   for (int round = 0; round < 5000; ++round) {
     std::string text = whole;
     for (int k = 0; k < 3; ++k) text[random.next() % text.size()] = static_cast<char>(random.next() & 0xff);
-    Problems problems("g.asc");
+    json::Problems problems("g.asc");
     const auto grid = parse_esri_ascii_grid(text, problems);
     CHECK(grid.has_value() == (problems.count() == 0));
   }

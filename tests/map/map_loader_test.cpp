@@ -224,8 +224,8 @@ TEST_CASE("contact, method, central gravity and a spawn's speed are read, kept a
     CHECK((*map)->definition.spawns.front().speed == 3.5);
     return (*map)->definition.physics;
   };
-  CHECK(read_twice(R"("contact":"unilateral")").contact == physics::SurfaceContact::kUnilateral);
-  CHECK(read_twice(R"("method":"precise")").method == physics::Method::kPrecise);
+  CHECK(read_twice(R"("contact":"unilateral")").contact == state::SurfaceContact::kUnilateral);
+  CHECK(read_twice(R"("method":"precise")").method == state::Method::kPrecise);
   CHECK(read_twice(R"("central_gravity":2.5)").central_gravity == 2.5);
 
   const auto refusal = [](const std::string& physics, const std::string& spawn = "") {

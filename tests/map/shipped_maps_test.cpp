@@ -54,7 +54,7 @@ TEST_CASE("on every shipped map a louse can leave its spawn point") {
     INFO(name);
     const auto map = load_map(kMaps / (std::string(name) + ".json"));
     REQUIRE(map);
-    const physics::Parameters& physics = (*map)->definition.physics;
+    const state::Parameters& physics = (*map)->definition.physics;
     for (const SpawnPoint& spawn : (*map)->definition.spawns) {
       const auto ground = (*map)->terrain->sample(spawn.position.x, spawn.position.y);
       const double w2 = 1.0 + ground.zx * ground.zx + ground.zy * ground.zy;

@@ -36,10 +36,10 @@ std::vector<std::vector<Input>> planned_inputs() {
         Input input;
         input.player = player;
         input.seq = static_cast<std::uint32_t>(plan[player - 1].size() + 1);
-        input.thrust = {physics::ThrustKind::kMapVector,
+        input.thrust = {state::ThrustKind::kMapVector,
                         {0.7 * random.uniform() - 0.35, 0.7 * random.uniform() - 0.35}};
         if (random.next() % 2 == 0)
-          input.thrust = {physics::ThrustKind::kAlongHeading, {2.0 * random.uniform() - 1.0, 0.0}};
+          input.thrust = {state::ThrustKind::kAlongHeading, {2.0 * random.uniform() - 1.0, 0.0}};
         if (random.next() % 3 == 0) input.ticks = static_cast<std::uint32_t>(1 + random.next() % 20);
         input.wanted_tick = tick + random.next() % 20;
         plan[player - 1].push_back(input);

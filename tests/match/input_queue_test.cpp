@@ -12,8 +12,8 @@ using Outcome = Filed::Outcome;
 
 namespace {
 
-Input input(physics::LouseId player, std::uint32_t seq, std::uint64_t wanted = 0) {
-  return {player, seq, {physics::ThrustKind::kMapVector, {0.5, 0.25}}, physics::kHeld, wanted};
+Input input(state::LouseId player, std::uint32_t seq, std::uint64_t wanted = 0) {
+  return {player, seq, {state::ThrustKind::kMapVector, {0.5, 0.25}}, state::kHeld, wanted};
 }
 
 }  // namespace
@@ -25,9 +25,9 @@ TEST_CASE("inputs come out by player and seq, whatever order the players' inputs
     // Each player's own inputs keep their order, as a socket keeps it; players are interleaved at random.
     InputQueue queue(120);
     std::uint32_t next[4] = {1, 1, 1, 1};
-    for (physics::LouseId p = 0; p < 4; ++p) queue.add_player(p);
+    for (state::LouseId p = 0; p < 4; ++p) queue.add_player(p);
     for (int left = 40; left > 0;) {
-      const auto p = static_cast<physics::LouseId>(random.next() % 4);
+      const auto p = static_cast<state::LouseId>(random.next() % 4);
       if (next[p] > 10) continue;
       REQUIRE(queue.file(input(p, next[p]++, 7), 5).outcome == Outcome::kFiled);
       --left;

@@ -7,7 +7,7 @@
 
 using namespace woodlouse;
 using namespace woodlouse::match;
-using physics::ThrustKind;
+using state::ThrustKind;
 
 namespace {
 
@@ -20,7 +20,7 @@ std::shared_ptr<const map::Map> volcano() {
   return map;
 }
 
-Input push(PlayerId player, std::uint32_t seq, double x, double y, std::uint32_t ticks = physics::kHeld) {
+Input push(PlayerId player, std::uint32_t seq, double x, double y, std::uint32_t ticks = state::kHeld) {
   return {player, seq, {ThrustKind::kMapVector, {x, y}}, ticks, 0};
 }
 
@@ -78,7 +78,7 @@ TEST_CASE("an input that moves nothing still shows in the hash") {
     Match match(volcano(), {60, 1});
     const PlayerId player = match.join();
     match.advance();
-    if (with_input) match.file({player, 1, {ThrustKind::kNone, {}}, physics::kHeld, 0});
+    if (with_input) match.file({player, 1, {ThrustKind::kNone, {}}, state::kHeld, 0});
     return match.advance().hash;
   };
   CHECK(hash(true) != hash(false));

@@ -37,10 +37,10 @@ void stir(Match& match, core::Random& random, std::vector<PlayerId>& players,
   }
   for (std::size_t k = 0; k < players.size(); ++k) {
     if (random.next() % 5 != 0) continue;
-    Input input{players[k], ++seqs[k], {}, physics::kHeld, 0};
+    Input input{players[k], ++seqs[k], {}, state::kHeld, 0};
     const double x = static_cast<double>(random.next() % 129) / 128.0 - 0.5;
-    input.thrust = random.next() % 2 == 0 ? physics::Thrust{physics::ThrustKind::kAlongHeading, {x, 0.0}}
-                                          : physics::Thrust{physics::ThrustKind::kMapVector, {x, -0.5 * x}};
+    input.thrust = random.next() % 2 == 0 ? state::Thrust{state::ThrustKind::kAlongHeading, {x, 0.0}}
+                                          : state::Thrust{state::ThrustKind::kMapVector, {x, -0.5 * x}};
     if (random.next() % 2 == 0) input.ticks = static_cast<std::uint32_t>(1 + random.next() % 40);
     if (random.next() % 3 == 0) input.wanted_tick = match.tick() + random.next() % 120;
     match.file(input);
@@ -98,7 +98,7 @@ TEST_CASE("states that no match can be in are refused by name") {
   Match match(map, settings);
   const PlayerId one = match.join();
   match.join();
-  match.file({one, 1, {}, physics::kHeld, 50});
+  match.file({one, 1, {}, state::kHeld, 50});
   for (int k = 0; k < 20; ++k) match.advance();
   const MatchState sound = match.state();
   REQUIRE(why_not(*map, settings, sound) == "");
@@ -110,7 +110,7 @@ TEST_CASE("states that no match can be in are refused by name") {
   CHECK(fault([](MatchState& s) { s.lice[0].position.x = 1e9; }) == "louse 1 is not on the map");
   CHECK(fault([](MatchState& s) { s.lice[0].velocity.y = 1e9; }) == "louse 1 is too fast");
   CHECK(fault([](MatchState& s) { s.lice[1].thrust.x = 2.0; }) == "louse 2 has a thrust above 1");
-  CHECK(fault([](MatchState& s) { s.lice[1].phase = physics::Phase::kFlying; }) ==
+  CHECK(fault([](MatchState& s) { s.lice[1].phase = state::Phase::kFlying; }) ==
         "louse 2 flies where nobody can");
   CHECK(fault([](MatchState& s) { std::swap(s.lice[0], s.lice[1]); }) == "louse 1 is out of order");
   CHECK(fault([](MatchState& s) { s.next_player = 2; }) == "player 2 is out of order");

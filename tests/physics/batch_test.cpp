@@ -13,6 +13,7 @@
 
 using namespace woodlouse;
 using namespace woodlouse::physics;
+using namespace woodlouse::state;
 using terrain::BicubicSpline;
 using terrain::FunctionName;
 using terrain::Terrain;
@@ -28,34 +29,34 @@ std::vector<InstructionSet> available_sets() {
 }
 
 /// The lice's motion, without the thrusts, which the world counts down after it.
-std::vector<Louse> without_thrusts(std::span<const Louse> lice) {
-  std::vector<Louse> bare(lice.begin(), lice.end());
-  for (Louse& louse : bare) {
+std::vector<state::Louse> without_thrusts(std::span<const state::Louse> lice) {
+  std::vector<state::Louse> bare(lice.begin(), lice.end());
+  for (state::Louse& louse : bare) {
     louse.thrust = {};
-    louse.thrust_kind = ThrustKind::kNone;
+    louse.thrust_kind = state::ThrustKind::kNone;
     louse.thrust_ticks = 0;
   }
   return bare;
 }
 
-bool same_bits(const std::vector<Louse>& a, const std::vector<Louse>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Louse)) == 0;
+bool same_bits(const std::vector<state::Louse>& a, const std::vector<state::Louse>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(state::Louse)) == 0;
 }
 
 /// Walls, stops, brakes, pulses, rests, sub-steps, caps and plain rolling, all in one world; each tick of it
 /// against the same tick made louse by louse.
 template <typename Ground>
-void check_every_tick(InstructionSet set, const Ground& ground, const Parameters& parameters, double rate,
-                      double fastest, int ticks) {
+void check_every_tick(InstructionSet set, const Ground& ground, const state::Parameters& parameters,
+                      double rate, double fastest, int ticks) {
   const auto terrain = std::make_shared<const Terrain>(ground);
   World world(terrain, parameters, 1.0 / rate);
   world.use(set);
   const auto louse_by_louse = make_ground_steps(ground, {parameters, terrain->domain(), 1.0 / rate});
   core::Random random(17);
   const auto symmetric = [&] { return 2 * random.uniform() - 1; };
-  constexpr LouseId kLice = 83;  // no multiple of any width
-  for (LouseId id = 1; id <= kLice; ++id) {
-    Louse louse;
+  constexpr state::LouseId kLice = 83;  // no multiple of any width
+  for (state::LouseId id = 1; id <= kLice; ++id) {
+    state::Louse louse;
     louse.id = id;
     louse.position = {20 * symmetric(), 20 * symmetric()};
     louse.velocity = {fastest * symmetric(), fastest * symmetric()};
@@ -65,33 +66,35 @@ void check_every_tick(InstructionSet set, const Ground& ground, const Parameters
   BatchLists lists;
   for (int tick = 0; tick < ticks; ++tick) {
     for (int i = 0; i < 4; ++i) {
-      const auto id = static_cast<LouseId>(1 + random.next() % kLice);
+      const auto id = static_cast<state::LouseId>(1 + random.next() % kLice);
       const auto pulse = static_cast<std::uint32_t>(1 + random.next() % 90);
       switch (random.next() % 4) {
         case 0:
-          world.set_thrust(id, {ThrustKind::kMapVector, {0.7 * symmetric(), 0.7 * symmetric()}}, kHeld);
+          world.set_thrust(id, {state::ThrustKind::kMapVector, {0.7 * symmetric(), 0.7 * symmetric()}},
+                           state::kHeld);
           break;
         case 1:
-          world.set_thrust(id, {ThrustKind::kMapVector, {0.7 * symmetric(), 0.7 * symmetric()}}, pulse);
+          world.set_thrust(id, {state::ThrustKind::kMapVector, {0.7 * symmetric(), 0.7 * symmetric()}},
+                           pulse);
           break;
         case 2:
-          world.set_thrust(id, {ThrustKind::kAlongHeading, {symmetric(), 0}}, pulse);
+          world.set_thrust(id, {state::ThrustKind::kAlongHeading, {symmetric(), 0}}, pulse);
           break;
         default:
           world.set_thrust(id, {}, 0);
           break;
       }
     }
-    std::vector<Louse> expected(world.lice().begin(), world.lice().end());
+    std::vector<state::Louse> expected(world.lice().begin(), world.lice().end());
     std::vector<std::uint32_t> moving;
     for (std::uint32_t i = 0; i < kLice; ++i) {
-      if (expected[i].phase != Phase::kResting) moving.push_back(i);
+      if (expected[i].phase != state::Phase::kResting) moving.push_back(i);
     }
     louse_by_louse->advance(expected, moving, {}, lists, counters);
     world.step();
     // A pulse that ends may wake a louse after its step.
-    std::vector<Louse> stepped = without_thrusts(world.lice());
-    std::vector<Louse> wanted = without_thrusts(expected);
+    std::vector<state::Louse> stepped = without_thrusts(world.lice());
+    std::vector<state::Louse> wanted = without_thrusts(expected);
     for (std::size_t i = 0; i < kLice; ++i) {
       if (expected[i].thrust_ticks == 1) stepped[i].phase = wanted[i].phase;
     }
@@ -111,10 +114,10 @@ template <typename Ground>
 void check_on(const Ground& ground) {
   for (unsigned forces = 0; forces < 8; ++forces) {
     for (const double rate : {20.0, 60.0}) {
-      const Parameters p{.gravity = 9.81,
-                         .drag = forces & 4u ? 0.2 : 0.0,
-                         .friction = forces & 2u ? 0.15 : 0.0,
-                         .thrust_max = forces & 1u ? 4.0 : 0.0};
+      const state::Parameters p{.gravity = 9.81,
+                                .drag = forces & 4u ? 0.2 : 0.0,
+                                .friction = forces & 2u ? 0.15 : 0.0,
+                                .thrust_max = forces & 1u ? 4.0 : 0.0};
       for (const InstructionSet set : available_sets()) {
         for (const double fastest : {6.0, 3000.0}) {
           INFO(to_text(set) << ", forces " << forces << ", " << rate << " Hz, " << fastest << " m/s");

@@ -10,18 +10,19 @@
 
 using namespace woodlouse;
 using namespace woodlouse::physics;
+using namespace woodlouse::state;
 using tests::moving;
 
 namespace {
 
 using Free = Forces<false, false, false>;
 
-Parameters unilateral() {
+state::Parameters unilateral() {
   return {.gravity = 9.81,
           .drag = 0.0,
           .friction = 0.0,
           .thrust_max = 0.0,
-          .contact = SurfaceContact::kUnilateral};
+          .contact = state::SurfaceContact::kUnilateral};
 }
 
 /// The upper half of a sphere, and flat ground outside of it.
@@ -45,8 +46,8 @@ TEST_CASE(
   const double speed = std::sqrt(9.81 * cosine);  // g cos t = v^2 / R there
   const double sine = std::sqrt(1 - cosine * cosine);
   const auto run = tests::run<Free>(sphere, unilateral(), moving({0, 0}, {v0, 0}), 960, 9600, tests::kNowhere,
-                                    [](const Louse& l) { return l.phase != Phase::kFlying; });
-  const Louse& l = run.louse;
+                                    [](const state::Louse& l) { return l.phase != state::Phase::kFlying; });
+  const state::Louse& l = run.louse;
   // Horizontal speed and total energy are the parabola's invariants.
   CHECK(l.velocity.x == Approx(speed * cosine).epsilon(1e-8));
   const double energy = 0.5 * (l.velocity.x * l.velocity.x + l.flight_vz * l.flight_vz) + 9.81 * l.flight_z;
@@ -69,8 +70,8 @@ TEST_CASE("from z = -a r^2 a louse takes off at the top iff v0^2 > g / (2 a)") {
 TEST_CASE("a bilateral bead stays on the same hill") {
   tests::Bowl hill;
   hill.a = -0.5;
-  Parameters p = unilateral();
-  p.contact = SurfaceContact::kBilateral;
+  state::Parameters p = unilateral();
+  p.contact = state::SurfaceContact::kBilateral;
   CHECK(tests::run<Free>(hill, p, moving({0, 0}, {10, 0}), 240, 60).counters.flights == 0);
 }
 
@@ -97,21 +98,21 @@ TEST_CASE("jumping lice never gain energy, never leave the walls and never end b
   std::uint64_t flights = 0;
   for (int i = 0; i < 40; ++i) {
     const double angle = 6.28 * random.uniform();
-    const Louse start = moving({30 * random.uniform() - 15, 30 * random.uniform() - 15},
-                               {25 * std::cos(angle), 25 * std::sin(angle)});
-    const auto total = [&](const Louse& l) {
-      if (l.phase != Phase::kFlying) return tests::energy(hills, l, 9.81);
+    const state::Louse start = moving({30 * random.uniform() - 15, 30 * random.uniform() - 15},
+                                      {25 * std::cos(angle), 25 * std::sin(angle)});
+    const auto total = [&](const state::Louse& l) {
+      if (l.phase != state::Phase::kFlying) return tests::energy(hills, l, 9.81);
       return 0.5 * (dot(l.velocity, l.velocity) + l.flight_vz * l.flight_vz) + 9.81 * l.flight_z;
     };
     double last = total(start);
     double worst = 0.0;
     bool sound = true;
     const auto run =
-        tests::run<Free>(hills, unilateral(), start, 60, 900, hills.domain(), [&](const Louse& l) {
+        tests::run<Free>(hills, unilateral(), start, 60, 900, hills.domain(), [&](const state::Louse& l) {
           worst = std::fmax(worst, total(l) - last);
           last = total(l);
           sound = sound && hills.domain().contains(l.position.x, l.position.y);
-          if (l.phase == Phase::kFlying)
+          if (l.phase == state::Phase::kFlying)
             sound = sound && l.flight_z >= hills.sample(l.position.x, l.position.y).z - 1e-9;
           return true;
         });
@@ -127,14 +128,15 @@ TEST_CASE(
     "Kepler: a louse on the flat under central gravity runs its ellipse, with period, axis and Laplace "
     "vector") {
   const tests::Plane plane;
-  const Parameters p{.gravity = 0.0, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .central_gravity = 1.0};
+  const state::Parameters p{
+      .gravity = 0.0, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .central_gravity = 1.0};
   for (const double v0 : {0.8, 1.0, 1.2}) {
     const double a = 1 / (2 - v0 * v0);
     const double period = 2 * 3.14159265358979323846 * std::pow(a, 1.5);
     constexpr long kTicks = 4000;
     const auto run = tests::run<Forces<false, false, false, true>>(plane, p, moving({1, 0}, {0, v0}),
                                                                    kTicks / period, kTicks);
-    const Louse& l = run.louse;
+    const state::Louse& l = run.louse;
     INFO("v0 " << v0);
     CHECK(std::hypot(l.position.x - 1, l.position.y) < 1e-8);
     const double momentum = l.position.x * l.velocity.y - l.position.y * l.velocity.x;
@@ -146,10 +148,11 @@ TEST_CASE(
 
 TEST_CASE("falling into the centre stays finite") {
   const tests::Plane plane;
-  const Parameters p{.gravity = 0.0, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .central_gravity = 1.0};
+  const state::Parameters p{
+      .gravity = 0.0, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .central_gravity = 1.0};
   bool finite = true;
   tests::run<Forces<false, false, false, true>>(
-      plane, p, moving({1, 0}, {0, 0}), 60, 600, {-2, -2, 2, 2}, [&](const Louse& l) {
+      plane, p, moving({1, 0}, {0, 0}), 60, 600, {-2, -2, 2, 2}, [&](const state::Louse& l) {
         finite = finite && std::fabs(l.position.x) <= 2 && std::fabs(l.velocity.x) < 1e4;
         return true;
       });
@@ -159,8 +162,8 @@ TEST_CASE("falling into the centre stays finite") {
 TEST_CASE("a hop that ends within the first piece of a flight lands where the parabola meets the ground") {
   const terrain::HeightGrid flat{5, 5, -20.0, -20.0, 10.0, 10.0, std::vector<double>(25, 1.0)};
   const terrain::BicubicSpline ground(flat);
-  const Parameters p;
-  const Rim rim(ground.domain(), Edges::kWalls);
+  const state::Parameters p;
+  const Rim rim(ground.domain(), state::Edges::kWalls);
   for (const double climb : {1e-4, 0.003, 0.05}) {
     Flight flight{{{2.0, 3.0}, {5.0, -1.0}}, 1.0, climb};
     const auto piece = Flyer<terrain::BicubicSpline>(ground, p, rim, 1.0 / 20).fly(flight, 1.0 / 20);

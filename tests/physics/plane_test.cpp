@@ -13,6 +13,7 @@
 
 using namespace woodlouse;
 using namespace woodlouse::physics;
+using namespace woodlouse::state;
 using terrain::BicubicSpline;
 using terrain::HeightGrid;
 using terrain::PlaneSurface;
@@ -35,8 +36,8 @@ HeightGrid heights_of(const PlaneSurface& plane) {
   return grid;
 }
 
-Louse louse_of(LouseId id, core::Vec2 position, core::Vec2 velocity) {
-  Louse louse;
+state::Louse louse_of(state::LouseId id, core::Vec2 position, core::Vec2 velocity) {
+  state::Louse louse;
   louse.id = id;
   louse.position = position;
   louse.velocity = velocity;
@@ -44,7 +45,7 @@ Louse louse_of(LouseId id, core::Vec2 position, core::Vec2 velocity) {
 }
 
 /// A plane's world without walls, and one louse in it.
-World alone(core::Vec2 slope, const Parameters& parameters, const Louse& louse) {
+World alone(core::Vec2 slope, const state::Parameters& parameters, const state::Louse& louse) {
   constexpr double kFar = 1e9;
   World world(std::make_shared<const Terrain>(PlaneSurface(kSquare, 1.0, slope)), parameters, kTick,
               {-kFar, -kFar, kFar, kFar});
@@ -52,17 +53,17 @@ World alone(core::Vec2 slope, const Parameters& parameters, const Louse& louse) 
   return world;
 }
 
-std::vector<Louse> crowd(double fastest) {
+std::vector<state::Louse> crowd(double fastest) {
   core::Random random(8);
   const auto symmetric = [&](double size) { return size * (2.0 * random.uniform() - 1.0); };
-  std::vector<Louse> lice;
-  for (LouseId id = 1; id <= 61; ++id) {
+  std::vector<state::Louse> lice;
+  for (state::LouseId id = 1; id <= 61; ++id) {
     lice.push_back(louse_of(id, {symmetric(19), symmetric(19)}, {symmetric(fastest), symmetric(fastest)}));
-    lice.back().thrust_kind = id % 3 == 0   ? ThrustKind::kNone
-                              : id % 3 == 1 ? ThrustKind::kMapVector
-                                            : ThrustKind::kAlongHeading;
+    lice.back().thrust_kind = id % 3 == 0   ? state::ThrustKind::kNone
+                              : id % 3 == 1 ? state::ThrustKind::kMapVector
+                                            : state::ThrustKind::kAlongHeading;
     lice.back().thrust = {symmetric(0.7), symmetric(0.7)};
-    lice.back().thrust_ticks = kHeld;
+    lice.back().thrust_ticks = state::kHeld;
     if (id % 3 == 0) lice.back().thrust = {};
   }
   return lice;
@@ -72,7 +73,7 @@ std::vector<Louse> crowd(double fastest) {
 
 TEST_CASE("on an incline without friction a louse runs the parabola of constant acceleration, to rounding") {
   const core::Vec2 slope{0.3, -0.2};
-  const Parameters bare{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0};
+  const state::Parameters bare{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0};
   World world = alone(slope, bare, louse_of(1, {1, 2}, {3, 1}));
   for (int tick = 0; tick < 6000; ++tick) world.step();
   const double t = 6000 * kTick;
@@ -94,7 +95,7 @@ TEST_CASE("on level ground drag alone brings a louse v / d far, friction alone v
       alone({}, {.gravity = 9.81, .drag = 0.0, .friction = 0.2, .thrust_max = 0.0}, louse_of(1, {}, {3, 4}));
   for (int tick = 0; tick < 60 * 60; ++tick) rubbed.step();
   const double way = 25.0 / (2 * 0.2 * 9.81);
-  CHECK(rubbed.lice()[0].phase == Phase::kResting);
+  CHECK(rubbed.lice()[0].phase == state::Phase::kResting);
   CHECK(rubbed.lice()[0].position.x == Approx(0.6 * way).epsilon(1e-12));
   CHECK(rubbed.lice()[0].position.y == Approx(0.8 * way).epsilon(1e-12));
 }
@@ -106,10 +107,10 @@ TEST_CASE(
   const auto flat = std::make_shared<const Terrain>(plane);
   const auto spline = std::make_shared<const Terrain>(BicubicSpline(heights_of(plane)));
   for (unsigned forces = 1; forces < 8; ++forces) {  // 0: there the spline's world puts the energy right
-    const Parameters p{.gravity = 9.81,
-                       .drag = forces & 4u ? 0.2 : 0.0,
-                       .friction = forces & 2u ? 0.15 : 0.0,
-                       .thrust_max = forces & 1u ? 4.0 : 0.0};
+    const state::Parameters p{.gravity = 9.81,
+                              .drag = forces & 4u ? 0.2 : 0.0,
+                              .friction = forces & 2u ? 0.15 : 0.0,
+                              .thrust_max = forces & 1u ? 4.0 : 0.0};
     for (const InstructionSet set :
          {InstructionSet::kScalar, InstructionSet::kAvx2, InstructionSet::kAvx512}) {
       if (!is_available(set)) continue;
@@ -117,7 +118,7 @@ TEST_CASE(
       World theirs(spline, p, kTick);
       ours.use(set);
       theirs.use(set);
-      for (const Louse& louse : crowd(6.0)) {
+      for (const state::Louse& louse : crowd(6.0)) {
         ours.insert(louse);
         theirs.insert(louse);
       }
@@ -133,12 +134,13 @@ TEST_CASE(
 
 TEST_CASE("on an incline a crowd goes where it goes on a spline through the same heights") {
   const PlaneSurface plane(kSquare, 3.0, {0.1, 0.05});
-  for (const Method method : {Method::kStandard, Method::kCheap, Method::kPrecise}) {
-    Parameters p;
+  for (const state::Method method :
+       {state::Method::kStandard, state::Method::kCheap, state::Method::kPrecise}) {
+    state::Parameters p;
     p.method = method;
     World ours(std::make_shared<const Terrain>(plane), p, kTick);
     World theirs(std::make_shared<const Terrain>(BicubicSpline(heights_of(plane))), p, kTick);
-    for (const Louse& louse : crowd(3.0)) {
+    for (const state::Louse& louse : crowd(3.0)) {
       ours.insert(louse);
       theirs.insert(louse);
     }
@@ -157,11 +159,11 @@ TEST_CASE("on an incline a crowd goes where it goes on a spline through the same
 TEST_CASE("elastic walls around an incline neither give nor take energy") {
   const core::Vec2 slope{0.3, -0.2};
   const PlaneSurface plane(kSquare, 0.0, slope);
-  const Parameters elastic{
+  const state::Parameters elastic{
       .gravity = 9.81, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .edge_restitution = 1.0};
   World world(std::make_shared<const Terrain>(plane), elastic, kTick);
   world.insert(louse_of(1, {1, 2}, {3, 1}));
-  const auto energy_of = [&](const Louse& louse) {
+  const auto energy_of = [&](const state::Louse& louse) {
     const double climb = dot(slope, louse.velocity);
     return 0.5 * (dot(louse.velocity, louse.velocity) + climb * climb) +
            9.81 * plane.sample(louse.position.x, louse.position.y).z;

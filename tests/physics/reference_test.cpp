@@ -9,6 +9,7 @@
 
 using namespace woodlouse;
 using namespace woodlouse::physics;
+using namespace woodlouse::state;
 using terrain::FunctionSurface;
 
 namespace {
@@ -16,17 +17,17 @@ namespace {
 /// The distance in the map plane between the step's answer and the table's, for one row.
 double trajectory_error(const tests::CsvTable& t, std::size_t row, double rate) {
   const FunctionSurface surface(*terrain::function_from_text(t.text(row, "surface")), 1.0);
-  Parameters p;
+  state::Parameters p;
   p.drag = t.number(row, "drag");
   p.friction = t.number(row, "mu");
   p.thrust_max = 1.0;
-  Louse louse =
+  state::Louse louse =
       tests::moving({t.number(row, "x0"), t.number(row, "y0")}, {t.number(row, "vx0"), t.number(row, "vy0")});
   louse.thrust = {t.number(row, "thrust_x"), t.number(row, "thrust_y")};
-  louse.thrust_kind = ThrustKind::kMapVector;
-  louse.thrust_ticks = kHeld;
+  louse.thrust_kind = state::ThrustKind::kMapVector;
+  louse.thrust_ticks = state::kHeld;
   const long ticks = std::lround(t.number(row, "t") * rate);
-  const Louse end = tests::run<Forces<true, true, true>>(surface, p, louse, rate, ticks).louse;
+  const state::Louse end = tests::run<Forces<true, true, true>>(surface, p, louse, rate, ticks).louse;
   return std::hypot(end.position.x - t.number(row, "x"), end.position.y - t.number(row, "y"));
 }
 
@@ -46,16 +47,16 @@ TEST_CASE("rest positions under friction meet the reference to 1e-5 at 60 Hz") {
   REQUIRE(table.rows.size() == 24);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const FunctionSurface surface(*terrain::function_from_text(table.text(row, "surface")), 1.0);
-    Parameters p;
+    state::Parameters p;
     p.drag = table.number(row, "drag");
     p.friction = table.number(row, "mu");
-    const Louse louse = tests::moving({table.number(row, "x0"), table.number(row, "y0")},
-                                      {table.number(row, "vx0"), table.number(row, "vy0")});
+    const state::Louse louse = tests::moving({table.number(row, "x0"), table.number(row, "y0")},
+                                             {table.number(row, "vx0"), table.number(row, "vy0")});
     const auto end = tests::run<Forces<true, true, false>>(surface, p, louse, 60.0, 60 * 60);
     const double error = std::hypot(end.louse.position.x - table.number(row, "x_rest"),
                                     end.louse.position.y - table.number(row, "y_rest"));
     INFO("row " << row);
-    CHECK(end.louse.phase == Phase::kResting);
+    CHECK(end.louse.phase == state::Phase::kResting);
     CHECK(error < 1e-5);
   }
 }

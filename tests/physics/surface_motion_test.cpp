@@ -6,6 +6,7 @@
 
 using namespace woodlouse;
 using namespace woodlouse::physics;
+using namespace woodlouse::state;
 
 namespace {
 
@@ -13,7 +14,7 @@ struct Case {
   terrain::SurfaceSample s;
   core::Vec2 v;
   Drive drive;
-  Parameters p;
+  state::Parameters p;
 };
 
 Case random_case(core::Random& random) {

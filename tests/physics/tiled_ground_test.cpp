@@ -13,6 +13,7 @@
 
 using namespace woodlouse;
 using namespace woodlouse::physics;
+using namespace woodlouse::state;
 using terrain::HeightGrid;
 using terrain::TiledGround;
 
@@ -39,13 +40,13 @@ std::shared_ptr<const terrain::Terrain> tiled(std::size_t max_tiles) {
 }
 
 /// Thirty lice that drive to and fro.
-World peopled(std::shared_ptr<const terrain::Terrain> ground, Method method) {
-  Parameters parameters;
+World peopled(std::shared_ptr<const terrain::Terrain> ground, state::Method method) {
+  state::Parameters parameters;
   parameters.method = method;
   World world(std::move(ground), parameters, kTick);
   core::Random random(5);
-  for (LouseId id = 1; id <= 30; ++id) {
-    Louse louse;
+  for (state::LouseId id = 1; id <= 30; ++id) {
+    state::Louse louse;
     louse.id = id;
     louse.position = {150.0 * random.uniform() - 75.0, 134.0 * random.uniform() - 67.0};
     louse.velocity = {16.0 * random.uniform() - 8.0, 16.0 * random.uniform() - 8.0};
@@ -58,9 +59,9 @@ void drive(World& world, int ticks) {
   core::Random random(9);
   for (int tick = 0; tick < ticks; ++tick) {
     if (tick % 40 == 0) {
-      for (LouseId id = 1; id <= 30; ++id) {
+      for (state::LouseId id = 1; id <= 30; ++id) {
         const double x = random.uniform() - 0.5, y = random.uniform() - 0.5;
-        world.set_thrust(id, {ThrustKind::kMapVector, {x, y}}, 30);
+        world.set_thrust(id, {state::ThrustKind::kMapVector, {x, y}}, 30);
       }
     }
     world.step();
@@ -69,7 +70,7 @@ void drive(World& world, int ticks) {
 
 std::uint64_t hash_of(const World& world) {
   core::StableHasher hasher;
-  return state_hash(hasher, {}, world.lice());
+  return state::state_hash(hasher, {}, world.lice());
 }
 
 terrain::TileStore& store_of(const World& world) {
@@ -79,7 +80,8 @@ terrain::TileStore& store_of(const World& world) {
 }  // namespace
 
 TEST_CASE("lice on tiles go where lice on the spline in memory go, with every method") {
-  for (const Method method : {Method::kStandard, Method::kCheap, Method::kPrecise}) {
+  for (const state::Method method :
+       {state::Method::kStandard, state::Method::kCheap, state::Method::kPrecise}) {
     World on_tiles = peopled(tiled(100), method);
     World in_memory =
         peopled(std::make_shared<const terrain::Terrain>(terrain::BicubicSpline(hills())), method);
@@ -88,7 +90,7 @@ TEST_CASE("lice on tiles go where lice on the spline in memory go, with every me
     REQUIRE(on_tiles.counters().louse_steps == in_memory.counters().louse_steps);
     for (std::size_t k = 0; k < 30; ++k) {
       INFO("louse " << k << ", method " << static_cast<int>(method));
-      const Louse &a = on_tiles.lice()[k], &b = in_memory.lice()[k];
+      const state::Louse &a = on_tiles.lice()[k], &b = in_memory.lice()[k];
       CHECK(a.position.x == Approx(b.position.x).margin(1e-9));
       CHECK(a.position.y == Approx(b.position.y).margin(1e-9));
       CHECK(a.phase == b.phase);
@@ -99,20 +101,20 @@ TEST_CASE("lice on tiles go where lice on the spline in memory go, with every me
 TEST_CASE(
     "the bits are the same with few tiles, with all of them built before, and while another thread prepares "
     "them") {
-  World plain = peopled(tiled(100), Method::kStandard);
+  World plain = peopled(tiled(100), state::Method::kStandard);
   drive(plain, 300);
-  World narrow = peopled(tiled(2), Method::kStandard);
+  World narrow = peopled(tiled(2), state::Method::kStandard);
   drive(narrow, 300);
   CHECK(store_of(narrow).counters().thrown_out > 100);
   CHECK(hash_of(narrow) == hash_of(plain));
 
-  World prepared = peopled(tiled(100), Method::kStandard);
+  World prepared = peopled(tiled(100), state::Method::kStandard);
   REQUIRE(store_of(prepared).build_all());
   drive(prepared, 300);
   CHECK(store_of(prepared).counters().built == store_of(prepared).counters().prepared);
   CHECK(hash_of(prepared) == hash_of(plain));
 
-  World accompanied = peopled(tiled(3), Method::kStandard);
+  World accompanied = peopled(tiled(3), state::Method::kStandard);
   std::thread worker([&] {
     for (std::size_t k = 0; k < 500; ++k) store_of(accompanied).prepare(7 * k % 25);
   });

@@ -8,6 +8,7 @@
 
 using namespace woodlouse;
 using namespace woodlouse::physics;
+using namespace woodlouse::state;
 using terrain::FunctionName;
 using terrain::FunctionSurface;
 using tests::moving;
@@ -52,15 +53,16 @@ TEST_CASE(
   const FunctionSurface wavy(FunctionName::kWavyPot, 20.0);
   const auto check = [&](const auto& surface) {
     for (int i = 0; i < 60; ++i) {
-      const Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .edge_restitution = 0.5 * (i % 3)};
+      const state::Parameters p{
+          .gravity = 9.81, .drag = 0.0, .friction = 0.0, .edge_restitution = 0.5 * (i % 3)};
       const double angle = 6.28 * random.uniform();
-      const Louse start = moving({38 * random.uniform() - 19, 38 * random.uniform() - 19},
-                                 {15 * std::cos(angle), 15 * std::sin(angle)});
+      const state::Louse start = moving({38 * random.uniform() - 19, 38 * random.uniform() - 19},
+                                        {15 * std::cos(angle), 15 * std::sin(angle)});
       double last = tests::energy(surface, start, 9.81);
       double worst = 0.0;
       bool inside = true;
       const auto end = tests::run<Forces<false, false, false>>(
-          surface, p, start, 60, 1200, surface.domain(), [&](const Louse& l) {
+          surface, p, start, 60, 1200, surface.domain(), [&](const state::Louse& l) {
             inside = inside && surface.domain().contains(l.position.x, l.position.y);
             const double now = tests::energy(surface, l, 9.81);
             worst = std::fmax(worst, now - last);
@@ -84,12 +86,13 @@ TEST_CASE("on a plane, where the step has no error, energy never grows at walls 
     plane.slope_x = 3 * random.uniform() - 1.5;
     plane.slope_y = 3 * random.uniform() - 1.5;
     const terrain::Rectangle walls{-1, -1, 1, 1};
-    const Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .edge_restitution = random.uniform()};
-    const Louse start = moving({1.8 * random.uniform() - 0.9, 1.8 * random.uniform() - 0.9},
-                               {6 * random.uniform() - 3, 6 * random.uniform() - 3});
+    const state::Parameters p{
+        .gravity = 9.81, .drag = 0.0, .friction = 0.0, .edge_restitution = random.uniform()};
+    const state::Louse start = moving({1.8 * random.uniform() - 0.9, 1.8 * random.uniform() - 0.9},
+                                      {6 * random.uniform() - 3, 6 * random.uniform() - 3});
     double last = tests::energy(plane, start, 9.81);
     double worst = 0.0;
-    tests::run<Forces<false, false, false>>(plane, p, start, 60, 600, walls, [&](const Louse& l) {
+    tests::run<Forces<false, false, false>>(plane, p, start, 60, 600, walls, [&](const state::Louse& l) {
       const double now = tests::energy(plane, l, 9.81);
       worst = std::fmax(worst, now - last);
       last = now;
@@ -105,10 +108,10 @@ TEST_CASE("pressed into a corner, a louse comes to rest and moves no more") {
   plane.slope_x = -0.4;
   plane.slope_y = -0.3;
   const terrain::Rectangle walls{-1, -1, 1, 1};
-  const Parameters p{.gravity = 9.81, .drag = 0.2, .friction = 0.05, .edge_restitution = 0.5};
+  const state::Parameters p{.gravity = 9.81, .drag = 0.2, .friction = 0.05, .edge_restitution = 0.5};
   const auto run = tests::run<Forces<true, true, false>>(plane, p, moving({0, 0}, {}), 60, 6000, walls,
-                                                         [](const Louse&) { return true; });
-  CHECK(run.louse.phase == Phase::kResting);
+                                                         [](const state::Louse&) { return true; });
+  CHECK(run.louse.phase == state::Phase::kResting);
   CHECK(run.louse.position == core::Vec2{1.0, 1.0});
 }
 
@@ -117,9 +120,9 @@ TEST_CASE("a louse slides down along a wall as down an incline of the wall's slo
   plane.slope_x = -1.0;
   plane.slope_y = -0.2;
   const terrain::Rectangle walls{-1, -100, 1, 100};
-  const Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .edge_restitution = 0.0};
+  const state::Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .edge_restitution = 0.0};
   const auto run = tests::run<Forces<false, false, false>>(plane, p, moving({1, 0}, {}), 60, 120, walls,
-                                                           [](const Louse&) { return true; });
+                                                           [](const state::Louse&) { return true; });
   CHECK(run.louse.position.x == 1.0);
   // In the vertical plane of the wall the slope is zy alone: a = g zy / (1 + zy^2).
   CHECK(run.louse.position.y == Approx(0.5 * 4.0 * 9.81 * 0.2 / 1.04).epsilon(1e-12));
@@ -128,9 +131,9 @@ TEST_CASE("a louse slides down along a wall as down an incline of the wall's slo
 TEST_CASE("a bouncing louse on the flat hits where the closed form says") {
   tests::Plane plane;
   const terrain::Rectangle walls{0, -1, 1, 1};
-  const Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .edge_restitution = 0.5};
+  const state::Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .edge_restitution = 0.5};
   const auto run = tests::run<Forces<false, false, false>>(plane, p, moving({0.5, 0}, {1, 0}), 60, 150, walls,
-                                                           [](const Louse&) { return true; });
+                                                           [](const state::Louse&) { return true; });
   // 0.5 s to the wall, 2 s back at half the speed: it is at the other wall at 2.5 s.
   CHECK(run.louse.position.x == Approx(0.0).margin(1e-12));
   CHECK(run.counters.bounces >= 1);
@@ -139,24 +142,25 @@ TEST_CASE("a bouncing louse on the flat hits where the closed form says") {
 TEST_CASE("lice that push into walls and corners cost few sub-steps, and none stands there with a speed") {
   for (const FunctionName name : {FunctionName::kHills, FunctionName::kWaves}) {
     const terrain::BicubicSpline ground(terrain::sample_function(name, 20.0, 10));
-    for (const Parameters& forces : {Parameters{.drag = 0.0, .friction = 0.0, .thrust_max = 6.0},
-                                     Parameters{.drag = 0.2, .friction = 0.0, .thrust_max = 6.0},
-                                     Parameters{.drag = 0.2, .friction = 0.05, .thrust_max = 6.0}}) {
+    for (const state::Parameters& forces :
+         {state::Parameters{.drag = 0.0, .friction = 0.0, .thrust_max = 6.0},
+          state::Parameters{.drag = 0.2, .friction = 0.0, .thrust_max = 6.0},
+          state::Parameters{.drag = 0.2, .friction = 0.05, .thrust_max = 6.0}}) {
       for (const double restitution : {0.0, 0.5, 1.0}) {
-        Parameters p = forces;
+        state::Parameters p = forces;
         p.edge_restitution = restitution;
         const auto steps = make_ground_steps(ground, {p, ground.domain(), 1.0 / 60});
         core::Random random(12);
         const auto symmetric = [&](double size) { return size * (2 * random.uniform() - 1); };
         for (int i = 0; i < 24; ++i) {
-          Louse louse = moving({symmetric(19.9), symmetric(19.9)}, {symmetric(4), symmetric(4)});
-          louse.thrust_kind = ThrustKind::kMapVector;
-          louse.thrust_ticks = kHeld;
+          state::Louse louse = moving({symmetric(19.9), symmetric(19.9)}, {symmetric(4), symmetric(4)});
+          louse.thrust_kind = state::ThrustKind::kMapVector;
+          louse.thrust_ticks = state::kHeld;
           BatchLists lists;
-          for (int tick = 0; tick < 1200 && louse.phase == Phase::kMoving; ++tick) {
+          for (int tick = 0; tick < 1200 && louse.phase == state::Phase::kMoving; ++tick) {
             if (tick % 400 == 0)
               louse.thrust = core::Vec2{0.7 * std::cos(i + tick), 0.7 * std::sin(i + tick)};
-            const Louse before = louse;
+            const state::Louse before = louse;
             StepCounters counters;
             const std::uint32_t index = 0;
             steps->advance({&louse, 1}, {&index, 1}, {}, lists, counters);

@@ -12,6 +12,7 @@
 
 using namespace woodlouse;
 using namespace woodlouse::physics;
+using namespace woodlouse::state;
 using terrain::BicubicSpline;
 using terrain::FunctionName;
 using terrain::FunctionSurface;
@@ -47,8 +48,8 @@ std::shared_ptr<const Terrain> tiled_three_by_three() {
   return std::make_shared<const Terrain>(BicubicSpline(all));
 }
 
-Parameters free_wrapping() {
-  return {.gravity = 9.81, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .edges = Edges::kWrap};
+state::Parameters free_wrapping() {
+  return {.gravity = 9.81, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .edges = state::Edges::kWrap};
 }
 
 bool at_home(core::Vec2 p) { return p.x >= -kHalf && p.x < kHalf && p.y >= -kHalf && p.y < kHalf; }
@@ -61,11 +62,11 @@ double apart_by_periods(double a, double b) {
 /// How far the same louse is off after `seconds` between a map that wraps and one that needs not, at worst;
 /// counts the ticks in which it was carried over a seam.
 double worst_apart(const std::shared_ptr<const Terrain>& wrapping,
-                   const std::shared_ptr<const Terrain>& endless, Parameters p, const Louse& louse,
-                   double seconds, int& crossings) {
+                   const std::shared_ptr<const Terrain>& endless, state::Parameters p,
+                   const state::Louse& louse, double seconds, int& crossings) {
   constexpr double kRate = 60;
   World home(wrapping, p, 1 / kRate);
-  p.edges = Edges::kWalls;
+  p.edges = state::Edges::kWalls;
   World away(endless, p, 1 / kRate, tests::kNowhere);
   home.insert(louse);
   away.insert(louse);
@@ -74,8 +75,8 @@ double worst_apart(const std::shared_ptr<const Terrain>& wrapping,
   for (int i = 0; i < std::lround(seconds * kRate); ++i) {
     home.step();
     away.step();
-    const Louse& a = home.lice()[0];
-    const Louse& b = away.lice()[0];
+    const state::Louse& a = home.lice()[0];
+    const state::Louse& b = away.lice()[0];
     REQUIRE(at_home(a.position));
     REQUIRE(a.phase == b.phase);
     if (std::fabs(a.position.x - last.x) > kHalf || std::fabs(a.position.y - last.y) > kHalf) ++crossings;
@@ -87,14 +88,14 @@ double worst_apart(const std::shared_ptr<const Terrain>& wrapping,
   return worst;
 }
 
-Louse random_louse(core::Random& random, double speed) {
+state::Louse random_louse(core::Random& random, double speed) {
   const double angle = 6.283 * random.uniform();
-  Louse louse =
+  state::Louse louse =
       tests::moving({kHalf * (1.9 * random.uniform() - 0.95), kHalf * (1.9 * random.uniform() - 0.95)},
                     {speed * std::cos(angle), speed * std::sin(angle)});
-  louse.thrust_kind = ThrustKind::kMapVector;
+  louse.thrust_kind = state::ThrustKind::kMapVector;
   louse.thrust = {0.3 * std::cos(angle), 0.3 * std::sin(angle)};
-  louse.thrust_ticks = kHeld;
+  louse.thrust_ticks = state::kHeld;
   return louse;
 }
 
@@ -105,17 +106,19 @@ TEST_CASE(
   const auto one = torus();
   const auto nine = tiled_three_by_three();
   core::Random random(5);
-  for (const Method method : {Method::kStandard, Method::kCheap, Method::kPrecise}) {
-    for (const SurfaceContact contact : {SurfaceContact::kBilateral, SurfaceContact::kUnilateral}) {
+  for (const state::Method method :
+       {state::Method::kStandard, state::Method::kCheap, state::Method::kPrecise}) {
+    for (const state::SurfaceContact contact :
+         {state::SurfaceContact::kBilateral, state::SurfaceContact::kUnilateral}) {
       int crossings = 0;
       for (int i = 0; i < 20; ++i) {
-        const Parameters p{.gravity = contact == SurfaceContact::kUnilateral ? 3.0 : 9.81,
-                           .drag = 0.1,
-                           .friction = 0.05,
-                           .thrust_max = 4.0,
-                           .edges = Edges::kWrap,
-                           .contact = contact,
-                           .method = method};
+        const state::Parameters p{.gravity = contact == state::SurfaceContact::kUnilateral ? 3.0 : 9.81,
+                                  .drag = 0.1,
+                                  .friction = 0.05,
+                                  .thrust_max = 4.0,
+                                  .edges = state::Edges::kWrap,
+                                  .contact = contact,
+                                  .method = method};
         INFO(to_text(method) << ", " << to_text(contact) << ", run " << i);
         CHECK(worst_apart(one, nine, p, random_louse(random, 12.0), 2.5, crossings) < 1e-9);
       }
@@ -129,8 +132,8 @@ TEST_CASE("over the seam of a periodic function a louse runs as on the function 
   core::Random random(6);
   int crossings = 0;
   for (int i = 0; i < 10; ++i) {
-    const Parameters p{
-        .gravity = 9.81, .drag = 0.1, .friction = 0.05, .thrust_max = 4.0, .edges = Edges::kWrap};
+    const state::Parameters p{
+        .gravity = 9.81, .drag = 0.1, .friction = 0.05, .thrust_max = 4.0, .edges = state::Edges::kWrap};
     INFO("run " << i);
     CHECK(worst_apart(function, function, p, random_louse(random, 15.0), 5.0, crossings) < 1e-9);
   }
@@ -140,26 +143,27 @@ TEST_CASE("over the seam of a periodic function a louse runs as on the function 
 TEST_CASE("on a map that wraps every instruction set gives the bits of the scalar step") {
   const auto ground = torus();
   const auto played = [&](InstructionSet set) {
-    World world(ground,
-                {.gravity = 9.81, .drag = 0.05, .friction = 0.05, .thrust_max = 6.0, .edges = Edges::kWrap},
-                1.0 / 60);
+    World world(
+        ground,
+        {.gravity = 9.81, .drag = 0.05, .friction = 0.05, .thrust_max = 6.0, .edges = state::Edges::kWrap},
+        1.0 / 60);
     world.use(set);
     core::Random random(9);
-    for (LouseId id = 1; id <= 83; ++id) {
-      Louse louse = random_louse(random, 5.0 + 20.0 * random.uniform());
+    for (state::LouseId id = 1; id <= 83; ++id) {
+      state::Louse louse = random_louse(random, 5.0 + 20.0 * random.uniform());
       louse.id = id;
       world.insert(louse);
     }
     for (int tick = 0; tick < 600; ++tick) world.step();
-    for (const Louse& louse : world.lice()) REQUIRE(at_home(louse.position));
-    return std::vector<Louse>(world.lice().begin(), world.lice().end());
+    for (const state::Louse& louse : world.lice()) REQUIRE(at_home(louse.position));
+    return std::vector<state::Louse>(world.lice().begin(), world.lice().end());
   };
-  const std::vector<Louse> scalar = played(InstructionSet::kScalar);
+  const std::vector<state::Louse> scalar = played(InstructionSet::kScalar);
   for (const InstructionSet set : {InstructionSet::kAvx2, InstructionSet::kAvx512}) {
     if (!is_available(set)) continue;
     INFO(to_text(set));
-    const std::vector<Louse> batched = played(set);
-    CHECK(std::memcmp(batched.data(), scalar.data(), scalar.size() * sizeof(Louse)) == 0);
+    const std::vector<state::Louse> batched = played(set);
+    CHECK(std::memcmp(batched.data(), scalar.data(), scalar.size() * sizeof(state::Louse)) == 0);
   }
 }
 
@@ -167,13 +171,13 @@ TEST_CASE("hundreds of crossings leave the energy where it was") {
   const auto function = std::make_shared<const Terrain>(FunctionSurface(FunctionName::kWaves, kHalf));
   // The standard method on the function, precise on the spline: neither loses order at a spline's knot lines.
   for (const auto& [ground, method] :
-       {std::pair(function, Method::kStandard), std::pair(torus(), Method::kPrecise)}) {
-    Parameters p = free_wrapping();
+       {std::pair(function, state::Method::kStandard), std::pair(torus(), state::Method::kPrecise)}) {
+    state::Parameters p = free_wrapping();
     p.method = method;
     World world(ground, p, 1.0 / 120);
     world.insert(tests::moving({1.0, 2.0}, {17.0, 11.0}));
     const auto energy = [&] {
-      const Louse& louse = world.lice()[0];
+      const state::Louse& louse = world.lice()[0];
       const terrain::SurfaceSample s = world.terrain().sample(louse.position.x, louse.position.y);
       return 0.5 * squared_length_in_space(s, louse.velocity) + p.gravity * s.z;
     };
@@ -197,13 +201,14 @@ TEST_CASE("a louse that crosses many cells or whole maps in a tick stays on the 
   const auto ground = torus();
   const auto& spline = std::get<BicubicSpline>(ground->surface());
   core::Random random(11);
-  for (const Method method : {Method::kStandard, Method::kCheap, Method::kPrecise}) {
+  for (const state::Method method :
+       {state::Method::kStandard, state::Method::kCheap, state::Method::kPrecise}) {
     for (const double speed : {400.0, 3e4, 1e7, 1e12}) {
-      Parameters p = free_wrapping();
+      state::Parameters p = free_wrapping();
       p.method = method;
       World world(ground, p, 1.0 / 60);
-      Louse louse = random_louse(random, speed);
-      louse.thrust_kind = ThrustKind::kNone;
+      state::Louse louse = random_louse(random, speed);
+      louse.thrust_kind = state::ThrustKind::kNone;
       world.insert(louse);
       const double before = tests::energy(spline, louse, 9.81);
       for (int i = 0; i < 30; ++i) {
@@ -221,7 +226,7 @@ TEST_CASE("a louse that crosses many cells or whole maps in a tick stays on the 
 TEST_CASE(
     "a position is carried home by whole periods, into the half-open rectangle, whatever rounding does") {
   const terrain::Rectangle odd{-0.3, 0.1, 0.7, 1e6 / 3};
-  const Rim rim(odd, Edges::kWrap);
+  const Rim rim(odd, state::Edges::kWrap);
   core::Random random(12);
   const auto check = [&](core::Vec2 p, long long x, long long y) {
     core::Vec2 home = p;
@@ -252,13 +257,14 @@ TEST_CASE(
 }
 
 TEST_CASE("nothing leans on a seam: a louse set down there is at the low rim and rolls over it") {
-  World world(torus(),
-              {.gravity = 9.81, .drag = 0.1, .friction = 0.02, .thrust_max = 6.0, .edges = Edges::kWrap},
-              1.0 / 60);
-  Louse louse = tests::moving({kHalf, 3 * kHalf + 1.0}, {});
-  louse.thrust_kind = ThrustKind::kMapVector;
+  World world(
+      torus(),
+      {.gravity = 9.81, .drag = 0.1, .friction = 0.02, .thrust_max = 6.0, .edges = state::Edges::kWrap},
+      1.0 / 60);
+  state::Louse louse = tests::moving({kHalf, 3 * kHalf + 1.0}, {});
+  louse.thrust_kind = state::ThrustKind::kMapVector;
   louse.thrust = {-1.0, 0.0};
-  louse.thrust_ticks = kHeld;
+  louse.thrust_ticks = state::kHeld;
   world.insert(louse);
   CHECK(world.lice()[0].position == core::Vec2{-kHalf, -kHalf + 1.0});
   for (int i = 0; i < 30; ++i) world.step();

@@ -96,12 +96,12 @@ TEST_CASE("the index that was written is the one a scan finds, and knows everybo
     CHECK(recording.bytes.compare(place.offset, 12, "{\"keyframe\":") == 0);
   }
   for (std::uint64_t tick = 1; tick <= 400; ++tick) {
-    std::vector<physics::LouseId> there;
+    std::vector<state::LouseId> there;
     for (const PlayerSpan& player : found.players) {
       if (player.joined <= tick && (!player.left || tick < *player.left)) there.push_back(player.player);
     }
-    std::vector<physics::LouseId> lice;
-    for (const physics::Louse& louse : recording.states[tick - 1].lice) lice.push_back(louse.id);
+    std::vector<state::LouseId> lice;
+    for (const state::Louse& louse : recording.states[tick - 1].lice) lice.push_back(louse.id);
     REQUIRE(there == lice);
   }
 }

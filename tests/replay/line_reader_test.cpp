@@ -86,7 +86,7 @@ TEST_CASE("random steps read back as they were written, minus zero and 64-bit ha
       input.tick = step.tick;
       input.player = player();
       input.seq = static_cast<std::uint32_t>(random.next());
-      input.kind = static_cast<physics::ThrustKind>(random.next() % 3);
+      input.kind = static_cast<state::ThrustKind>(random.next() % 3);
       const auto value = [&] {
         const double any = random.uniform() * 1.4 - 0.7;
         const double quanta = std::trunc(any * 128.0) / 128.0;
@@ -94,10 +94,10 @@ TEST_CASE("random steps read back as they were written, minus zero and 64-bit ha
                                   std::bit_cast<double>(std::bit_cast<std::uint64_t>(quanta) ^ 1u)};
         return choices[random.next() % 4];
       };
-      if (input.kind != physics::ThrustKind::kNone) input.thrust.x = value();
-      if (input.kind == physics::ThrustKind::kMapVector) input.thrust.y = value();
+      if (input.kind != state::ThrustKind::kNone) input.thrust.x = value();
+      if (input.kind == state::ThrustKind::kMapVector) input.thrust.y = value();
       input.ticks =
-          random.next() % 2 ? physics::kHeld : static_cast<std::uint32_t>(random.next() % physics::kHeld);
+          random.next() % 2 ? state::kHeld : static_cast<std::uint32_t>(random.next() % state::kHeld);
       step.inputs.push_back(input);
       if (random.next() % 2) writer.note_margin(input.player, input.seq, -5);
     }
@@ -130,10 +130,10 @@ TEST_CASE("random keyframes read back bit for bit") {
     state.inputs = random.next();
     state.generator = random.next();
     state.lice.resize(random.next() % 6);
-    physics::LouseId id = 0;
+    state::LouseId id = 0;
     ReplayWriter writer;
-    for (physics::Louse& louse : state.lice) {
-      visit_fields(louse, [&](std::string_view, auto& field) {
+    for (state::Louse& louse : state.lice) {
+      state::visit_fields(louse, [&](std::string_view, auto& field) {
         using Field = std::remove_cvref_t<decltype(field)>;
         if constexpr (std::is_same_v<Field, double>) {
           field = any_double(random);
@@ -141,7 +141,7 @@ TEST_CASE("random keyframes read back bit for bit") {
           field = static_cast<Field>(random.next() % 3);
         }
       });
-      louse.id = id += 1 + static_cast<physics::LouseId>(random.next() % 1000000);
+      louse.id = id += 1 + static_cast<state::LouseId>(random.next() % 1000000);
       louse.thrust_ticks = static_cast<std::uint32_t>(random.next());
       const bool has_seq = random.next() % 4 != 0;
       state.players.push_back(
@@ -152,8 +152,8 @@ TEST_CASE("random keyframes read back bit for bit") {
         state.waiting.push_back({id,
                                  7,
                                  {push, -0.0},
-                                 physics::ThrustKind::kMapVector,
-                                 random.next() % 2 == 0 ? physics::kHeld : 12,
+                                 state::ThrustKind::kMapVector,
+                                 random.next() % 2 == 0 ? state::kHeld : 12,
                                  state.tick + 1});
       }
     }
@@ -182,7 +182,7 @@ TEST_CASE("a margin is kept in whole milliseconds, down, so that what came late 
   for (const auto& [us, ms] : margins) {
     ReplayWriter writer;
     match::StepRecord step;
-    step.inputs = {{3, 9, {}, physics::ThrustKind::kNone, physics::kHeld, 0}};
+    step.inputs = {{3, 9, {}, state::ThrustKind::kNone, state::kHeld, 0}};
     writer.note_margin(3, 9, us);
     std::string out;
     writer.append_step(out, step);
@@ -216,8 +216,8 @@ TEST_CASE("chat and end lines read back, whatever the text holds") {
 
 TEST_CASE("a keyframe's columns are the wire's `all`") {
   std::vector<std::string> names;
-  visit_fields(physics::Louse{}, [&](std::string_view name, const auto&) { names.emplace_back(name); });
-  CHECK(names.size() == kLouseFields);
+  state::visit_fields(state::Louse{}, [&](std::string_view name, const auto&) { names.emplace_back(name); });
+  CHECK(names.size() == state::kLouseFields);
   std::vector<std::string> wire;
   for (const protocol::Column column : protocol::all_columns()) wire.emplace_back(protocol::to_text(column));
   CHECK(names == wire);
@@ -233,7 +233,7 @@ TEST_CASE("notes of what is never applied are forgotten with their player") {
   writer.append_step(out, step);
   step.tick = 1;
   step.roster.clear();
-  step.inputs = {{1, 9, {}, physics::ThrustKind::kNone, physics::kHeld, 1}};
+  step.inputs = {{1, 9, {}, state::ThrustKind::kNone, state::kHeld, 1}};
   out.clear();
   writer.append_step(out, step);
   CHECK(out.find("\"inputs\":[[1,9,null]]") != std::string::npos);

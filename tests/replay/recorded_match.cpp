@@ -76,9 +76,9 @@ class RandomGame {
     input.player = player;
     input.seq = ++seq_[player];
     if (random_.next() % 2 == 0) {
-      input.thrust = {physics::ThrustKind::kAlongHeading, {thrust(), 0.0}};
+      input.thrust = {state::ThrustKind::kAlongHeading, {thrust(), 0.0}};
     } else {
-      input.thrust = {physics::ThrustKind::kMapVector, {0.5 * thrust(), 0.5 * thrust()}};
+      input.thrust = {state::ThrustKind::kMapVector, {0.5 * thrust(), 0.5 * thrust()}};
     }
     if (random_.next() % 2 == 0) input.ticks = static_cast<std::uint32_t>(1 + random_.next() % 50);
     if (random_.next() % 3 == 0) input.wanted_tick = match_.tick() + random_.next() % 121;

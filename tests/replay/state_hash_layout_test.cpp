@@ -71,8 +71,8 @@ TEST_CASE("the hash of a keyframe's tick can be made again from the recording al
     bytes.u64(previous);
     bytes.u64(inputs_digest(step));
     bytes.u64(keyframe->state.tick);
-    for (const physics::Louse& louse : keyframe->state.lice) {
-      visit_fields(louse, [&](std::string_view, const auto& field) {
+    for (const state::Louse& louse : keyframe->state.lice) {
+      state::visit_fields(louse, [&](std::string_view, const auto& field) {
         using Field = std::remove_cvref_t<decltype(field)>;
         if constexpr (std::is_same_v<Field, double>) {
           bytes.f64(field);

@@ -54,8 +54,8 @@ TEST_CASE("the many lice fill whole batches") {
   Play play(scenario, physics::best_instruction_set());
   play.advance(200);
   const auto lice = play.match().world().lice();
-  const auto moving = std::count_if(
-      lice.begin(), lice.end(), [](const physics::Louse& l) { return l.phase == physics::Phase::kMoving; });
+  const auto moving = std::count_if(lice.begin(), lice.end(),
+                                    [](const state::Louse& l) { return l.phase == state::Phase::kMoving; });
   CHECK(moving > 400);
   CHECK(play.match().world().counters().sub_steps < 2 * play.match().world().counters().louse_steps);
 }

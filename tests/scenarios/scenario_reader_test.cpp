@@ -86,8 +86,8 @@ TEST_CASE("a rule is repeated every so many steps up to its last one") {
   CHECK(events[0].step == 5);
   CHECK(events[5].step == 25);
   CHECK(events[5].player == 3);
-  CHECK(events[5].thrust == physics::Thrust{physics::ThrustKind::kAlongHeading, {-0.5, 0.0}});
-  CHECK(events[5].ticks == physics::kHeld);
+  CHECK(events[5].thrust == state::Thrust{state::ThrustKind::kAlongHeading, {-0.5, 0.0}});
+  CHECK(events[5].ticks == state::kHeld);
 }
 
 TEST_CASE("all means those who are there, and events of one step keep the order of the file") {
@@ -113,7 +113,7 @@ TEST_CASE("random thrusts are legal, of both kinds, and the same in each reading
   for (std::size_t k = 0; k < events.size(); ++k) {
     CHECK(events[k].thrust == again[k].thrust);
     CHECK(core::dot(events[k].thrust.value, events[k].thrust.value) <= 1.0);
-    along += events[k].thrust.kind == physics::ThrustKind::kAlongHeading ? 1 : 0;
+    along += events[k].thrust.kind == state::ThrustKind::kAlongHeading ? 1 : 0;
   }
   CHECK(along > 90);
   CHECK(along < 210);

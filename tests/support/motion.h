@@ -7,18 +7,18 @@
 namespace woodlouse::tests {
 
 struct Run {
-  physics::Louse louse;
+  state::Louse louse;
   physics::StepCounters counters;
 };
 
 /// A louse moved `ticks` ticks of 1/rate seconds without walls, unless `walls` says where they stand. After
 /// each tick `watch(louse)` is called; it returns false to stop.
 template <typename F, terrain::Surface S, typename Watch>
-Run run(const S& surface, const physics::Parameters& parameters, physics::Louse louse, double rate,
-        long ticks, const terrain::Rectangle& walls, const Watch& watch) {
+Run run(const S& surface, const state::Parameters& parameters, state::Louse louse, double rate, long ticks,
+        const terrain::Rectangle& walls, const Watch& watch) {
   Run result;
   const physics::Stepper<S, F> stepper(surface, parameters, walls, 1.0 / rate);
-  for (long i = 0; i < ticks && louse.phase != physics::Phase::kResting; ++i) {
+  for (long i = 0; i < ticks && louse.phase != state::Phase::kResting; ++i) {
     stepper.advance(louse, result.counters);
     if (!watch(louse)) break;
   }
@@ -27,14 +27,13 @@ Run run(const S& surface, const physics::Parameters& parameters, physics::Louse 
 }
 
 template <typename F, terrain::Surface S>
-Run run(const S& surface, const physics::Parameters& parameters, const physics::Louse& louse, double rate,
+Run run(const S& surface, const state::Parameters& parameters, const state::Louse& louse, double rate,
         long ticks) {
-  return run<F>(surface, parameters, louse, rate, ticks, kNowhere,
-                [](const physics::Louse&) { return true; });
+  return run<F>(surface, parameters, louse, rate, ticks, kNowhere, [](const state::Louse&) { return true; });
 }
 
-inline physics::Louse moving(core::Vec2 position, core::Vec2 velocity) {
-  physics::Louse louse;
+inline state::Louse moving(core::Vec2 position, core::Vec2 velocity) {
+  state::Louse louse;
   louse.id = 1;
   louse.position = position;
   louse.velocity = velocity;
@@ -43,7 +42,7 @@ inline physics::Louse moving(core::Vec2 position, core::Vec2 velocity) {
 
 /// Kinetic plus potential energy per mass [J/kg].
 template <terrain::Surface S>
-double energy(const S& surface, const physics::Louse& louse, double gravity) {
+double energy(const S& surface, const state::Louse& louse, double gravity) {
   const terrain::SurfaceSample s = surface.sample(louse.position.x, louse.position.y);
   return 0.5 * physics::squared_length_in_space(s, louse.velocity) + gravity * s.z;
 }

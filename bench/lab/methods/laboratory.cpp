@@ -36,24 +36,24 @@ class IndirectSurface {
 template <typename S, typename F, typename E, typename I>
 class Compiled final : public LaboratoryStepper {
  public:
-  Compiled(S surface, const Parameters& parameters, const terrain::Rectangle& walls, double tick)
+  Compiled(S surface, const state::Parameters& parameters, const terrain::Rectangle& walls, double tick)
       : surface_(surface), parameters_(parameters), walls_(walls), tick_(tick) {}
-  void advance(std::span<Louse> lice, StepCounters& counters) const override {
+  void advance(std::span<state::Louse> lice, StepCounters& counters) const override {
     const Stepper<std::remove_cvref_t<S>, F, E, I> stepper(surface_, parameters_, walls_, tick_);
-    for (Louse& louse : lice) {
-      if (louse.phase != Phase::kResting) stepper.advance(louse, counters);
+    for (state::Louse& louse : lice) {
+      if (louse.phase != state::Phase::kResting) stepper.advance(louse, counters);
     }
   }
 
  private:
   S surface_;  // a reference for those that are compiled outright
-  Parameters parameters_;
+  state::Parameters parameters_;
   terrain::Rectangle walls_;
   double tick_;
 };
 
 struct Choice {
-  const Parameters& parameters;
+  const state::Parameters& parameters;
   const terrain::Rectangle& walls;
   double tick;
 };
@@ -170,7 +170,7 @@ std::optional<Integrator> integrator_from_text(std::string_view text) {
 
 core::Expected<std::unique_ptr<LaboratoryStepper>> make_stepper(const AnySurface& surface,
                                                                 Equations equations, Integrator integrator,
-                                                                const Parameters& parameters,
+                                                                const state::Parameters& parameters,
                                                                 const terrain::Rectangle& walls,
                                                                 double tick) {
   const Choice choice{parameters, walls, tick};

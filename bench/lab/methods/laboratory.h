@@ -48,7 +48,7 @@ class LaboratoryStepper {
  public:
   virtual ~LaboratoryStepper() = default;
   /// Moves each louse that is not at rest through one tick. Thrusts are not counted down.
-  virtual void advance(std::span<Louse> lice, StepCounters& counters) const = 0;
+  virtual void advance(std::span<state::Louse> lice, StepCounters& counters) const = 0;
 };
 
 /// walls: where lice are kept, infinite: nowhere; tick: [s]. `surface` must outlive the stepper. Errors: the
@@ -56,7 +56,7 @@ class LaboratoryStepper {
 /// which have no closed-form implicit kick; precise on a surface without polynomial cells.
 core::Expected<std::unique_ptr<LaboratoryStepper>> make_stepper(const terrain::AnySurface& surface,
                                                                 Equations equations, Integrator integrator,
-                                                                const Parameters& parameters,
+                                                                const state::Parameters& parameters,
                                                                 const terrain::Rectangle& walls, double tick);
 
 }  // namespace woodlouse::physics

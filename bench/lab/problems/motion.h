@@ -28,8 +28,8 @@ inline double energy_of(const terrain::SurfaceSample& s, core::Vec2 velocity, do
 
 inline double distance(core::Vec2 a, core::Vec2 b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
-inline physics::Louse louse_at(core::Vec2 position, core::Vec2 velocity) {
-  physics::Louse louse;
+inline state::Louse louse_at(core::Vec2 position, core::Vec2 velocity) {
+  state::Louse louse;
   louse.id = 1;
   louse.position = position;
   louse.velocity = velocity;
@@ -37,11 +37,11 @@ inline physics::Louse louse_at(core::Vec2 position, core::Vec2 velocity) {
 }
 
 /// Holds a thrust in units of thrust_max; (0, 0) is none.
-inline void push(physics::Louse& louse, core::Vec2 thrust) {
+inline void push(state::Louse& louse, core::Vec2 thrust) {
   if (thrust == core::Vec2{}) return;
   louse.thrust = thrust;
-  louse.thrust_kind = physics::ThrustKind::kMapVector;
-  louse.thrust_ticks = physics::kHeld;
+  louse.thrust_kind = state::ThrustKind::kMapVector;
+  louse.thrust_ticks = state::kHeld;
 }
 
 }  // namespace woodlouse::lab

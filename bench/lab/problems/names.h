@@ -42,10 +42,10 @@ inline core::Expected<physics::Integrator> integrator_named(std::string_view tex
   return chosen("--integrator", text, physics::integrator_from_text(text), names_of(physics::kIntegrators));
 }
 
-inline constexpr std::array kContacts = {physics::SurfaceContact::kBilateral,
-                                         physics::SurfaceContact::kUnilateral};
-inline core::Expected<physics::SurfaceContact> contact_named(std::string_view text) {
-  return chosen("--contact", text, physics::contact_from_text(text), names_of(kContacts));
+inline constexpr std::array kContacts = {state::SurfaceContact::kBilateral,
+                                         state::SurfaceContact::kUnilateral};
+inline core::Expected<state::SurfaceContact> contact_named(std::string_view text) {
+  return chosen("--contact", text, state::contact_from_text(text), names_of(kContacts));
 }
 
 }  // namespace woodlouse::lab

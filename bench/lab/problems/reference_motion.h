@@ -34,7 +34,7 @@ inline constexpr double kWeights[kStages] = {35.0 / 384,     0,        500.0 / 1
 
 /// One step of h where `sample` gives the surface.
 template <typename Sample>
-physics::Motion step(const physics::Motion& start, double h, const physics::Parameters& p,
+physics::Motion step(const physics::Motion& start, double h, const state::Parameters& p,
                      const Sample& sample) {
   std::array<core::Vec2, kStages> v;
   std::array<core::Vec2, kStages> a;
@@ -64,7 +64,7 @@ inline double beyond(const terrain::Rectangle& box, core::Vec2 p) {
 
 /// `at` after `seconds`, by steps of at most h.
 inline physics::Motion reference_motion(const terrain::FunctionSurface& surface, physics::Motion at,
-                                        double seconds, double h, const physics::Parameters& p) {
+                                        double seconds, double h, const state::Parameters& p) {
   const auto steps = static_cast<std::size_t>(std::ceil(seconds / h));
   for (std::size_t i = 0; i < steps; ++i) {
     at = reference::step(at, seconds / static_cast<double>(steps), p,
@@ -74,7 +74,7 @@ inline physics::Motion reference_motion(const terrain::FunctionSurface& surface,
 }
 
 inline physics::Motion reference_motion(const terrain::BicubicSpline& surface, physics::Motion at,
-                                        double seconds, double h, const physics::Parameters& p) {
+                                        double seconds, double h, const state::Parameters& p) {
   using CellIndex = terrain::BicubicSpline::CellIndex;
   constexpr double kFarOutside = 1e9;  // metres; a cell's number must fit into an integer
   const CellIndex last = surface.cell_at(kFarOutside, kFarOutside);

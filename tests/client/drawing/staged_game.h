@@ -31,7 +31,7 @@ class StagedGame {
     scene_.map_name = "volcano";
     scene_.chat = {{"ada", "on your tail"}, {"", "bot gauss joined"}};
     for (std::uint32_t id = 1; id <= lice; ++id) {
-      physics::Louse louse;
+      state::Louse louse;
       louse.id = id;
       louse.position = {d.x_min + (d.x_max - d.x_min) * (0.1 + 0.8 * random_.uniform()),
                         d.y_min + (d.y_max - d.y_min) * (0.1 + 0.8 * random_.uniform())};
@@ -57,7 +57,7 @@ class StagedGame {
         if (random_.uniform() > 0.03) continue;
         directions_[i] += 2.5 * (random_.uniform() - 0.5);
         const core::Vec2 push{0.9 * std::cos(directions_[i]), 0.9 * std::sin(directions_[i])};
-        world_.set_thrust(scene_.lice[i].id, {physics::ThrustKind::kMapVector, push}, 40);
+        world_.set_thrust(scene_.lice[i].id, {state::ThrustKind::kMapVector, push}, 40);
       }
       world_.step();
     }
@@ -69,7 +69,7 @@ class StagedGame {
  private:
   void update() {
     for (std::size_t i = 0; i < scene_.lice.size(); ++i) {
-      const physics::Louse& louse = *world_.find(scene_.lice[i].id);
+      const state::Louse& louse = *world_.find(scene_.lice[i].id);
       const terrain::SurfaceSample s = scene_.terrain->sample(louse.position.x, louse.position.y);
       LouseMark& mark = scene_.lice[i];
       mark.position = louse.position;

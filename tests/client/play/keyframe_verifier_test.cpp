@@ -15,7 +15,7 @@ using namespace woodlouse::client;
 
 namespace {
 
-std::vector<double> row_of(const physics::Louse& louse) {
+std::vector<double> row_of(const state::Louse& louse) {
   return {static_cast<double>(louse.id),
           static_cast<double>(louse.phase),
           louse.position.x,
@@ -36,7 +36,7 @@ std::vector<double> row_of(const physics::Louse& louse) {
 /// A key as the wire carries it.
 std::string key_line(const match::Match& match) {
   std::string line = R"({"type":"key","tick":)" + std::to_string(match.tick()) + R"(,"louse":[)";
-  for (const physics::Louse& louse : match.world().lice()) {
+  for (const state::Louse& louse : match.world().lice()) {
     line += line.back() == '[' ? "[" : ",[";
     const std::vector<double> row = row_of(louse);
     for (std::size_t i = 0; i < row.size(); ++i) {
@@ -47,7 +47,7 @@ std::string key_line(const match::Match& match) {
     }
     line += ']';
   }
-  const physics::HashLink& link = match.link();
+  const state::HashLink& link = match.link();
   return line + R"(],"hash":")" + core::to_hex(match.hash()) + R"(","previous":")" +
          core::to_hex(link.previous) + R"(","inputs":")" + core::to_hex(link.inputs) + R"(","generator":")" +
          core::to_hex(link.generator) + "\"}\n";
@@ -69,7 +69,7 @@ std::unique_ptr<match::Match> played() {
     if (tick % 20 == 1) {
       for (match::PlayerId player = 1; player <= 10; ++player) {
         const double push = (static_cast<int>(player + tick) % 9 - 4) / 4.0;
-        match->file({player, tick, {physics::ThrustKind::kAlongHeading, {push, 0.0}}, 12 + player, 0});
+        match->file({player, tick, {state::ThrustKind::kAlongHeading, {push, 0.0}}, 12 + player, 0});
       }
     }
     match->advance();
@@ -147,7 +147,7 @@ TEST_CASE("a room that asked for all in exact format verifies its keys and shows
   room.update(now);
   CHECK(room.verifier().verified() == 1);
   REQUIRE(room.lice().size() == 10);
-  const physics::Louse& first = match.world().lice().front();
+  const state::Louse& first = match.world().lice().front();
   CHECK(room.lice().at(first.id).sample.position.x == first.position.x);
   CHECK(room.lice().at(first.id).sample.velocity.y == first.velocity.y);
   CHECK(room.lice().at(first.id).sample.distance == first.distance);

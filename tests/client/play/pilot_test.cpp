@@ -75,12 +75,12 @@ Report drive(const Line& line) {
   for (double now = 0.0; now < 10000.0; now += 1.0) {
     while (!up.empty() && up.front().due <= now) {
       const protocol::Input& input = up.front().input;
-      const physics::Thrust thrust{
-          input.is_pair ? physics::ThrustKind::kMapVector : physics::ThrustKind::kAlongHeading, input.thrust};
+      const state::Thrust thrust{
+          input.is_pair ? state::ThrustKind::kMapVector : state::ThrustKind::kAlongHeading, input.thrust};
       const match::Filed filed = server.file({.player = id,
                                               .seq = input.seq,
                                               .thrust = thrust,
-                                              .ticks = input.ticks.value_or(physics::kHeld),
+                                              .ticks = input.ticks.value_or(state::kHeld),
                                               .wanted_tick = input.tick.value_or(0)});
       REQUIRE(filed.outcome == match::Filed::Outcome::kFiled);
       protocol::Ack ack;
@@ -97,7 +97,7 @@ Report drive(const Line& line) {
       server.advance();
       next_step += 1000.0 / kTickHz;
       if (const auto ack = waiting.find(tick); ack != waiting.end()) {
-        const physics::Louse& louse = *server.world().find(id);
+        const state::Louse& louse = *server.world().find(id);
         ack->second.you = protocol::ExactState{tick + 1,
                                                id,
                                                louse.position,

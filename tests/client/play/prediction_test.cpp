@@ -32,7 +32,7 @@ std::shared_ptr<const map::Map> over_the_wire(const map::Map& original) {
   return *parsed;
 }
 
-protocol::ExactState exact(const physics::Louse& louse, std::uint64_t tick) {
+protocol::ExactState exact(const state::Louse& louse, std::uint64_t tick) {
   protocol::ExactState state;
   state.tick = tick;
   state.id = louse.id;
@@ -49,16 +49,14 @@ protocol::ExactState exact(const physics::Louse& louse, std::uint64_t tick) {
   return state;
 }
 
-bool same_bits(const physics::Louse& a, const physics::Louse& b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
-}
+bool same_bits(const state::Louse& a, const state::Louse& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 ThrustOrder random_order(core::Random& random) {
   const std::uint32_t ticks = 1 + static_cast<std::uint32_t>(random.next() % 40);
-  if (random.next() % 4 == 0) return {{physics::ThrustKind::kAlongHeading, {-1.0, 0.0}}, ticks};
-  if (random.next() % 5 == 0) return {{physics::ThrustKind::kMapVector, {}}, 1};
+  if (random.next() % 4 == 0) return {{state::ThrustKind::kAlongHeading, {-1.0, 0.0}}, ticks};
+  if (random.next() % 5 == 0) return {{state::ThrustKind::kMapVector, {}}, 1};
   const double angle = random.uniform() * 6.283;
-  return {{physics::ThrustKind::kMapVector, wire_vector({std::cos(angle), std::sin(angle)})}, ticks};
+  return {{state::ThrustKind::kMapVector, wire_vector({std::cos(angle), std::sin(angle)})}, ticks};
 }
 
 match::Input filed(match::PlayerId player, std::uint32_t seq, std::uint64_t tick, const ThrustOrder& order) {
@@ -78,7 +76,7 @@ struct Game {
     match.join();
     match.advance();
   }
-  const physics::Louse& louse() const { return *match.world().find(player); }
+  const state::Louse& louse() const { return *match.world().find(player); }
 
   std::uint64_t submit(std::uint32_t seq, std::uint64_t tick, const ThrustOrder& order) {
     const match::Filed result = match.file(filed(player, seq, tick, order));
@@ -120,14 +118,14 @@ TEST_CASE(
     core::Random random(5);
 
     // The first ack comes from a neutral input, as a client's first does.
-    prediction.sent(1, game.match.tick(), {{physics::ThrustKind::kMapVector, {}}, 1});
-    game.submit(1, game.match.tick(), {{physics::ThrustKind::kMapVector, {}}, 1});
+    prediction.sent(1, game.match.tick(), {{state::ThrustKind::kMapVector, {}}, 1});
+    game.submit(1, game.match.tick(), {{state::ThrustKind::kMapVector, {}}, 1});
     game.advance();
     prediction.acknowledge(game.acks.front().second);
     game.acks.clear();
 
     // The client lives 10 ticks ahead; its inputs ask for the tick it is at.
-    std::map<std::uint64_t, physics::Louse> believed;
+    std::map<std::uint64_t, state::Louse> believed;
     constexpr std::uint64_t kAhead = 10;
     std::uint32_t seq = 1;
     int compared = 0;
@@ -159,8 +157,8 @@ TEST_CASE("inputs that land later than asked are corrected by their ack, to the 
   Game game(map, 4);
   Prediction prediction(map->terrain, map->definition.physics, kTickHz);
   core::Random random(9);
-  prediction.sent(1, game.match.tick(), {{physics::ThrustKind::kMapVector, {}}, 1});
-  game.submit(1, game.match.tick(), {{physics::ThrustKind::kMapVector, {}}, 1});
+  prediction.sent(1, game.match.tick(), {{state::ThrustKind::kMapVector, {}}, 1});
+  game.submit(1, game.match.tick(), {{state::ThrustKind::kMapVector, {}}, 1});
   std::uint32_t seq = 1;
   for (int i = 0; i < 600; ++i) {
     const std::uint64_t here = game.match.tick() + 2;
@@ -186,14 +184,14 @@ TEST_CASE("a dropped input is taken out of the prediction by its ack") {
   const auto map = map_of("parabolic_pot");
   Game game(map, 0);
   Prediction prediction(map->terrain, map->definition.physics, kTickHz);
-  prediction.sent(1, game.match.tick(), {{physics::ThrustKind::kMapVector, {}}, 1});
-  game.submit(1, game.match.tick(), {{physics::ThrustKind::kMapVector, {}}, 1});
+  prediction.sent(1, game.match.tick(), {{state::ThrustKind::kMapVector, {}}, 1});
+  game.submit(1, game.match.tick(), {{state::ThrustKind::kMapVector, {}}, 1});
   game.advance();
   prediction.acknowledge(game.acks.front().second);
   game.acks.clear();
-  prediction.sent(2, prediction.tick(), {{physics::ThrustKind::kMapVector, {1.0, 0.0}}, 60});
-  prediction.sent(3, prediction.tick() + 5, {{physics::ThrustKind::kMapVector, {}}, 1});
-  game.submit(3, prediction.tick() + 5, {{physics::ThrustKind::kMapVector, {}}, 1});
+  prediction.sent(2, prediction.tick(), {{state::ThrustKind::kMapVector, {1.0, 0.0}}, 60});
+  prediction.sent(3, prediction.tick() + 5, {{state::ThrustKind::kMapVector, {}}, 1});
+  game.submit(3, prediction.tick() + 5, {{state::ThrustKind::kMapVector, {}}, 1});
   prediction.advance(game.match.tick() + 8);
   protocol::Ack dropped;
   dropped.seq = 2;

@@ -16,7 +16,7 @@ const TimePoint kStart{std::chrono::seconds(100)};
 
 /// What the server would have acting at `now`, from the orders it was sent.
 struct Server {
-  physics::Thrust thrust;
+  state::Thrust thrust;
   TimePoint until{};
 
   void take(const std::optional<ThrustOrder>& order, TimePoint now) {
@@ -36,7 +36,7 @@ TEST_CASE("a press is one pulse of 0.4 s along the heading") {
   steering.push(kStart);
   const auto order = steering.poll(kStart);
   REQUIRE(order);
-  REQUIRE(order->thrust.kind == physics::ThrustKind::kMapVector);
+  REQUIRE(order->thrust.kind == state::ThrustKind::kMapVector);
   REQUIRE(order->thrust.value == core::Vec2{0.0, 1.0});
   REQUIRE(order->ticks == 24);
   for (auto t = 0ms; t < 2000ms; t += 10ms) REQUIRE_FALSE(steering.poll(kStart + t));
@@ -102,7 +102,7 @@ TEST_CASE("a brake is the number -1 and ends cruise") {
   steering.brake(kStart + 50ms);
   const auto order = steering.poll(kStart + 50ms);
   REQUIRE(order);
-  REQUIRE(order->thrust == physics::Thrust{physics::ThrustKind::kAlongHeading, {-1.0, 0.0}});
+  REQUIRE(order->thrust == state::Thrust{state::ThrustKind::kAlongHeading, {-1.0, 0.0}});
   REQUIRE_FALSE(steering.cruising());
 }
 

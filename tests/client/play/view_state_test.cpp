@@ -128,7 +128,7 @@ TEST_CASE("a respawned louse is at one place or the other, never in flight") {
 }
 
 TEST_CASE("over a seam of a map that wraps a louse is drawn the short way, and always on the map") {
-  const Ways ways({-20, -20, 20, 20}, physics::Edges::kWrap);
+  const Ways ways({-20, -20, 20, 20}, state::Edges::kWrap);
   ViewState view(kTickHz);
   view.merge(frame(60, {row(1, {19.7, 3}, {10, -20})}));
   view.merge(frame(63, {row(1, {-19.8, 2}, {10, -20})}));
@@ -143,7 +143,7 @@ TEST_CASE("over a seam of a map that wraps a louse is drawn the short way, and a
 }
 
 TEST_CASE("ways on a map that wraps are never longer than half of it, and lead where they say") {
-  const Ways ways({-20, -10, 20, 30}, physics::Edges::kWrap);
+  const Ways ways({-20, -10, 20, 30}, state::Edges::kWrap);
   CHECK(ways.way({19, 0}, {-19, 0}) == core::Vec2{2, 0});
   CHECK(ways.way({-19, -9}, {19, 29}) == core::Vec2{-2, -2});
   CHECK(ways.place(core::Vec2{19, 0} + core::Vec2{2, 0}) == core::Vec2{-19, 0});

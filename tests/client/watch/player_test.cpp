@@ -34,7 +34,7 @@ std::string recorded() {
     if (tick == 600) writer.note_player(match.join(), "lin", protocol::Role::kPlayer);
     if (tick == 900) match.leave(2);
     if (tick % 30 == 5)
-      match.file({1, tick, {physics::ThrustKind::kMapVector, {0.5, tick % 60 == 5 ? 0.25 : -0.5}}, 20, 0});
+      match.file({1, tick, {state::ThrustKind::kMapVector, {0.5, tick % 60 == 5 ? 0.25 : -0.5}}, 20, 0});
     writer.append_step(bytes, match.advance());
     if (match.tick() % replay::keyframe_ticks(60) == 0) writer.append_keyframe(bytes, match.state());
   }

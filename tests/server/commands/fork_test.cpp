@@ -37,7 +37,7 @@ class Played {
     for (int tick = 0; tick < 700; ++tick) {
       states.push_back(game.state());
       const auto seq = static_cast<std::uint32_t>(tick);
-      if (tick % 10 == 3) game.file({1, seq, {physics::ThrustKind::kMapVector, {0.5, 0.25}}, 15, 0});
+      if (tick % 10 == 3) game.file({1, seq, {state::ThrustKind::kMapVector, {0.5, 0.25}}, 15, 0});
       writer.append_step(bytes_, game.advance());
       if (game.tick() % replay::keyframe_ticks(50) == 0) writer.append_keyframe(bytes_, game.state());
     }

@@ -68,7 +68,7 @@ TEST_CASE("a delta leaves out what is as in the key, and what differs only in co
   FrameEncoder encoder({{Column::kId, Column::kX}, Format::kQuantized});
   encoder.key(scenery.scene());
   ++scenery.tick;
-  for (physics::Louse& louse : scenery.lice) louse.distance += 1.0;
+  for (state::Louse& louse : scenery.lice) louse.distance += 1.0;
   const Frame delta = encoder.delta(scenery.scene());
   CHECK(*delta.text == R"({"type":"delta","tick":)" + std::to_string(scenery.tick) +
                            R"(,"base":0,"louse":[],"gone":[]})" + "\n");
@@ -112,18 +112,18 @@ TEST_CASE("a key of all columns in exact format recomputes the state hash") {
   test::Scenery scenery(21);
   core::StableHasher hasher;
   scenery.link = {17, 18, scenery.tick, 19};
-  scenery.hash = physics::state_hash(hasher, scenery.link, scenery.lice);
+  scenery.hash = state::state_hash(hasher, scenery.link, scenery.lice);
   const RowLayout layout{protocol::all_columns(), Format::kExact};
   FrameEncoder encoder(layout);
   const Frame frame = encoder.key(scenery.scene());
   const protocol::Frame decoded = decode(frame, layout);
 
-  std::vector<physics::Louse> lice;
+  std::vector<state::Louse> lice;
   for (std::size_t i = 0; i < decoded.rows(); ++i) {
     const double* v = &decoded.values[i * decoded.columns];
-    physics::Louse louse;
+    state::Louse louse;
     louse.id = static_cast<std::uint32_t>(v[0]);
-    louse.phase = static_cast<physics::Phase>(static_cast<std::uint32_t>(v[1]));
+    louse.phase = static_cast<state::Phase>(static_cast<std::uint32_t>(v[1]));
     louse.position = {v[2], v[3]};
     louse.velocity = {v[4], v[5]};
     louse.heading = {v[6], v[7]};
@@ -131,11 +131,11 @@ TEST_CASE("a key of all columns in exact format recomputes the state hash") {
     louse.flight_z = v[10];
     louse.flight_vz = v[11];
     louse.distance = v[12];
-    louse.thrust_kind = static_cast<physics::ThrustKind>(static_cast<std::uint32_t>(v[13]));
+    louse.thrust_kind = static_cast<state::ThrustKind>(static_cast<std::uint32_t>(v[13]));
     louse.thrust_ticks = static_cast<std::uint32_t>(v[14]);
     lice.push_back(louse);
   }
-  CHECK(decoded.hash == physics::state_hash(hasher, scenery.link, lice));
+  CHECK(decoded.hash == state::state_hash(hasher, scenery.link, lice));
   CHECK_THAT(
       *frame.text,
       Catch::Contains(

@@ -23,8 +23,8 @@ std::shared_ptr<const map::Map> load(const std::string& name) {
 
 /// What one bot did in a game of its own: a louse a tick, and the thrusts it chose.
 struct Game {
-  std::vector<physics::Louse> lice;
-  std::vector<physics::Thrust> thrusts;
+  std::vector<state::Louse> lice;
+  std::vector<state::Thrust> thrusts;
 };
 
 Game play(const std::shared_ptr<const map::Map>& map, std::uint32_t number, std::uint64_t seed, int seconds) {
@@ -38,7 +38,7 @@ Game play(const std::shared_ptr<const map::Map>& map, std::uint32_t number, std:
     if (tick % 6 == 0) {
       const auto& world = match.world();
       game.thrusts.push_back(bot.decide({*world.find(player), world.terrain(), world.parameters()}));
-      match.file({player, ++seq, game.thrusts.back(), physics::kHeld, 0});
+      match.file({player, ++seq, game.thrusts.back(), state::kHeld, 0});
     }
     match.advance();
     game.lice.push_back(*match.world().find(player));
@@ -46,7 +46,7 @@ Game play(const std::shared_ptr<const map::Map>& map, std::uint32_t number, std:
   return game;
 }
 
-double height(const map::Map& map, const physics::Louse& louse) {
+double height(const map::Map& map, const state::Louse& louse) {
   return map.terrain->sample(louse.position.x, louse.position.y).z;
 }
 
@@ -57,8 +57,8 @@ TEST_CASE("every bot on every map pushes within the wire's range and steps, and 
   const auto number = GENERATE(range(0u, 4u));
   const Game game = play(map, number, 12, 60);
   CAPTURE(number, map->definition.name);
-  for (const physics::Thrust& thrust : game.thrusts) {
-    REQUIRE(thrust.kind == physics::ThrustKind::kMapVector);
+  for (const state::Thrust& thrust : game.thrusts) {
+    REQUIRE(thrust.kind == state::ThrustKind::kMapVector);
     REQUIRE(core::dot(thrust.value, thrust.value) <= 1.0);
     REQUIRE(thrust.value.x * 128.0 == std::nearbyint(thrust.value.x * 128.0));
     REQUIRE(thrust.value.y * 128.0 == std::nearbyint(thrust.value.y * 128.0));

@@ -201,7 +201,7 @@ Opening went_on() {
   Opening opening = House::open();
   const match::PlayerId mara = opening.match->join();
   const match::PlayerId rolly = opening.match->join();
-  opening.match->file({mara, 17, {physics::ThrustKind::kAlongHeading, {0.5, 0.0}}, physics::kHeld, 0});
+  opening.match->file({mara, 17, {state::ThrustKind::kAlongHeading, {0.5, 0.0}}, state::kHeld, 0});
   opening.match->advance();
   opening.orphans = {{mara, "mara", protocol::Role::kPlayer, 18}, {rolly, "Rolly", protocol::Role::kBot, 0}};
   return opening;

@@ -25,8 +25,8 @@ class Scenery {
   /// The next tick: some go, some move, some come, most stay.
   void change() {
     ++tick;
-    std::erase_if(lice, [this](const physics::Louse&) { return random.uniform() < 0.05; });
-    for (physics::Louse& one : lice)
+    std::erase_if(lice, [this](const state::Louse&) { return random.uniform() < 0.05; });
+    for (state::Louse& one : lice)
       if (random.uniform() < 0.3) one.position.x = -one.position.x;
     while (random.uniform() < 0.5) lice.push_back(louse());
   }
@@ -35,23 +35,23 @@ class Scenery {
   core::Random random;
   std::uint64_t tick = 0;
   std::uint64_t hash = 4711;
-  physics::HashLink link;
-  std::vector<physics::Louse> lice;
+  state::HashLink link;
+  std::vector<state::Louse> lice;
 
  private:
-  physics::Louse louse() {
+  state::Louse louse() {
     const auto number = [this] { return 20.0 * (2.0 * random.uniform() - 1.0); };
-    physics::Louse one;
+    state::Louse one;
     one.id = next_id_++;
-    one.phase = static_cast<physics::Phase>(random.next() % 3);
-    if (one.phase == physics::Phase::kFlying) one.flight_z = number(), one.flight_vz = number();
+    one.phase = static_cast<state::Phase>(random.next() % 3);
+    if (one.phase == state::Phase::kFlying) one.flight_z = number(), one.flight_vz = number();
     one.position = {number(), number()};
     one.velocity = {number(), number()};
     const double angle = number();
     one.heading = {std::cos(angle), std::sin(angle)};
     one.thrust = {0.25, -0.5};
-    one.thrust_kind = physics::ThrustKind::kMapVector;
-    one.thrust_ticks = physics::kHeld;
+    one.thrust_kind = state::ThrustKind::kMapVector;
+    one.thrust_ticks = state::kHeld;
     one.distance = std::abs(number());
     return one;
   }
@@ -60,12 +60,12 @@ class Scenery {
 };
 
 /// A row as its definition says.
-inline std::vector<double> values(const physics::Louse& louse, const std::vector<protocol::Column>& columns,
+inline std::vector<double> values(const state::Louse& louse, const std::vector<protocol::Column>& columns,
                                   const terrain::Terrain& terrain) {
   using protocol::Column;
   const auto ground = terrain.sample(louse.position.x, louse.position.y);
   const physics::Attitude attitude = physics::attitude(louse.heading, {ground.zx, ground.zy});
-  const double vz = louse.phase == physics::Phase::kFlying
+  const double vz = louse.phase == state::Phase::kFlying
                         ? louse.flight_vz
                         : ground.zx * louse.velocity.x + ground.zy * louse.velocity.y;
   std::vector<double> row;
@@ -87,7 +87,7 @@ inline std::vector<double> values(const physics::Louse& louse, const std::vector
         row.push_back(louse.velocity.y);
         break;
       case Column::kZ:
-        row.push_back(louse.phase == physics::Phase::kFlying ? louse.flight_z : ground.z);
+        row.push_back(louse.phase == state::Phase::kFlying ? louse.flight_z : ground.z);
         break;
       case Column::kHeadingX:
         row.push_back(louse.heading.x);

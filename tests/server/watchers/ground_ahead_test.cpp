@@ -59,15 +59,15 @@ TEST_CASE("tiles that a louse may reach are built before it gets there, those of
   spawns.join();
   const std::size_t before = tiles_of(*map).counters().live;
   const auto ahead = GroundAhead::make(*map, worker);
-  physics::Louse runner;
+  state::Louse runner;
   runner.id = 1;
   runner.position = {400.0, 0.0};  // far from the spawns, 3 m before a tile's line
   runner.velocity = {3.0, 0.0};
-  physics::Louse sleeper = runner;
+  state::Louse sleeper = runner;
   sleeper.id = 2;
   sleeper.position = {-400.0, 0.0};
-  sleeper.phase = physics::Phase::kResting;
-  std::vector<physics::Louse> lice;
+  sleeper.phase = state::Phase::kResting;
+  std::vector<state::Louse> lice;
   for (std::size_t k = 0; k < GroundAhead::kTurns; ++k) lice.push_back(k == 2 ? runner : sleeper);
   while (ahead->metrics().live == before) ahead->look(lice);  // a look is left out while a batch is at work
   worker.join();

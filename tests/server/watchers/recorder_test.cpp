@@ -36,7 +36,7 @@ void play(Recorder& recorder, boost::asio::thread_pool& disk, int ticks) {
   for (int tick = 0; tick < ticks; ++tick) {
     if (tick % 10 == 1)
       match.file(
-          {player, static_cast<std::uint32_t>(tick), {physics::ThrustKind::kAlongHeading, {0.5, 0.0}}, 5, 0});
+          {player, static_cast<std::uint32_t>(tick), {state::ThrustKind::kAlongHeading, {0.5, 0.0}}, 5, 0});
     const match::StepRecord& step = match.advance();
     recorder.step(step, {{player, static_cast<std::uint32_t>(tick), 1000}}, match);
   }

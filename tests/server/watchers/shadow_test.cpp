@@ -39,7 +39,7 @@ class Stage {
   /// Both lice push.
   const match::StepRecord& step() {
     for (const match::PlayerId player : {1u, 2u})
-      game.file({player, ++seq_, {physics::ThrustKind::kMapVector, {0.5, 0.25}}, physics::kHeld, 0});
+      game.file({player, ++seq_, {state::ThrustKind::kMapVector, {0.5, 0.25}}, state::kHeld, 0});
     return game.advance();
   }
   void step(int times) {
@@ -84,7 +84,7 @@ TEST_CASE("a game with joins, leaves, respawns and inputs filed ahead has a shad
   stage.step(20);
   stage.game.join();
   stage.game.respawn(1);
-  stage.game.file({2, 1000, {physics::ThrustKind::kAlongHeading, {1.0, 0.0}}, 7, stage.game.tick() + 40});
+  stage.game.file({2, 1000, {state::ThrustKind::kAlongHeading, {1.0, 0.0}}, 7, stage.game.tick() + 40});
   stage.game.leave(1);
   for (int k = 0; k < 100; ++k) stage.shadow.step(stage.game.advance(), stage.game);
   const ShadowMetrics& metrics = stage.finish();
