@@ -159,11 +159,12 @@ void Bot::steer() {
 protocol::Input Bot::random_input() {
   protocol::Input input;
   input.seq = ++seq_;
-  input.is_pair = random_.uniform() < 0.7;
+  const bool is_vector = random_.uniform() < 0.7;
   const double angle = 2.0 * std::numbers::pi * random_.uniform();
   const double strength = random_.uniform();
-  input.thrust = input.is_pair ? core::Vec2{strength * std::cos(angle), strength * std::sin(angle)}
-                               : core::Vec2{2.0 * strength - 1.0, 0.0};
+  input.thrust = is_vector ? state::Thrust{state::ThrustKind::kMapVector,
+                                           {strength * std::cos(angle), strength * std::sin(angle)}}
+                           : state::Thrust{state::ThrustKind::kAlongHeading, {2.0 * strength - 1.0, 0.0}};
   if (random_.uniform() < 0.5) input.ticks = 1 + static_cast<std::uint32_t>(random_.next() % 60);
   return input;
 }

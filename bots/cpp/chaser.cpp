@@ -33,7 +33,7 @@ core::Vec2 chase(const std::vector<double>& me, const WorldView& view) {
 core::Expected<void> play(bots::LineClient& client, std::uint32_t id) {
   WorldView view;
   protocol::Input input;
-  input.is_pair = true;
+  input.thrust.kind = state::ThrustKind::kMapVector;
   for (;;) {
     const auto message = client.receive();
     if (!message) return tl::unexpected(message.error());
@@ -43,7 +43,7 @@ core::Expected<void> play(bots::LineClient& client, std::uint32_t id) {
         sent = client.send(protocol::Resync{});
       } else if (const auto me = view.rows().find(id); me != view.rows().end()) {
         ++input.seq;
-        input.thrust = chase(me->second, view);  // the server cuts it to length 1
+        input.thrust.value = chase(me->second, view);  // the server cuts it to length 1
         sent = client.send(input);
       }
     } else if (const auto* ping = std::get_if<protocol::Ping>(&*message)) {

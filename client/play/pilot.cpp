@@ -35,8 +35,7 @@ Pilot::Pilot(std::shared_ptr<const terrain::Terrain> terrain, const state::Param
 protocol::Input Pilot::order(std::uint64_t tick, const ThrustOrder& wanted) {
   protocol::Input input;
   input.seq = ++seq_;
-  input.is_pair = wanted.thrust.kind == state::ThrustKind::kMapVector;
-  input.thrust = wanted.thrust.value;
+  input.thrust = wanted.thrust;
   if (wanted.ticks != state::kHeld) input.ticks = wanted.ticks;
   input.tick = tick;
   if (prediction_) prediction_->sent(input.seq, tick, wanted);

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "shared/protocol/messages.h"
-
 namespace woodlouse::client {
 namespace {
 
@@ -16,10 +14,8 @@ double seconds(TimePoint::duration duration) { return std::chrono::duration<doub
 }  // namespace
 
 core::Vec2 wire_vector(core::Vec2 unit) {
-  const auto cut = [](double value) {
-    return std::trunc(value / protocol::kThrustQuantum) * protocol::kThrustQuantum + 0.0;  // + 0.0: no -0
-  };
-  return {cut(unit.x), cut(unit.y)};
+  const core::Vec2 cut = state::quanta_towards_zero(unit);
+  return {cut.x + 0.0, cut.y + 0.0};  // no -0
 }
 
 void Steering::point(core::Vec2 heading) {

@@ -38,10 +38,7 @@ Vec2 drive(const View& view, Vec2 wanted) {
 state::Thrust as_thrust(Vec2 push) {
   const double size = length(push);
   if (size > 1.0) push = (1.0 / size) * push;
-  const auto step = [](double v) {
-    return std::trunc(v / protocol::kThrustQuantum) * protocol::kThrustQuantum;
-  };
-  return {state::ThrustKind::kMapVector, {step(push.x), step(push.y)}};
+  return {state::ThrustKind::kMapVector, state::quanta_towards_zero(push)};
 }
 
 }  // namespace

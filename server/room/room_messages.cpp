@@ -26,10 +26,6 @@ std::uint32_t granted_state_hz(std::optional<std::uint32_t> wanted, std::uint32_
   return hz;
 }
 
-state::Thrust thrust_of(const protocol::Input& input) {
-  return {input.is_pair ? state::ThrustKind::kMapVector : state::ThrustKind::kAlongHeading, input.thrust};
-}
-
 }  // namespace
 
 void Room::submit(SessionId session, protocol::ClientMessage message, Time arrived) {
@@ -132,7 +128,7 @@ void Room::remove(SessionId session) {
 void Room::on_message(SessionId session, Member& member, const protocol::Input& input, Time arrived) {
   const std::uint32_t seq = member.first_seq + input.seq;
   const match::Filed filed = match_.file(
-      {member.louse, seq, thrust_of(input), input.ticks.value_or(state::kHeld), input.tick.value_or(0)});
+      {member.louse, seq, input.thrust, input.ticks.value_or(state::kHeld), input.tick.value_or(0)});
   if (filed.outcome != match::Filed::Outcome::kFiled) return drop_input(member, input, filed);
   const std::uint64_t ticks_late = filed.late ? filed.tick - input.tick.value_or(filed.tick) : 0;
   acks_.add(filed.tick, {session, member.louse, seq, arrived, filed.late, input.clamped, ticks_late});

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "shared/protocol/codec.h"
 #include "shared/protocol/codes.h"
@@ -12,27 +11,9 @@ namespace {
 
 using Decoded = tl::expected<ClientMessage, DecodeError>;
 
-constexpr double kScale = 1.0 / kThrustQuantum;
-constexpr double kHalfQuantum = 0.5 * kThrustQuantum;
-
-/// A number in [-1, 1]; what rounds to the end of the range counts as within it.
-void clamp_number(double value, Input& input) {
-  input.clamped = std::abs(value) >= 1.0 + kHalfQuantum;
-  input.thrust = {std::round(std::clamp(value, -1.0, 1.0) * kScale) * kThrustQuantum, 0.0};
-}
-
-/// A pair of length at most 1. Rounding must not lengthen it past 1, so a pair at the rim is rounded inwards.
-void clamp_pair(core::Vec2 value, Input& input) {
-  const double largest = std::max({1.0, std::abs(value.x), std::abs(value.y)});
-  const core::Vec2 small = (1.0 / largest) * value;  // its square can't overflow
-  const double length = std::sqrt(core::dot(small, small)) * largest;
-  input.clamped = length >= 1.0 + kHalfQuantum;
-  core::Vec2 steps = kScale * value;
-  if (length > 1.0) steps = (kScale * (largest / length)) * small;
-  const core::Vec2 nearest{std::round(steps.x), std::round(steps.y)};
-  const bool inside = core::dot(nearest, nearest) <= kScale * kScale;
-  const core::Vec2 rounded = inside ? nearest : core::Vec2{std::trunc(steps.x), std::trunc(steps.y)};
-  input.thrust = kThrustQuantum * rounded;
+void take(const state::RoundedThrust& rounded, Input& input) {
+  input.thrust = rounded.thrust;
+  input.clamped = rounded.clamped;
 }
 
 void read_thrust(FieldReader& reader, Input& input) {
@@ -40,13 +21,12 @@ void read_thrust(FieldReader& reader, Input& input) {
       "a number from -1 to 1 (along the heading) or a pair [x, y] of length at most 1";
   const auto value = reader.field("thrust", kWants, Presence::kRequired);
   if (!value) return;
-  if (value->is_number()) return clamp_number(value->number(), input);
+  if (value->is_number()) return take(state::rounded_along_heading(value->number()), input);
   if (value->kind() != json::Kind::kArray || value->size() != 2)
     return reader.refuse("thrust", *value, kWants);
   core::Vec2 pair;
   reader.pair("thrust", pair);
-  input.is_pair = true;
-  clamp_pair(pair, input);
+  take(state::rounded_map_vector(pair), input);
 }
 
 void append_column(FieldReader& reader, json::Value element, std::size_t index,

@@ -19,10 +19,10 @@ std::string line_of(const Join& join) {
 std::string line_of(const Input& input) {
   json::ObjectText text("input");
   text.integer("seq", input.seq);
-  if (input.is_pair) {
-    text.pair("thrust", input.thrust);
+  if (input.thrust.kind == state::ThrustKind::kMapVector) {
+    text.pair("thrust", input.thrust.value);
   } else {
-    text.number("thrust", input.thrust.x);
+    text.number("thrust", input.thrust.value.x);
   }
   if (input.ticks) text.integer("ticks", *input.ticks);
   if (input.tick) text.integer("tick", *input.tick);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "shared/core/vec2.h"
+#include "shared/state/thrust.h"
 
 namespace woodlouse::protocol {
 
@@ -27,7 +28,6 @@ inline constexpr std::uint32_t kMaxStateHz = 1000;
 inline constexpr std::uint32_t kMaxThrustTicks = 0xffff'fffe;
 inline constexpr std::int64_t kMaxInteger = std::int64_t{1} << 53;  ///< what every JSON reader holds exactly
 inline constexpr std::size_t kMaxServerLineBytes = std::size_t{128} << 20;  ///< inbound at a client
-inline constexpr double kThrustQuantum = 1.0 / 128.0;
 
 // ---- columns -------------------------------------------------------------------------------------------
 
@@ -86,8 +86,8 @@ struct Join {
 
 struct Input {
   std::uint32_t seq = 0;
-  bool is_pair = false;                ///< the pair [tx, ty]; else the number
-  core::Vec2 thrust;                   ///< rounded to 1/128 and clamped; the number stands in x
+  /// Rounded and clamped; a map vector is the pair [tx, ty] on the wire, a push along the heading a number.
+  state::Thrust thrust{state::ThrustKind::kAlongHeading, {}};
   bool clamped = false;                ///< it was out of range
   std::optional<std::uint32_t> ticks;  ///< 1..2^32-2; empty: until the next input
   std::optional<std::uint64_t> tick;   ///< the step asked for

@@ -33,7 +33,6 @@ inline constexpr int kFormatVersion = 2;
 inline constexpr std::size_t kMaxInlineMapBytes = 1u << 20;  ///< a longer map is named by hash and file
 inline constexpr std::size_t kMaxReplayLineBytes = 32u << 20;
 inline constexpr std::uint32_t kKeyframeSeconds = 5;
-inline constexpr double kThrustQuantum = 1.0 / 128.0;  ///< of a whole number that stands for a thrust
 
 /// The recording that a fork went on from.
 struct Parent {

@@ -67,7 +67,7 @@ double read_component(const json::Value& value, Problems& problems) {
   constexpr Range kQuanta{-128.0, 128.0, "/ 128"};
   if (value.is(json::Kind::kInteger)) {
     const double quanta = json::number_in(value, kQuanta, problems).value_or(0.0);
-    return (quanta == 0.0 ? 0.0 : quanta) * kThrustQuantum;
+    return (quanta == 0.0 ? 0.0 : quanta) * state::kThrustQuantum;
   }
   return json::number_in(value, kUnit, problems).value_or(0.0);
 }

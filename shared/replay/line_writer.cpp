@@ -32,7 +32,7 @@ bool is_plus_zero(double value) { return std::bit_cast<std::uint64_t>(value) == 
 
 /// Whole numbers count quanta; whatever is none of them, minus zero too, stands as itself, with its point.
 void append_component(std::string& out, double value) {
-  const double quanta = value / kThrustQuantum;
+  const double quanta = value / state::kThrustQuantum;
   const bool is_whole = quanta >= -128.0 && quanta <= 128.0 && std::trunc(quanta) == quanta;
   if (is_whole && (is_plus_zero(value) || value != 0.0)) {
     json::append_integer(out, static_cast<std::int64_t>(quanta));

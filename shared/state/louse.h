@@ -2,33 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <type_traits>
 
 #include "shared/core/vec2.h"
+#include "shared/state/thrust.h"
 
 namespace woodlouse::state {
 
 /// Names a louse for as long as its match lasts; never used again.
 using LouseId = std::uint32_t;
-
-/// How `Thrust::value` is meant.
-enum class ThrustKind : std::uint32_t {
-  kNone = 0,  ///< no thrust
-  kAlongHeading =
-      1,  ///< value.x in [-1, 1]: the document's pulse; positive drives along the heading, negative brakes
-  kMapVector = 2,  ///< value of length <= 1: pushes along the tangent whose map projection is value
-};
-
-/// ticks_left of a thrust that holds until the next one.
-inline constexpr std::uint32_t kHeld = std::numeric_limits<std::uint32_t>::max();
-
-/// A thrust; 1 is the map's thrust_max.
-struct Thrust {
-  ThrustKind kind = ThrustKind::kNone;
-  core::Vec2 value;
-  friend bool operator==(const Thrust&, const Thrust&) = default;
-};
 
 enum class Phase : std::uint32_t {
   kMoving = 0,   ///< on the surface

@@ -45,8 +45,8 @@ void check_range(const Join& join) {
   demand(join.fields.size() <= kColumnCount, "every column is asked for once");
 }
 void check_range(const Input& input) {
-  demand(woodlouse::core::dot(input.thrust, input.thrust) <= 1.0, "a thrust is no longer than 1");
-  const double steps = input.thrust.x / kThrustQuantum;
+  demand(woodlouse::core::dot(input.thrust.value, input.thrust.value) <= 1.0, "a thrust is no longer than 1");
+  const double steps = input.thrust.value.x / woodlouse::state::kThrustQuantum;
   demand(steps == std::floor(steps), "a thrust is a multiple of its quantum");
   demand(!input.ticks || (*input.ticks >= 1 && *input.ticks <= kMaxThrustTicks), "ticks are in range");
 }

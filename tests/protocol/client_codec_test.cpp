@@ -36,8 +36,12 @@ TEST_CASE("every client message comes back as it was sent") {
   Join plain;
   plain.name = "n";
   plain.fields = default_columns();
-  Input number{7, false, {0.5, 0.0}, false, std::nullopt, std::nullopt};
-  Input pair{0xffff'ffff, true, {-0.25, 0.75}, false, kMaxThrustTicks, std::uint64_t{1} << 53};
+  Input number{7, {state::ThrustKind::kAlongHeading, {0.5, 0.0}}, false, std::nullopt, std::nullopt};
+  Input pair{0xffff'ffff,
+             {state::ThrustKind::kMapVector, {-0.25, 0.75}},
+             false,
+             kMaxThrustTicks,
+             std::uint64_t{1} << 53};
   const std::vector<ClientMessage> messages = {
       join,     plain,    number,    pair,    Chat{"hello, you"}, List{},
       GetMap{}, Resync{}, Respawn{}, Leave{}, Ping{kMaxInteger},  Ping{-kMaxInteger},
@@ -85,7 +89,7 @@ TEST_CASE("unknown fields are passed over, whatever they hold") {
 TEST_CASE("the order of fields and white space do not matter") {
   const auto message = decoded(" {\"thrust\" : [ 1 , 0 ] ,\t\"seq\":3, \"type\":\"input\" } \r");
   CHECK(std::get<Input>(message).seq == 3);
-  CHECK(std::get<Input>(message).is_pair);
+  CHECK(std::get<Input>(message).thrust.kind == state::ThrustKind::kMapVector);
 }
 
 TEST_CASE("names and chat are cleaned and cut") {

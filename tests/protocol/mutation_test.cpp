@@ -105,7 +105,7 @@ void check(const DecodeError& error) {
 
 void check(const ClientMessage& message) {
   if (const auto* input = std::get_if<Input>(&message)) {
-    REQUIRE(woodlouse::core::dot(input->thrust, input->thrust) <= 1.0);
+    REQUIRE(woodlouse::core::dot(input->thrust.value, input->thrust.value) <= 1.0);
     if (input->ticks) REQUIRE(*input->ticks >= 1);
   }
   if (const auto* join = std::get_if<Join>(&message)) {

@@ -20,8 +20,7 @@ Input thrust(const std::string& text) {
 
 Input pair(double x, double y) {
   Input input;
-  input.is_pair = true;
-  input.thrust = {x, y};
+  input.thrust = {state::ThrustKind::kMapVector, {x, y}};
   const auto decoded = decode_client(encode(ClientMessage(input)));
   REQUIRE(decoded);
   return std::get<Input>(*decoded);
@@ -32,18 +31,18 @@ bool is_multiple(double value) { return value * 128.0 == std::nearbyint(value * 
 }  // namespace
 
 TEST_CASE("a number is rounded to the nearest 1/128") {
-  CHECK(thrust("0.5").thrust == core::Vec2{0.5, 0.0});
-  CHECK(thrust("0.3").thrust.x == 38.0 / 128.0);
-  CHECK(thrust("-0.3").thrust.x == -38.0 / 128.0);
-  CHECK(thrust("0.003").thrust.x == 0.0);
-  CHECK_FALSE(thrust("0.3").is_pair);
+  CHECK(thrust("0.5").thrust.value == core::Vec2{0.5, 0.0});
+  CHECK(thrust("0.3").thrust.value.x == 38.0 / 128.0);
+  CHECK(thrust("-0.3").thrust.value.x == -38.0 / 128.0);
+  CHECK(thrust("0.003").thrust.value.x == 0.0);
+  CHECK(thrust("0.3").thrust.kind == state::ThrustKind::kAlongHeading);
   CHECK_FALSE(thrust("0.3").clamped);
 }
 
 TEST_CASE("a number out of range is clamped, and that is told") {
   for (const auto& [text, value] :
        {std::pair{"1.5", 1.0}, {"-2", -1.0}, {"1e308", 1.0}, {"-1e308", -1.0}, {"99", 1.0}}) {
-    CHECK(thrust(text).thrust.x == value);
+    CHECK(thrust(text).thrust.value.x == value);
     CHECK(thrust(text).clamped);
   }
   CHECK_FALSE(thrust("1").clamped);
@@ -61,13 +60,13 @@ TEST_CASE("a pair is rounded, and its length never passes 1") {
     const double x = length * std::cos(a);
     const double y = length * std::sin(a);
     const Input input = pair(x, y);
-    REQUIRE(input.is_pair);
-    REQUIRE(is_multiple(input.thrust.x));
-    REQUIRE(is_multiple(input.thrust.y));
-    REQUIRE(core::dot(input.thrust, input.thrust) <= 1.0);
+    REQUIRE(input.thrust.kind == state::ThrustKind::kMapVector);
+    REQUIRE(is_multiple(input.thrust.value.x));
+    REQUIRE(is_multiple(input.thrust.value.y));
+    REQUIRE(core::dot(input.thrust.value, input.thrust.value) <= 1.0);
     const double kept = std::min(1.0, length);
-    REQUIRE(std::abs(input.thrust.x - kept * std::cos(a)) <= 1.0 / 128.0);
-    REQUIRE(std::abs(input.thrust.y - kept * std::sin(a)) <= 1.0 / 128.0);
+    REQUIRE(std::abs(input.thrust.value.x - kept * std::cos(a)) <= 1.0 / 128.0);
+    REQUIRE(std::abs(input.thrust.value.y - kept * std::sin(a)) <= 1.0 / 128.0);
     if (length <= 1.0) REQUIRE_FALSE(input.clamped);
     if (length > 1.01) REQUIRE(input.clamped);
   }
@@ -83,9 +82,9 @@ TEST_CASE("a unit vector is never called out of range") {
 TEST_CASE("pairs beyond any range are scaled, not lost") {
   const Input input = thrust("[1e308,-1e308]");
   CHECK(input.clamped);
-  CHECK(input.thrust.x == -input.thrust.y);
-  CHECK(input.thrust.x == 90.0 / 128.0);
-  CHECK(thrust("[0,1e308]").thrust == core::Vec2{0.0, 1.0});
+  CHECK(input.thrust.value.x == -input.thrust.value.y);
+  CHECK(input.thrust.value.x == 90.0 / 128.0);
+  CHECK(thrust("[0,1e308]").thrust.value == core::Vec2{0.0, 1.0});
 }
 
 TEST_CASE("what has been rounded stays as it is when it is sent again") {
@@ -93,7 +92,7 @@ TEST_CASE("what has been rounded stays as it is when it is sent again") {
   for (int round = 0; round < 5000; ++round) {
     const Input once = pair(static_cast<double>(random() % 400) / 150.0 - 1.3,
                             static_cast<double>(random() % 400) / 150.0 - 1.3);
-    const Input twice = pair(once.thrust.x, once.thrust.y);
+    const Input twice = pair(once.thrust.value.x, once.thrust.value.y);
     REQUIRE(twice.thrust == once.thrust);
     REQUIRE_FALSE(twice.clamped);
   }

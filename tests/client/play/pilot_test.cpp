@@ -75,11 +75,9 @@ Report drive(const Line& line) {
   for (double now = 0.0; now < 10000.0; now += 1.0) {
     while (!up.empty() && up.front().due <= now) {
       const protocol::Input& input = up.front().input;
-      const state::Thrust thrust{
-          input.is_pair ? state::ThrustKind::kMapVector : state::ThrustKind::kAlongHeading, input.thrust};
       const match::Filed filed = server.file({.player = id,
                                               .seq = input.seq,
-                                              .thrust = thrust,
+                                              .thrust = input.thrust,
                                               .ticks = input.ticks.value_or(state::kHeld),
                                               .wanted_tick = input.tick.value_or(0)});
       REQUIRE(filed.outcome == match::Filed::Outcome::kFiled);

@@ -151,13 +151,12 @@ TEST_CASE("what the wire carries is what the server applies: it neither rounds n
     const double angle = i * 0.00628;
     protocol::Input input;
     input.seq = 1;
-    input.is_pair = true;
-    input.thrust = wire_vector({std::cos(angle), std::sin(angle)});
+    input.thrust = {state::ThrustKind::kMapVector, wire_vector({std::cos(angle), std::sin(angle)})};
     const auto decoded = protocol::decode_client(protocol::encode(protocol::ClientMessage(input)));
     REQUIRE(decoded);
     const auto& received = std::get<protocol::Input>(*decoded);
     REQUIRE(received.thrust == input.thrust);
     REQUIRE_FALSE(received.clamped);
-    REQUIRE(std::hypot(input.thrust.x, input.thrust.y) > 0.985);
+    REQUIRE(std::hypot(input.thrust.value.x, input.thrust.value.y) > 0.985);
   }
 }

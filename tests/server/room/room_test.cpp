@@ -241,7 +241,7 @@ TEST_CASE("whoever took a louse over counts its inputs from the start and is ans
   const auto mara = house.join(1, named("mara"));
   protocol::Input input;
   input.seq = 0;
-  input.thrust = {1.0, 0.0};
+  input.thrust.value = {1.0, 0.0};
   house.room.submit(1, input, Clock::now());
   input.seq = 0;
   house.room.submit(1, input, Clock::now());
