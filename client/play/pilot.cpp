@@ -71,7 +71,7 @@ void Pilot::acknowledge(const protocol::Ack& ack) {
   wants_state_ = false;
   asked_.reset();
   if (!heading_taken_) {
-    steering_.point(ack.you->heading);
+    steering_.point(ack.you->louse.heading);
     heading_taken_ = true;
   }
   if (!prediction_) return;

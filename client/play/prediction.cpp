@@ -5,26 +5,6 @@
 #include <utility>
 
 namespace woodlouse::client {
-namespace {
-
-state::Louse louse_of(const protocol::ExactState& state) {
-  state::Louse louse;
-  louse.id = state.id;
-  louse.phase = static_cast<state::Phase>(state.phase);
-  louse.flight_z = state.flight_z;
-  louse.flight_vz = state.flight_vz;
-  louse.position = state.position;
-  louse.velocity = state.velocity;
-  louse.heading = state.heading;
-  louse.thrust = state.thrust;
-  louse.distance = state.distance;
-  louse.thrust_kind = static_cast<state::ThrustKind>(state.thrust_kind);
-  louse.thrust_ticks = state.thrust_ticks;
-  return louse;
-}
-
-}  // namespace
-
 Prediction::Prediction(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters,
                        std::uint32_t tick_hz)
     : ways_(terrain->domain(), parameters.edges), world_(std::move(terrain), parameters, 1.0 / tick_hz) {}
@@ -39,11 +19,11 @@ void Prediction::acknowledge(const protocol::Ack& ack) {
   while (!pending_.empty() && pending_.front().seq <= ack.seq) pending_.pop_front();
   if (!ack.you) return;
   const bool was_known = louse() != nullptr;
-  const core::Vec2 believed = was_known ? louse()->position : ack.you->position;
+  const core::Vec2 believed = was_known ? louse()->position : ack.you->louse.position;
   const std::uint64_t target = std::max(tick_, ack.you->tick);
   if (id_) world_.erase(*id_);
-  world_.insert(louse_of(*ack.you));
-  id_ = ack.you->id;
+  world_.insert(ack.you->louse);
+  id_ = ack.you->louse.id;
   tick_ = ack.you->tick;
   while (!history_.empty() && history_.back().tick >= tick_) history_.pop_back();
   if (!history_.empty() && history_.back().tick + 1 != tick_) history_.clear();

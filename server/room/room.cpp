@@ -216,18 +216,7 @@ void Room::send_acks(std::uint64_t tick, Time begun, const std::vector<PendingAc
     ack.late = pending.late;
     ack.clamped = pending.clamped;
     if (const state::Louse* louse = match_.world().find(pending.player))
-      ack.you = protocol::ExactState{match_.tick(),
-                                     louse->id,
-                                     louse->position,
-                                     louse->velocity,
-                                     louse->heading,
-                                     louse->thrust,
-                                     static_cast<std::uint32_t>(louse->thrust_kind),
-                                     louse->thrust_ticks,
-                                     static_cast<std::uint32_t>(louse->phase),
-                                     louse->flight_z,
-                                     louse->flight_vz,
-                                     louse->distance};
+      ack.you = protocol::ExactState{match_.tick(), *louse};
     member->subscriber->answer(ack);
   }
 }

@@ -92,7 +92,6 @@ protocol::Welcome Room::welcome_for(const Member& member, const protocol::Join& 
                                     std::uint32_t state_hz) const {
   const map::Map& map = match_.map();
   const terrain::Rectangle& domain = map.terrain->domain();
-  const state::Parameters& physics = map.definition.physics;
   protocol::Welcome welcome;
   welcome.id = member.louse;
   welcome.room = settings_.name;
@@ -105,8 +104,7 @@ protocol::Welcome Room::welcome_for(const Member& member, const protocol::Join& 
   welcome.map_hash = map.hash;
   welcome.extent = {domain.x_min, domain.y_min, domain.x_max, domain.y_max};
   welcome.map_bytes = map_line_->size();
-  welcome.physics = {physics.gravity, physics.drag, physics.friction, physics.thrust_max,
-                     physics.edge_restitution};
+  welcome.physics = map.definition.physics;
   welcome.mode = "roam";
   welcome.players = roster_.entries();
   return welcome;

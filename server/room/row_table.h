@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "shared/protocol/messages.h"
-#include "shared/state/louse.h"
+#include "shared/state/louse_fields.h"
 #include "shared/terrain/terrain.h"
 
 namespace woodlouse::server {
@@ -30,7 +30,8 @@ class RowWriter {
 
  private:
   RowLayout layout_;
-  bool needs_ground_ = false;  ///< a column wants the terrain's sample
+  std::vector<const state::LouseField*> own_fields_;  ///< of layout_.fields; null: computed
+  bool needs_ground_ = false;                         ///< a column is computed, from the terrain's sample
 };
 
 }  // namespace woodlouse::server

@@ -6,6 +6,7 @@
 
 #include "shared/core/joined.h"
 #include "shared/match/match.h"
+#include "shared/state/louse_fields.h"
 #include "shared/state/state_hash.h"
 
 namespace woodlouse::match {
@@ -31,9 +32,17 @@ bool is_on(const terrain::Rectangle& domain, core::Vec2 at) {
          at.y <= domain.y_max + slack_y;
 }
 
+/// Over the map plane or up and down.
+bool is_too_fast(const state::Louse& louse) {
+  return std::any_of(state::kLouseFields.begin(), state::kLouseFields.end(),
+                     [&](const state::LouseField& field) {
+                       return field.unit == "m/s" && !is_within(state::field_value(louse, field), kMaxSpeed);
+                     });
+}
+
 std::string_view fault_of(const map::Map& map, const state::Louse& louse) {
   if (!is_on(map.terrain->domain(), louse.position)) return "is not on the map";
-  if (!is_within(louse.velocity, kMaxSpeed) || !is_within(louse.flight_vz, kMaxSpeed)) return "is too fast";
+  if (is_too_fast(louse)) return "is too fast";
   if (!is_within(louse.flight_z, kMaxHeight)) return "flies too high";
   if (!is_within(louse.heading, 1.5)) return "has no heading of length 1";
   if (!is_within(louse.thrust, 1.0)) return "has a thrust above 1";

@@ -8,8 +8,8 @@ namespace {
 using Decoded = tl::expected<ServerMessage, DecodeError>;
 
 bool holds_integers(Column column) {
-  return column == Column::kId || column == Column::kThrustKind || column == Column::kTicksLeft ||
-         column == Column::kPhase;
+  const state::LouseField* field = louse_field(column);
+  return field != nullptr && state::holds_integer(*field);
 }
 
 /// The cell's number, still in quanta; nothing when it is not what the column and format want.
@@ -64,7 +64,8 @@ Decoded read_key(FieldReader& reader, const FrameContext& context) {
   reader.hash("hash", hash);
   frame.hash = hash;
   if (context.format == Format::kExact && context.fields == all_columns()) {
-    HashProof proof;
+    state::HashLink proof;
+    proof.tick = frame.tick;
     reader.hash("previous", proof.previous);
     reader.hash("inputs", proof.inputs);
     reader.hash("generator", proof.generator);

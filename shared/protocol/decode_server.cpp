@@ -126,6 +126,30 @@ Decoded read_welcome(FieldReader& reader, const Context&) {
   return reader.finish<ServerMessage>(std::move(welcome));
 }
 
+ExactState read_exact(FieldReader& you) {
+  ExactState exact;
+  state::Louse& louse = exact.louse;
+  you.integer("tick", exact.tick, kAnyTick);
+  you.integer("id", louse.id, kPositiveUint32);
+  you.number("x", louse.position.x);
+  you.number("y", louse.position.y);
+  you.number("vx", louse.velocity.x);
+  you.number("vy", louse.velocity.y);
+  you.pair("heading", louse.heading);
+  you.pair("thrust", louse.thrust);
+  std::uint32_t kind = 0;
+  you.integer("thrust_kind", kind, {0, 2});
+  louse.thrust_kind = static_cast<state::ThrustKind>(kind);
+  you.integer("thrust_ticks", louse.thrust_ticks, kAnyUint32);
+  std::uint32_t phase = 0;
+  you.integer("phase", phase, {0, 2});
+  louse.phase = static_cast<state::Phase>(phase);
+  you.number("flight_z", louse.flight_z);
+  you.number("flight_vz", louse.flight_vz);
+  you.number("distance", louse.distance);
+  return exact;
+}
+
 Decoded read_ack(FieldReader& reader, const Context&) {
   Ack ack;
   reader.integer("seq", ack.seq, kAnyUint32);
@@ -135,26 +159,7 @@ Decoded read_ack(FieldReader& reader, const Context&) {
   reader.boolean("dropped", ack.dropped);
   reader.boolean("clamped", ack.clamped);
   reader.object(
-      "you",
-      [&](FieldReader& you) {
-        ExactState state;
-        you.integer("tick", state.tick, kAnyTick);
-        you.integer("id", state.id, kPositiveUint32);
-        you.number("x", state.position.x);
-        you.number("y", state.position.y);
-        you.number("vx", state.velocity.x);
-        you.number("vy", state.velocity.y);
-        you.pair("heading", state.heading);
-        you.pair("thrust", state.thrust);
-        you.integer("thrust_kind", state.thrust_kind, {0, 2});
-        you.integer("thrust_ticks", state.thrust_ticks, kAnyUint32);
-        you.integer("phase", state.phase, {0, 2});
-        you.number("flight_z", state.flight_z);
-        you.number("flight_vz", state.flight_vz);
-        you.number("distance", state.distance);
-        ack.you = state;
-      },
-      Presence::kOptional);
+      "you", [&](FieldReader& you) { ack.you = read_exact(you); }, Presence::kOptional);
   return reader.finish<ServerMessage>(ack);
 }
 

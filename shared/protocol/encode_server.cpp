@@ -70,22 +70,25 @@ std::string line_of(const Frame&) {
   return {};
 }
 
+/// Every field of the louse; pairs where the frames' columns are single.
+void append_exact(json::ObjectText& you, const ExactState& exact) {
+  const state::Louse& louse = exact.louse;
+  you.integer("tick", exact.tick).integer("id", louse.id);
+  you.number("x", louse.position.x).number("y", louse.position.y);
+  you.number("vx", louse.velocity.x).number("vy", louse.velocity.y);
+  you.pair("heading", louse.heading).pair("thrust", louse.thrust);
+  you.integer("thrust_kind", static_cast<std::uint32_t>(louse.thrust_kind));
+  you.integer("thrust_ticks", louse.thrust_ticks).integer("phase", static_cast<std::uint32_t>(louse.phase));
+  you.number("flight_z", louse.flight_z).number("flight_vz", louse.flight_vz);
+  you.number("distance", louse.distance);
+}
+
 std::string line_of(const Ack& ack) {
   json::ObjectText text("ack");
   text.integer("seq", ack.seq).integer("tick", ack.tick).integer("margin_us", ack.margin_us);
   text.boolean("late", ack.late).boolean("dropped", ack.dropped).boolean("clamped", ack.clamped);
   if (ack.you) {
-    text.object("you", [&](json::ObjectText& you) {
-      you.integer("tick", ack.you->tick).integer("id", ack.you->id);
-      you.number("x", ack.you->position.x).number("y", ack.you->position.y);
-      you.number("vx", ack.you->velocity.x).number("vy", ack.you->velocity.y);
-      you.pair("heading", ack.you->heading).pair("thrust", ack.you->thrust);
-      you.integer("thrust_kind", ack.you->thrust_kind).integer("thrust_ticks", ack.you->thrust_ticks);
-      you.integer("phase", ack.you->phase)
-          .number("flight_z", ack.you->flight_z)
-          .number("flight_vz", ack.you->flight_vz);
-      you.number("distance", ack.you->distance);
-    });
+    text.object("you", [&](json::ObjectText& you) { append_exact(you, *ack.you); });
   }
   return std::move(text).line();
 }

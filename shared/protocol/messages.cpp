@@ -1,5 +1,6 @@
 #include "shared/protocol/messages.h"
 
+#include <array>
 #include <cassert>
 
 namespace woodlouse::protocol {
@@ -7,32 +8,24 @@ namespace {
 
 struct ColumnEntry {
   std::string_view name;
-  double quantum;
+  double quantum = 0.0;
+  const state::LouseField* field = nullptr;  ///< null: computed from the louse and the terrain under it
 };
 
-// In the order of Column. Powers of two, so that multiplying by them is exact.
-constexpr std::array<ColumnEntry, kColumnCount> kColumns = {{
-    {"id", 1.0},
-    {"x", 0x1p-10},
-    {"y", 0x1p-10},
-    {"vx", 0x1p-10},
-    {"vy", 0x1p-10},
-    {"z", 0x1p-10},
-    {"heading_x", 0x1p-10},
-    {"heading_y", 0x1p-10},
-    {"yaw", 0x1p-10},
-    {"pitch", 0x1p-10},
-    {"roll", 0x1p-10},
-    {"speed", 0x1p-10},
-    {"tx", state::kThrustQuantum},
-    {"ty", state::kThrustQuantum},
-    {"thrust_kind", 1.0},
-    {"ticks_left", 1.0},
-    {"phase", 1.0},
-    {"flight_z", 0x1p-10},
-    {"flight_vz", 0x1p-10},
-    {"distance", 0x1p-7},
-}};
+/// A column that is one of the louse's own fields.
+consteval ColumnEntry own(std::string_view name) {
+  const state::LouseField* field = state::find_field(name);
+  return {field->name, field->quantum, field};
+}
+
+consteval ColumnEntry computed(std::string_view name) { return {name, state::kCoordinateQuantum, nullptr}; }
+
+// In the order of Column.
+constexpr std::array<ColumnEntry, kColumnCount> kColumns = {
+    {own("id"),         own("x"),          own("y"),         own("vx"),        own("vy"),
+     computed("z"),     own("heading_x"),  own("heading_y"), computed("yaw"),  computed("pitch"),
+     computed("roll"),  computed("speed"), own("tx"),        own("ty"),        own("thrust_kind"),
+     own("ticks_left"), own("phase"),      own("flight_z"),  own("flight_vz"), own("distance")}};
 
 const ColumnEntry& entry(Column column) {
   const auto index = static_cast<std::size_t>(column);
@@ -58,11 +51,14 @@ const std::vector<Column>& default_columns() {
   return columns;
 }
 
+const state::LouseField* louse_field(Column column) { return entry(column).field; }
+
 const std::vector<Column>& all_columns() {
-  static const std::vector<Column> columns = {
-      Column::kId,      Column::kPhase,    Column::kX,        Column::kY,          Column::kVx,
-      Column::kVy,      Column::kHeadingX, Column::kHeadingY, Column::kTx,         Column::kTy,
-      Column::kFlightZ, Column::kFlightVz, Column::kDistance, Column::kThrustKind, Column::kTicksLeft};
+  static const std::vector<Column> columns = [] {
+    std::vector<Column> all;
+    for (const state::LouseField& field : state::kLouseFields) all.push_back(*column_from_text(field.name));
+    return all;
+  }();
   return columns;
 }
 

@@ -12,6 +12,10 @@
 #include <vector>
 
 #include "shared/core/vec2.h"
+#include "shared/state/louse.h"
+#include "shared/state/louse_fields.h"
+#include "shared/state/parameters.h"
+#include "shared/state/state_hash.h"
 #include "shared/state/thrust.h"
 
 namespace woodlouse::protocol {
@@ -60,10 +64,12 @@ std::string_view to_text(Column column);
 std::optional<Column> column_from_text(std::string_view text);
 /// Quantized rows carry integers, multiples of this; 1 for id, thrust_kind, ticks_left, phase.
 double quantum(Column column);
+/// The field of a louse that the column shows, or null where it is computed from the louse and the terrain.
+const state::LouseField* louse_field(Column column);
 
 /// `id x y vx vy`, what a row has unless asked otherwise.
 const std::vector<Column>& default_columns();
-/// `all`: the columns from which the state hash can be recomputed (exact format).
+/// `all`: a louse's fields in their order, from which the state hash can be recomputed (exact format).
 const std::vector<Column>& all_columns();
 
 enum class Format : std::uint8_t { kQuantized, kExact };
@@ -157,11 +163,6 @@ struct PlayerEntry {
   friend bool operator==(const PlayerEntry&, const PlayerEntry&) = default;
 };
 
-struct Physics {
-  double gravity = 0, drag = 0, friction = 0, thrust_max = 0, edge_restitution = 0;
-  friend bool operator==(const Physics&, const Physics&) = default;
-};
-
 struct Welcome {
   std::uint32_t id = 0;      ///< the louse's; 0 for a spectator
   std::string resume_token;  ///< secret; hex; empty for a spectator
@@ -175,18 +176,12 @@ struct Welcome {
   std::uint64_t map_hash = 0;
   std::array<double, 4> extent{};  ///< x_min, y_min, x_max, y_max [m]
   std::size_t map_bytes = 0;       ///< length of the `map` message's line
-  Physics physics;
+  /// On the wire: gravity, drag, friction, thrust_max, edge_restitution. The others stand in the map's
+  /// definition; decoded, they are what a map has that does not name them.
+  state::Parameters physics;
   std::string mode;                  ///< "roam"
   std::vector<PlayerEntry> players;  ///< who is there already
   friend bool operator==(const Welcome&, const Welcome&) = default;
-};
-
-/// What besides the rows went into a key's hash (docs/determinism.md).
-struct HashProof {
-  std::uint64_t previous = 0;   ///< the hash of the tick before
-  std::uint64_t inputs = 0;     ///< the hash of the inputs applied since
-  std::uint64_t generator = 0;  ///< the match's random state
-  friend bool operator==(const HashProof&, const HashProof&) = default;
 };
 
 /// A key or a delta, decoded. values: rows * columns numbers in the order of Welcome::fields, already in
@@ -199,7 +194,8 @@ struct Frame {
   std::vector<double> values;
   std::vector<std::uint32_t> gone;    ///< ids that are in the key and no longer there
   std::optional<std::uint64_t> hash;  ///< keys only
-  std::optional<HashProof> proof;     ///< keys of all_columns() in exact format only
+  std::optional<state::HashLink>
+      proof;  ///< what besides the rows went into the hash: keys of all_columns() in exact format only
   [[nodiscard]] std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
   friend bool operator==(const Frame&, const Frame&) = default;
 };
@@ -207,11 +203,7 @@ struct Frame {
 /// A louse's exact state, from which a client predicts with the same World.
 struct ExactState {
   std::uint64_t tick = 0;  ///< it is the state before this step
-  std::uint32_t id = 0;
-  core::Vec2 position, velocity, heading, thrust;
-  std::uint32_t thrust_kind = 0, thrust_ticks = 0, phase = 0;
-  double flight_z = 0.0, flight_vz = 0.0;
-  double distance = 0.0;
+  state::Louse louse;
   friend bool operator==(const ExactState&, const ExactState&) = default;
 };
 

@@ -2,7 +2,6 @@
 #include <istream>
 #include <limits>
 #include <span>
-#include <type_traits>
 #include <utility>
 
 #include "shared/core/joined.h"
@@ -146,32 +145,28 @@ StepLine read_step(const json::Value& root, Problems& problems) {
 state::Louse read_louse(const json::Value& row, Problems& problems) {
   state::Louse louse;
   const std::vector<json::Value> values = row.children();
-  if (!row.is(json::Kind::kArray) || values.size() != state::kLouseFields) {
-    problems.add(row, joined({"a row of ", std::to_string(state::kLouseFields), " numbers is wanted"}));
+  const std::size_t wanted = state::kLouseFields.size();
+  if (!row.is(json::Kind::kArray) || values.size() != wanted) {
+    problems.add(row, joined({"a row of ", std::to_string(wanted), " numbers is wanted"}));
     return louse;
   }
-  std::size_t index = 0;
-  state::visit_fields(louse, [&](std::string_view, auto& field) {
-    const json::Value& value = values[index++];
-    using Field = std::remove_cvref_t<decltype(field)>;
-    if constexpr (std::is_same_v<Field, double>) {
-      field = json::number_in(value, kCoordinate, problems).value_or(0.0);
-    } else {
-      const std::uint64_t max = std::is_enum_v<Field> ? std::uint64_t{2} : kMaxUint32;
-      field = static_cast<Field>(as<std::uint32_t>(json::integer_in(value, 0, max, problems)));
-    }
-  });
+  for (std::size_t k = 0; k < wanted; ++k) {
+    const state::LouseField& field = state::kLouseFields[k];
+    const double value = state::holds_integer(field)
+                             ? as<std::uint32_t>(json::integer_in(values[k], 0, field.largest, problems))
+                             : json::number_in(values[k], kCoordinate, problems).value_or(0.0);
+    state::set_field(louse, field, value);
+  }
   return louse;
 }
 
 void read_columns(const json::Value& columns, Problems& problems) {
   const std::vector<json::Value> names = columns.children();
-  std::size_t index = 0;
-  bool same = names.size() == state::kLouseFields;
-  state::visit_fields(state::Louse{}, [&](std::string_view name, const auto&) {
-    same = same && names[index].is(json::Kind::kString) && names[index].text() == name;
-    ++index;
-  });
+  const bool same =
+      std::equal(names.begin(), names.end(), state::kLouseFields.begin(), state::kLouseFields.end(),
+                 [](const json::Value& name, const state::LouseField& field) {
+                   return name.is(json::Kind::kString) && name.text() == field.name;
+                 });
   if (!same) problems.add(columns, "are not the columns of this version");
 }
 

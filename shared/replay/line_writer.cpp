@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 #include <span>
-#include <type_traits>
 #include <variant>
 
 #include "shared/core/stable_hash.h"
@@ -148,28 +147,19 @@ void append_player(std::string& out, const match::PlayerSeq& player, const Playe
 }
 
 void append_columns(std::string& out) {
-  char before = '[';
-  state::visit_fields(state::Louse{}, [&](std::string_view name, const auto&) {
-    out += before;
-    before = ',';
-    json::append_string(out, name);
-  });
-  out += ']';
+  append_list(out, state::kLouseFields,
+              [&](const state::LouseField& field) { json::append_string(out, field.name); });
 }
 
 void append_louse(std::string& out, const state::Louse& louse) {
-  char before = '[';
-  state::visit_fields(louse, [&](std::string_view, const auto& field) {
-    out += before;
-    before = ',';
-    using Field = std::remove_cvref_t<decltype(field)>;
-    if constexpr (std::is_same_v<Field, double>) {
-      json::append_double(out, field);
+  append_list(out, state::kLouseFields, [&](const state::LouseField& field) {
+    const double value = state::field_value(louse, field);
+    if (state::holds_integer(field)) {
+      json::append_integer(out, static_cast<std::uint32_t>(value));
     } else {
-      json::append_integer(out, static_cast<std::uint32_t>(field));
+      json::append_double(out, value);
     }
   });
-  out += ']';
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <optional>
 #include <span>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -56,15 +55,13 @@ struct FieldText {
 
 std::vector<FieldText> field_texts(const state::Louse& louse) {
   std::vector<FieldText> result;
-  state::visit_fields(louse, [&](std::string_view name, const auto& field) {
-    using Field = std::remove_cvref_t<decltype(field)>;
-    if constexpr (std::is_same_v<Field, double>) {
-      result.push_back({name, std::bit_cast<std::uint64_t>(field), json::double_text(field)});
-    } else {
-      const auto value = static_cast<std::uint32_t>(field);
-      result.push_back({name, value, std::to_string(value)});
-    }
-  });
+  for (const state::LouseField& field : state::kLouseFields) {
+    const double value = state::field_value(louse, field);
+    const bool is_integer = state::holds_integer(field);
+    result.push_back(
+        {field.name, std::bit_cast<std::uint64_t>(value),
+         is_integer ? std::to_string(static_cast<std::uint32_t>(value)) : json::double_text(value)});
+  }
   return result;
 }
 

@@ -31,7 +31,14 @@ struct Louse {
   double distance = 0.0;         ///< length of the path in space since the spawn [m]
   ThrustKind thrust_kind = ThrustKind::kNone;
   std::uint32_t thrust_ticks = 0;  ///< ticks the thrust still acts; kHeld: until the next one
+
+  friend bool operator==(const Louse&, const Louse&) = default;
 };
 static_assert(sizeof(Louse) == 104 && std::is_trivially_copyable_v<Louse>);
+
+/// [m/s], up; gradient: the surface's at its place, which counts on the ground.
+inline double vertical_speed(const Louse& louse, core::Vec2 gradient) {
+  return louse.phase == Phase::kFlying ? louse.flight_vz : core::dot(gradient, louse.velocity);
+}
 
 }  // namespace woodlouse::state

@@ -23,6 +23,7 @@ struct HashLink {
   std::uint64_t inputs = 0;
   std::uint64_t tick = 0;
   std::uint64_t generator = 0;
+  friend bool operator==(const HashLink&, const HashLink&) = default;
 };
 
 std::uint64_t state_hash(core::StableHasher& hasher, const HashLink& link, std::span<const Louse> lice);

@@ -159,7 +159,7 @@ TEST_CASE("a key of all columns in exact format carries what its hash is made of
       R"(,"previous":"0000000000000002","inputs":"ffffffffffffffff","generator":"000000000000000a"})";
   const Frame proved = frame_of(head + proof + "\n", all_columns(), Format::kExact);
   REQUIRE(proved.proof);
-  CHECK(*proved.proof == HashProof{2, 0xffff'ffff'ffff'ffff, 10});
+  CHECK(*proved.proof == woodlouse::state::HashLink{2, 0xffff'ffff'ffff'ffff, 7, 10});
   CHECK_FALSE(frame_of(head + proof + "\n", all_columns(), Format::kQuantized).proof);
   CHECK_FALSE(frame_of(head + "}\n", default_columns(), Format::kExact).proof);
   CHECK_FALSE(decode_server(head + "}\n", all_columns(), Format::kExact));

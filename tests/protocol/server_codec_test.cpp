@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,23 @@ Welcome some_welcome(Format format) {
 
 }  // namespace
 
+TEST_CASE("an ack carries every field of the louse, bit for bit") {
+  for (std::size_t k = 0; k < state::kLouseFields.size(); ++k) {
+    const state::LouseField& field = state::kLouseFields[k];
+    INFO(field.name);
+    Ack ack{5, 77, 0, false, false, false, ExactState{78, {}}};
+    ack.you->louse.id = 9;
+    const state::Louse plain = ack.you->louse;
+    const bool is_kind = state::holds_integer(field) && field.largest == 2;
+    state::set_field(ack.you->louse, field,
+                     state::holds_integer(field) ? (is_kind ? 2.0 : 12345.0) : -1.0 / 3.0);
+    const auto back = decode_server(encode(ServerMessage(ack)), default_columns(), Format::kQuantized);
+    REQUIRE(back);
+    CHECK(std::memcmp(&std::get<Ack>(*back).you->louse, &ack.you->louse, sizeof(state::Louse)) == 0);
+    CHECK_FALSE(ack.you->louse == plain);
+  }
+}
+
 TEST_CASE("every server message comes back as it was sent") {
   Hello hello{kProtocolVersion, 1, "woodlouse 0.1.0", "9f", {"volcano", "hills"}, {"exact"}, {}};
   hello.limits.burst = 9;
@@ -60,14 +78,17 @@ TEST_CASE("every server message comes back as it was sent") {
   spectator.players.clear();
   Ack ack{5, 77, -1500, true, false, true, ExactState{}};
   ack.you->tick = 78;
-  ack.you->id = 3;
-  ack.you->position = {0.1, -1e-300};
-  ack.you->velocity = {1.0 / 3.0, -0.0};
-  ack.you->heading = {0.6, 0.8};
-  ack.you->thrust = {0.5, -0.25};
-  ack.you->thrust_kind = 2;
-  ack.you->thrust_ticks = 0xffff'ffff;
-  ack.you->distance = 123456.789;
+  ack.you->louse.id = 3;
+  ack.you->louse.position = {0.1, -1e-300};
+  ack.you->louse.velocity = {1.0 / 3.0, -0.0};
+  ack.you->louse.heading = {0.6, 0.8};
+  ack.you->louse.thrust = {0.5, -0.25};
+  ack.you->louse.thrust_kind = state::ThrustKind::kMapVector;
+  ack.you->louse.phase = state::Phase::kFlying;
+  ack.you->louse.flight_z = 7.25;
+  ack.you->louse.flight_vz = -0.5;
+  ack.you->louse.thrust_ticks = 0xffff'ffff;
+  ack.you->louse.distance = 123456.789;
   const std::vector<ServerMessage> messages = {
       hello,
       some_welcome(Format::kQuantized),
@@ -102,12 +123,12 @@ TEST_CASE("every server message comes back as it was sent") {
 TEST_CASE("a minus zero keeps its sign, for the state hash's sake") {
   Ack ack;
   ack.you = ExactState{};
-  ack.you->id = 1;
-  ack.you->velocity = {-0.0, 0.0};
+  ack.you->louse.id = 1;
+  ack.you->louse.velocity = {-0.0, 0.0};
   const auto back = decode(line_of(ack));
   REQUIRE(back);
-  CHECK(std::signbit(std::get<Ack>(*back).you->velocity.x));
-  CHECK_FALSE(std::signbit(std::get<Ack>(*back).you->velocity.y));
+  CHECK(std::signbit(std::get<Ack>(*back).you->louse.velocity.x));
+  CHECK_FALSE(std::signbit(std::get<Ack>(*back).you->louse.velocity.y));
 }
 
 TEST_CASE("a map's definition comes back byte for byte, with knots or without, whatever stands around it") {

@@ -229,16 +229,16 @@ TEST_CASE("one altered number of a keyframe is caught and louse, field and both 
   const std::string& line = recording.lines[at];
   REQUIRE(line.find("{\"keyframe\":120,") == 0);
   std::vector<std::string> names;
-  state::visit_fields(state::Louse{}, [&](std::string_view name, const auto&) { names.emplace_back(name); });
+  for (const state::LouseField& field : state::kLouseFields) names.emplace_back(field.name);
   std::size_t checked = 0;
   std::size_t begin = line.find("\"lice\":[[") + 9;
   for (std::size_t field = 0; begin < line.size() && line[begin] != ']'; ++field) {
     const std::size_t end = line.find_first_of(",]", begin);
     const std::string number = line.substr(begin, end - begin);
-    if (field % state::kLouseFields != 0) {  // an id's change is another louse, below
-      const bool is_real = names[field % state::kLouseFields].find_first_of("xyd") != std::string::npos &&
-                           names[field % state::kLouseFields] != "ticks_left" &&
-                           names[field % state::kLouseFields] != "thrust_kind";
+    if (field % names.size() != 0) {  // an id's change is another louse, below
+      const bool is_real = names[field % names.size()].find_first_of("xyd") != std::string::npos &&
+                           names[field % names.size()] != "ticks_left" &&
+                           names[field % names.size()] != "thrust_kind";
       // One unit in the last place for the reals, another whole number otherwise.
       const std::string other =
           is_real
@@ -247,11 +247,11 @@ TEST_CASE("one altered number of a keyframe is caught and louse, field and both 
       Recording altered = recording;
       altered.lines[at].replace(begin, end - begin, other);
       const Verification verification = verdict(altered.text());
-      INFO(names[field % state::kLouseFields]);
+      INFO(names[field % names.size()]);
       REQUIRE(verification.difference);
       CHECK(verification.difference->tick == 120);
       const std::string wanted =
-          ", " + names[field % state::kLouseFields] + ": " + other + " recorded, " + number + " re-run";
+          ", " + names[field % names.size()] + ": " + other + " recorded, " + number + " re-run";
       INFO(verification.difference->detail);
       CHECK(verification.difference->detail.find("keyframe 120: louse ") == 0);
       CHECK(verification.difference->detail.find(wanted) != std::string::npos);

@@ -72,14 +72,14 @@ TEST_CASE("the hash of a keyframe's tick can be made again from the recording al
     bytes.u64(inputs_digest(step));
     bytes.u64(keyframe->state.tick);
     for (const state::Louse& louse : keyframe->state.lice) {
-      state::visit_fields(louse, [&](std::string_view, const auto& field) {
-        using Field = std::remove_cvref_t<decltype(field)>;
-        if constexpr (std::is_same_v<Field, double>) {
-          bytes.f64(field);
+      for (const state::LouseField& field : state::kLouseFields) {
+        const double value = state::field_value(louse, field);
+        if (state::holds_integer(field)) {
+          bytes.u32(static_cast<std::uint32_t>(value));
         } else {
-          bytes.u32(static_cast<std::uint32_t>(field));
+          bytes.f64(value);
         }
-      });
+      }
     }
     bytes.u64(generator);
     CHECK(bytes.hash() == step.hash);

@@ -95,19 +95,7 @@ Report drive(const Line& line) {
       server.advance();
       next_step += 1000.0 / kTickHz;
       if (const auto ack = waiting.find(tick); ack != waiting.end()) {
-        const state::Louse& louse = *server.world().find(id);
-        ack->second.you = protocol::ExactState{tick + 1,
-                                               id,
-                                               louse.position,
-                                               louse.velocity,
-                                               louse.heading,
-                                               louse.thrust,
-                                               static_cast<std::uint32_t>(louse.thrust_kind),
-                                               louse.thrust_ticks,
-                                               static_cast<std::uint32_t>(louse.phase),
-                                               louse.flight_z,
-                                               louse.flight_vz,
-                                               louse.distance};
+        ack->second.you = protocol::ExactState{tick + 1, *server.world().find(id)};
         answers.push_back({delayed(now, line.down_ms, last_down), ack->second});
         waiting.erase(ack);
       }

@@ -32,22 +32,7 @@ std::shared_ptr<const map::Map> over_the_wire(const map::Map& original) {
   return *parsed;
 }
 
-protocol::ExactState exact(const state::Louse& louse, std::uint64_t tick) {
-  protocol::ExactState state;
-  state.tick = tick;
-  state.id = louse.id;
-  state.position = louse.position;
-  state.velocity = louse.velocity;
-  state.heading = louse.heading;
-  state.thrust = louse.thrust;
-  state.thrust_kind = static_cast<std::uint32_t>(louse.thrust_kind);
-  state.thrust_ticks = louse.thrust_ticks;
-  state.phase = static_cast<std::uint32_t>(louse.phase);
-  state.flight_z = louse.flight_z;
-  state.flight_vz = louse.flight_vz;
-  state.distance = louse.distance;
-  return state;
-}
+protocol::ExactState exact(const state::Louse& louse, std::uint64_t tick) { return {tick, louse}; }
 
 bool same_bits(const state::Louse& a, const state::Louse& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 

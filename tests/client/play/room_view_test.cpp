@@ -215,9 +215,9 @@ TEST_CASE(
       protocol::Ack ack{input->seq, input->tick.value_or(tick), 9000, false, false,
                         false,      protocol::ExactState{}};
       ack.you->tick = ack.tick + 1;
-      ack.you->id = 1;
-      ack.you->position = {400.0, 400.0};  // nothing is drawn from it
-      ack.you->heading = {1.0, 0.0};
+      ack.you->louse.id = 1;
+      ack.you->louse.position = {400.0, 400.0};  // nothing is drawn from it
+      ack.you->louse.heading = {1.0, 0.0};
       REQUIRE(room.on_message(ack, now));
     }
   }

@@ -120,20 +120,7 @@ TEST_CASE("a key of all columns in exact format recomputes the state hash") {
 
   std::vector<state::Louse> lice;
   for (std::size_t i = 0; i < decoded.rows(); ++i) {
-    const double* v = &decoded.values[i * decoded.columns];
-    state::Louse louse;
-    louse.id = static_cast<std::uint32_t>(v[0]);
-    louse.phase = static_cast<state::Phase>(static_cast<std::uint32_t>(v[1]));
-    louse.position = {v[2], v[3]};
-    louse.velocity = {v[4], v[5]};
-    louse.heading = {v[6], v[7]};
-    louse.thrust = {v[8], v[9]};
-    louse.flight_z = v[10];
-    louse.flight_vz = v[11];
-    louse.distance = v[12];
-    louse.thrust_kind = static_cast<state::ThrustKind>(static_cast<std::uint32_t>(v[13]));
-    louse.thrust_ticks = static_cast<std::uint32_t>(v[14]);
-    lice.push_back(louse);
+    lice.push_back(state::louse_of(std::span(decoded.values).subspan(i * decoded.columns, decoded.columns)));
   }
   CHECK(decoded.hash == state::state_hash(hasher, scenery.link, lice));
   CHECK_THAT(

@@ -256,7 +256,7 @@ TEST_CASE("whoever took a louse over counts its inputs from the start and is ans
   CHECK(ack.seq == 0);
   CHECK(ack.tick == 1);
   CHECK_FALSE(ack.dropped);
-  CHECK(ack.you->id == 1);
+  CHECK(ack.you->louse.id == 1);
 }
 
 TEST_CASE("the house's bots take over the lice of bots of their name") {
