@@ -6,6 +6,8 @@
 
 #include <utility>
 
+#include "shared/json/utf8.h"
+
 namespace woodlouse::server {
 namespace {
 
@@ -21,37 +23,22 @@ class EscapedMessage final : public spdlog::custom_flag_formatter {
   }
 };
 
-/// Bytes of the UTF-8 sequence at the beginning of the text; 0: it is none.
-std::size_t sequence_length(std::string_view text) {
-  const auto lead = static_cast<unsigned char>(text.front());
-  const std::size_t length = lead < 0x80       ? 1
-                             : lead >> 5 == 6  ? 2
-                             : lead >> 4 == 14 ? 3
-                             : lead >> 3 == 30 ? 4
-                                               : 0;
-  if (length == 0 || length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) return 0;
-  return length;
-}
-
 }  // namespace
 
 std::string json_escaped(std::string_view text) {
   std::string out;
   out.reserve(text.size());
   while (!text.empty()) {
-    const std::size_t length = sequence_length(text);
-    const auto byte = static_cast<unsigned char>(text.front());
-    if (length == 0)
+    const json::Utf8Character character = json::first_character(text);
+    if (!character.valid)
       out += '?';
-    else if (byte == '"' || byte == '\\')
+    else if (character.code == '"' || character.code == '\\')
       out += {'\\', text.front()};
-    else if (byte < 0x20)
-      out += fmt::format("\\u{:04x}", byte);
+    else if (character.code < 0x20)
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(character.code));
     else
-      out += text.substr(0, length);
-    text.remove_prefix(length == 0 ? 1 : length);
+      out += text.substr(0, character.size);
+    text.remove_prefix(character.size);
   }
   return out;
 }

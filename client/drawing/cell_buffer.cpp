@@ -2,29 +2,10 @@
 
 #include <algorithm>
 
+#include "shared/json/utf8.h"
+
 namespace woodlouse::client {
 namespace {
-
-/// A code point of `utf8` at `at`, which is moved past it; U+FFFD for a byte that begins none.
-char32_t take_code_point(std::string_view utf8, std::size_t& at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(utf8[i]); };
-  const unsigned lead = byte(at++);
-  if (lead < 0x80) return lead;
-  std::size_t more = 0;
-  char32_t smallest = 0;
-  char32_t value = 0;
-  if ((lead & 0xE0u) == 0xC0u) more = 1, smallest = 0x80, value = lead & 0x1Fu;
-  if ((lead & 0xF0u) == 0xE0u) more = 2, smallest = 0x800, value = lead & 0x0Fu;
-  if ((lead & 0xF8u) == 0xF0u) more = 3, smallest = 0x10000, value = lead & 0x07u;
-  if (more == 0 || at + more > utf8.size()) return U'\uFFFD';
-  for (std::size_t i = 0; i < more; ++i) {
-    if ((byte(at + i) & 0xC0u) != 0x80u) return U'\uFFFD';
-    value = (value << 6) | (byte(at + i) & 0x3Fu);
-  }
-  if (value < smallest) return U'\uFFFD';
-  at += more;
-  return value;
-}
 
 bool is_one_column_wide(char32_t c, GlyphSet glyphs) {
   if (c >= 0x20 && c < 0x7F) return true;
@@ -39,22 +20,13 @@ bool is_one_column_wide(char32_t c, GlyphSet glyphs) {
 
 std::u32string printable(std::string_view utf8, GlyphSet glyphs) {
   std::u32string result;
-  for (std::size_t at = 0; at < utf8.size();) {
-    const char32_t c = take_code_point(utf8, at);
-    result.push_back(is_one_column_wide(c, glyphs) ? c : U'?');
+  while (!utf8.empty()) {
+    const json::Utf8Character character = json::first_character(utf8);
+    const bool is_shown = character.valid && is_one_column_wide(character.code, glyphs);
+    result.push_back(is_shown ? character.code : U'?');
+    utf8.remove_prefix(character.size);
   }
   return result;
-}
-
-void append_utf8(char32_t c, std::string& out) {
-  const auto byte = [&](char32_t value) {
-    out.push_back(static_cast<char>(static_cast<unsigned char>(value)));
-  };
-  if (c < 0x80) return byte(c);
-  if (c < 0x800) return byte(0xC0 | (c >> 6)), byte(0x80 | (c & 0x3F));
-  if (c < 0x10000) return byte(0xE0 | (c >> 12)), byte(0x80 | ((c >> 6) & 0x3F)), byte(0x80 | (c & 0x3F));
-  byte(0xF0 | (c >> 18)), byte(0x80 | ((c >> 12) & 0x3F)), byte(0x80 | ((c >> 6) & 0x3F)),
-      byte(0x80 | (c & 0x3F));
 }
 
 void CellBuffer::resize(Size size) {

@@ -52,9 +52,6 @@ enum class GlyphSet : std::uint8_t {
 /// aligned and nothing a stranger typed reaches the terminal as a command.
 std::u32string printable(std::string_view utf8, GlyphSet glyphs);
 
-/// Appends a code point's UTF-8 bytes.
-void append_utf8(char32_t code_point, std::string& out);
-
 class CellBuffer {
  public:
   CellBuffer() = default;

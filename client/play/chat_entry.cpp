@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "shared/json/utf8.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::client {
@@ -34,7 +35,7 @@ ChatEntry::Outcome ChatEntry::type(const Key& key) {
   if (key.control && key.character == U'u') text_.clear();
   if (key.control || key.alt) return Outcome::kTyping;
   std::string bytes;
-  append_utf8(bytes, key.character);
+  json::append_character(bytes, key.character);
   if (text_.size() + bytes.size() <= protocol::kMaxChatBytes) text_ += bytes;
   return Outcome::kTyping;
 }

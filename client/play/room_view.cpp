@@ -24,11 +24,6 @@ std::int64_t microseconds(TimePoint time) {
   return std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch()).count();
 }
 
-terrain::HeightGrid grid_of(const protocol::Overview& overview) {
-  return {overview.columns,   overview.rows,      overview.origin.x, overview.origin.y,
-          overview.spacing.x, overview.spacing.y, overview.heights};
-}
-
 }  // namespace
 
 protocol::Join make_join(protocol::Role role, const std::string& name, const std::string& room,
@@ -93,8 +88,8 @@ void RoomView::take(const protocol::Welcome& welcome) {
 }
 
 core::Expected<void> RoomView::take(const protocol::MapMessage& message) {
-  auto parsed = message.overview
-                    ? map::parse_overview(message.definition, "the server's map", grid_of(*message.overview))
+  auto parsed = message.is_overview && message.knots
+                    ? map::parse_overview(message.definition, "the server's map", *message.knots)
                     : map::parse_map(message.definition, "the server's map", {});
   if (!parsed) return tl::unexpected(parsed.error());
   if (welcome_ && (*parsed)->hash != welcome_->map_hash) {

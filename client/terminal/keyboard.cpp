@@ -16,27 +16,6 @@ bool ends_with(std::string_view text, std::string_view end) {
 
 }  // namespace
 
-void append_utf8(std::string& out, char32_t c) {
-  const auto byte = [&out](char32_t value) {
-    out.push_back(static_cast<char>(static_cast<unsigned char>(value)));
-  };
-  if (c < 0x80) {
-    byte(c);
-  } else if (c < 0x800) {
-    byte(0xc0 | (c >> 6));
-    byte(0x80 | (c & 0x3f));
-  } else if (c < 0x10000) {
-    byte(0xe0 | (c >> 12));
-    byte(0x80 | ((c >> 6) & 0x3f));
-    byte(0x80 | (c & 0x3f));
-  } else {
-    byte(0xf0 | (c >> 18));
-    byte(0x80 | ((c >> 12) & 0x3f));
-    byte(0x80 | ((c >> 6) & 0x3f));
-    byte(0x80 | (c & 0x3f));
-  }
-}
-
 void Keyboard::feed(std::string_view bytes, TimePoint now, std::vector<TerminalInput>& out) {
   for (const char c : bytes) take(static_cast<unsigned char>(c), out);
   last_byte_ = now;

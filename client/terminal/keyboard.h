@@ -102,7 +102,4 @@ class Keyboard {
   int missing_ = 0;          ///< continuation bytes still to come
 };
 
-/// UTF-8 of one code point.
-void append_utf8(std::string& out, char32_t code_point);
-
 }  // namespace woodlouse::client

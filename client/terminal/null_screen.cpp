@@ -1,5 +1,7 @@
 #include "client/terminal/null_screen.h"
 
+#include "shared/json/utf8.h"
+
 namespace woodlouse::client {
 
 FrameResult NullScreen::show(const CellBuffer& frame) {
@@ -15,7 +17,7 @@ std::string NullScreen::text() const {
     std::u32string line;
     for (const Cell& cell : last_.row(row)) line.push_back(cell.glyph);
     while (!line.empty() && line.back() == U' ') line.pop_back();
-    for (const char32_t c : line) append_utf8(c, result);
+    for (const char32_t c : line) json::append_character(result, c);
     result += '\n';
   }
   return result;

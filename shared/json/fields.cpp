@@ -1,7 +1,10 @@
 #include "shared/json/fields.h"
 
 #include <algorithm>
+#include <cassert>
+#include <charconv>
 #include <numeric>
+#include <system_error>
 #include <utility>
 
 #include "shared/core/joined.h"
@@ -30,6 +33,33 @@ std::string expected(std::string_view wanted, const Value& value) {
 }
 
 }  // namespace
+
+std::optional<std::uint64_t> unsigned_text(std::string_view text, int base) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, base);
+  if (text.empty() || error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+std::optional<std::uint64_t> hash_of(const Value& value) {
+  const std::string_view text = value.is(Kind::kString) ? value.text() : std::string_view();
+  const bool is_hash =
+      text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+  return is_hash ? unsigned_text(text, 16) : std::nullopt;
+}
+
+std::optional<core::Vec2> pair_of(const Value& value) {
+  if (!value.is(Kind::kArray) || value.size() != 2) return std::nullopt;
+  const std::vector<Value> elements = value.children();
+  if (!elements[0].is_number() || !elements[1].is_number()) return std::nullopt;
+  return core::Vec2{elements[0].number(), elements[1].number()};
+}
+
+std::optional<std::int64_t> integer_of(const Value& value, std::int64_t low, std::int64_t high) {
+  assert(low <= high);
+  const std::optional<std::int64_t> number = value.integer();
+  return number && *number >= low && *number <= high ? number : std::nullopt;
+}
 
 void Problems::add(std::size_t line, std::string_view field, std::string what, std::string hint) {
   std::string where = source_;
@@ -103,6 +133,12 @@ std::optional<std::string> text_in(const Value& value, std::size_t min, std::siz
   return std::string(text);
 }
 
+std::string any_text(const Value& value, std::size_t max, Problems& problems) {
+  if (value.is(Kind::kString) && value.text().size() <= max) return std::string(value.text());
+  problems.add(value, core::joined({"text of at most ", std::to_string(max), " bytes is wanted"}));
+  return {};
+}
+
 std::string did_you_mean(std::string_view text, std::initializer_list<std::string_view> candidates) {
   std::string_view best;
   std::size_t best_distance = std::max<std::size_t>(2, text.size() / 3) + 1;
@@ -140,6 +176,24 @@ std::optional<Value> Fields::demand(std::string_view key, std::string_view hint)
     problems_.add(object_, core::joined({"\"", key, "\" is missing"}), std::string(hint));
   }
   return value;
+}
+
+std::uint64_t Fields::integer(std::string_view key, std::uint64_t min, std::uint64_t max) const {
+  const std::optional<Value> value = demand(key);
+  return value ? integer_in(*value, min, max, problems_).value_or(min) : min;
+}
+
+std::uint64_t Fields::hash(std::string_view key) const {
+  const std::optional<Value> value = demand(key);
+  if (!value) return 0;
+  const std::optional<std::uint64_t> hash = hash_of(*value);
+  if (!hash) problems_.add(*value, "16 lower-case hex digits are wanted");
+  return hash.value_or(0);
+}
+
+std::string Fields::text(std::string_view key, std::size_t max) const {
+  const std::optional<Value> value = demand(key);
+  return value ? any_text(*value, max, problems_) : std::string();
 }
 
 double Fields::number_or(std::string_view key, const Range& range, double fallback) const {

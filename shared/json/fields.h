@@ -1,5 +1,6 @@
-// Reads the fields of a JSON object, each with its range, and collects every problem on the way: a reader
-// goes on with a fallback, so that one run tells all that is wrong.
+// What a field may be, checked in one place. Two kinds of reader say what was wrong: Fields and Problems
+// below, for files, collect every problem with its line and go on with a fallback, so that one run tells all;
+// the wire's (protocol/field_reader.h) keeps the first fault and its code. Both ask the checks here.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +17,27 @@
 #include "shared/json/document.h"
 
 namespace woodlouse::json {
+
+// ---- checks: the value, or nothing where it is none of that kind and range
+// ------------------------------------
+
+/// 16 lower-case hex digits in quotes.
+std::optional<std::uint64_t> hash_of(const Value& value);
+/// Two numbers.
+std::optional<core::Vec2> pair_of(const Value& value);
+/// A whole number of that range.
+std::optional<std::int64_t> integer_of(const Value& value, std::int64_t low, std::int64_t high);
+/// A text that from_text(std::string_view) knows; it gives an optional.
+template <typename FromText>
+auto choice_of(const Value& value, const FromText& from_text) -> decltype(from_text(std::string_view())) {
+  if (!value.is(Kind::kString)) return std::nullopt;
+  return from_text(value.text());
+}
+/// A whole text as an unsigned number of that base.
+std::optional<std::uint64_t> unsigned_text(std::string_view text, int base);
+
+// ---- every problem, with its line
+// -------------------------------------------------------------------------------
 
 /// What is wrong with one source; the first kMaxProblems, so that a file of garbage stays readable.
 class Problems {
@@ -55,6 +77,9 @@ std::optional<std::uint64_t> integer_in(const Value& value, std::uint64_t min, s
 /// Text of min..max bytes without control characters.
 std::optional<std::string> text_in(const Value& value, std::size_t min, std::size_t max, Problems& problems);
 
+/// Text of at most that many bytes, otherwise as it was said.
+std::string any_text(const Value& value, std::size_t max, Problems& problems);
+
 /// The members of an object. Reports unknown ones at once, with the known one that looks most alike.
 class Fields {
  public:
@@ -66,6 +91,11 @@ class Fields {
   [[nodiscard]] std::optional<Value> demand(std::string_view key, std::string_view hint = {}) const;
   /// A number that may be left out.
   [[nodiscard]] double number_or(std::string_view key, const Range& range, double fallback) const;
+
+  // Those that must be there; what is missing or wrong is reported, and the least value or nothing given.
+  [[nodiscard]] std::uint64_t integer(std::string_view key, std::uint64_t min, std::uint64_t max) const;
+  [[nodiscard]] std::uint64_t hash(std::string_view key) const;
+  [[nodiscard]] std::string text(std::string_view key, std::size_t max) const;
 
  private:
   Value object_;

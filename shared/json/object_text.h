@@ -1,7 +1,9 @@
-// Builds one line: {"type":"...",members...}\n, members in the order they are added.
+// Writes one JSON object, members in the order they are added: the wire's lines, recordings, canonical maps.
 #pragma once
 
+#include <cassert>
 #include <concepts>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,9 +13,30 @@
 
 namespace woodlouse::json {
 
+/// Elements of an array, each written by write(out, element), with commas between and brackets around.
+template <typename Elements, typename Write>
+void append_array(std::string& out, const Elements& elements, const Write& write) {
+  out += '[';
+  bool first = true;
+  for (const auto& element : elements) {
+    if (!std::exchange(first, false)) out += ',';
+    write(out, element);
+  }
+  out += ']';
+}
+
+/// The object is open until end() or line(). Names are written as they are given, escaped.
 class ObjectText {
  public:
-  explicit ObjectText(std::string_view type) : out_("{\"type\":") { append_string(out_, type); }
+  /// Appends to `out`, which must outlive it.
+  explicit ObjectText(std::string& out) : out_(out) { out_ += '{'; }
+  /// A text of its own: a message of the wire, whose first member is its type.
+  explicit ObjectText(std::string_view type) : out_(own_) {
+    out_ += '{';
+    text("type", type);
+  }
+  ObjectText(const ObjectText&) = delete;
+  ObjectText& operator=(const ObjectText&) = delete;
 
   ObjectText& text(std::string_view name, std::string_view value) {
     append_string(key(name), value);
@@ -32,41 +55,59 @@ class ObjectText {
     key(name) += value ? "true" : "false";
     return *this;
   }
+  /// 64 bits as 16 hex digits in quotes: many readers hold numbers as doubles.
+  ObjectText& hash(std::string_view name, std::uint64_t value) {
+    append_hash(key(name), value);
+    return *this;
+  }
   ObjectText& pair(std::string_view name, core::Vec2 value) {
-    append_double(key(name) += '[', value.x);
-    append_double(out_ += ',', value.y);
-    out_ += ']';
+    append_pair(key(name), value.x, value.y);
     return *this;
   }
   /// A member that is JSON already.
   ObjectText& json(std::string_view name, std::string_view value) {
+    assert(!value.empty());
     key(name) += value;
+    return *this;
+  }
+  /// A member whose value write(out) appends.
+  template <typename Write>
+  ObjectText& value(std::string_view name, const Write& write) {
+    write(key(name));
     return *this;
   }
   /// An array: write(out, element) appends each element.
   template <typename Elements, typename Write>
-  ObjectText& array(std::string_view name, const Elements& elements, Write write) {
-    key(name) += '[';
-    bool first = true;
-    for (const auto& element : elements) {
-      if (!std::exchange(first, false)) out_ += ',';
-      write(out_, element);
-    }
-    out_ += ']';
+  ObjectText& array(std::string_view name, const Elements& elements, const Write& write) {
+    append_array(key(name), elements, write);
     return *this;
   }
-  /// An object: write(*this) appends its members.
+  /// An array of objects: write(ObjectText&, element) adds the members of each.
+  template <typename Elements, typename Write>
+  ObjectText& objects(std::string_view name, const Elements& elements, const Write& write) {
+    return array(name, elements, [&](std::string& out, const auto& element) {
+      ObjectText object(out);
+      write(object, element);
+      object.end();
+    });
+  }
+  /// An object: write(ObjectText&) adds its members.
   template <typename Write>
-  ObjectText& object(std::string_view name, Write write) {
-    key(name) += '{';
-    begins_ = true;
-    write(*this);
-    begins_ = false;
-    out_ += '}';
+  ObjectText& object(std::string_view name, const Write& write) {
+    ObjectText inner(key(name));
+    write(inner);
+    inner.end();
     return *this;
   }
 
-  [[nodiscard]] std::string line() && { return std::move(out_ += "}\n"); }
+  /// Closes the object, which is complete now. Once.
+  void end() { out_ += '}'; }
+  /// Closes it and gives its line. REQUIRES a text of its own.
+  [[nodiscard]] std::string line() {
+    assert(&out_ == &own_);
+    end();
+    return std::move(own_ += '\n');
+  }
 
  private:
   std::string& key(std::string_view name) {
@@ -75,8 +116,9 @@ class ObjectText {
     return out_ += ':';
   }
 
-  std::string out_;
-  bool begins_ = false;  ///< an object was just opened: its first member needs no comma
+  std::string own_;
+  std::string& out_;
+  bool begins_ = true;  ///< no member yet: the first needs no comma
 };
 
 }  // namespace woodlouse::json

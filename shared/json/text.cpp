@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "shared/core/stable_hash.h"
 #include "shared/json/digits.h"
 #include "shared/json/utf8.h"
 
@@ -75,6 +76,27 @@ char* write_double(char* to, double value) {
   char* const end = std::to_chars(to, to + kMaxNumberChars, value).ptr;
   const bool minus_zero = value == 0.0 && std::signbit(value);
   return minus_zero ? std::copy_n("-0.0", 4, to) : end;
+}
+
+void append_hash(std::string& out, std::uint64_t value) {
+  out += '"';
+  out += core::to_hex(value);
+  out += '"';
+}
+
+void append_pair(std::string& out, double x, double y) {
+  append_double(out += '[', x);
+  append_double(out += ',', y);
+  out += ']';
+}
+
+void append_rows(std::string& out, std::span<const double> values, std::size_t columns) {
+  assert(columns >= 1 && !values.empty() && values.size() % columns == 0);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    out += k == 0 ? "[[" : k % columns == 0 ? "],[" : ",";
+    append_double(out, values[k]);
+  }
+  out += "]]";
 }
 
 void append_string(std::string& out, std::string_view text) {

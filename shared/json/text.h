@@ -3,6 +3,8 @@
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -26,6 +28,13 @@ void append_integer(std::string& out, T value) {
 /// an integer and lose its sign. REQUIRES a finite value.
 void append_double(std::string& out, double value);
 std::string double_text(double value);
+
+/// Quoted: 16 lower-case hex digits.
+void append_hash(std::string& out, std::uint64_t value);
+/// [x,y]
+void append_pair(std::string& out, double x, double y);
+/// [[row],[row],..] of values that stand row by row. REQUIRES columns >= 1 and whole rows, at least one.
+void append_rows(std::string& out, std::span<const double> values, std::size_t columns);
 
 /// These write at `to`, which has room for kMaxNumberChars, and return the end.
 char* write_integer(char* to, long long value);

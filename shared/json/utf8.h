@@ -1,8 +1,10 @@
-// The first character of a UTF-8 text, by table 3-7 of the Unicode standard (no overlong forms, no
-// surrogates).
+// UTF-8, taken apart and put together: the first character of a text, by table 3-7 of the Unicode standard
+// (no overlong forms, no surrogates).
 #pragma once
 
+#include <cassert>
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace woodlouse::json {
@@ -32,6 +34,24 @@ inline Utf8Character first_character(std::string_view text) {
   const bool surrogate = code >= 0xd800 && code <= 0xdfff;
   if (overlong || surrogate || code > 0x10ffff) return {};
   return {code, size, true};
+}
+
+/// REQUIRES a code point, at most 0x10ffff.
+inline void append_character(std::string& out, char32_t code) {
+  assert(code <= 0x10ffff);
+  const auto byte = [&out](char32_t value) { out += static_cast<char>(static_cast<unsigned char>(value)); };
+  if (code < 0x80) return byte(code);
+  if (code < 0x800) {
+    byte(0xc0 | (code >> 6));
+  } else if (code < 0x10000) {
+    byte(0xe0 | (code >> 12));
+    byte(0x80 | ((code >> 6) & 0x3f));
+  } else {
+    byte(0xf0 | (code >> 18));
+    byte(0x80 | ((code >> 12) & 0x3f));
+    byte(0x80 | ((code >> 6) & 0x3f));
+  }
+  byte(0x80 | (code & 0x3f));
 }
 
 }  // namespace woodlouse::json

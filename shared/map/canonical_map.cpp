@@ -2,8 +2,7 @@
 
 #include <cassert>
 
-#include "shared/core/stable_hash.h"
-#include "shared/json/text.h"
+#include "shared/json/object_text.h"
 
 namespace woodlouse::map {
 namespace {
@@ -21,75 +20,40 @@ std::string_view to_text(SurfaceKind kind) {
   return {};
 }
 
-void append_pair(std::string& out, double x, double y) {
-  out += '[';
-  json::append_double(out, x);
-  out += ',';
-  json::append_double(out, y);
-  out += ']';
+void add_heights(json::ObjectText& terrain, const terrain::HeightGrid& grid) {
+  terrain.pair("origin", {grid.x_origin, grid.y_origin}).pair("spacing", {grid.dx, grid.dy});
+  terrain.value("heights", [&](std::string& out) { json::append_rows(out, grid.heights, grid.columns); });
 }
 
-void append_heights(std::string& out, const terrain::HeightGrid& grid) {
-  out += "{\"origin\":";
-  append_pair(out, grid.x_origin, grid.y_origin);
-  out += ",\"spacing\":";
-  append_pair(out, grid.dx, grid.dy);
-  out += ",\"heights\":[";
-  for (std::size_t j = 0; j < grid.rows; ++j) {
-    out += j == 0 ? "[" : ",[";
-    for (std::size_t i = 0; i < grid.columns; ++i) {
-      if (i != 0) out += ',';
-      json::append_double(out, grid.at(i, j));
-    }
-    out += ']';
+void add_tiled(json::ObjectText& terrain, const TiledTerrain& tiled) {
+  terrain.text("file", tiled.file).number("scale", tiled.scale).number("fill_level", tiled.fill_level);
+  terrain.text("storage", "tiles").hash("fingerprint", tiled.fingerprint);
+}
+
+void add_function(json::ObjectText& terrain, const FunctionTerrain& function) {
+  terrain.text("function", terrain::to_text(function.function));
+  terrain.integer("grid", function.grid).number("scale", function.scale);
+}
+
+void add_terrain(json::ObjectText& terrain, const MapDefinition& definition) {
+  if (definition.surface == SurfaceKind::kFunction) {
+    add_function(terrain, std::get<FunctionTerrain>(definition.terrain));
+  } else if (const auto* tiled = std::get_if<TiledTerrain>(&definition.terrain)) {
+    add_tiled(terrain, *tiled);
+  } else {
+    add_heights(terrain, knots_of(definition));
   }
-  out += "]}";
 }
 
-void append_tiled(std::string& out, const TiledTerrain& terrain) {
-  out += "{\"file\":";
-  json::append_string(out, terrain.file);
-  out += ",\"scale\":";
-  json::append_double(out, terrain.scale);
-  out += ",\"fill_level\":";
-  json::append_double(out, terrain.fill_level);
-  out += ",\"storage\":\"tiles\",\"fingerprint\":\"" + core::to_hex(terrain.fingerprint) + "\"}";
-}
-
-void append_function(std::string& out, const FunctionTerrain& function) {
-  out += "{\"function\":";
-  json::append_string(out, terrain::to_text(function.function));
-  out += ",\"grid\":" + std::to_string(function.grid) + ",\"scale\":";
-  json::append_double(out, function.scale);
-  out += '}';
-}
-
-void append_physics(std::string& out, const state::Parameters& physics) {
-  out += "{\"gravity\":";
-  json::append_double(out, physics.gravity);
-  out += ",\"drag\":";
-  json::append_double(out, physics.drag);
-  out += ",\"friction\":";
-  json::append_double(out, physics.friction);
-  out += ",\"thrust_max\":";
-  json::append_double(out, physics.thrust_max);
-  out += ",\"edge_restitution\":";
-  json::append_double(out, physics.edge_restitution);
+void add_physics(json::ObjectText& text, const state::Parameters& physics) {
+  text.number("gravity", physics.gravity).number("drag", physics.drag).number("friction", physics.friction);
+  text.number("thrust_max", physics.thrust_max).number("edge_restitution", physics.edge_restitution);
   // What few maps have is left out where it is the default.
   const state::Parameters usual;
-  if (physics.central_gravity != usual.central_gravity) {
-    out += ",\"central_gravity\":";
-    json::append_double(out, physics.central_gravity);
-  }
-  if (physics.contact != usual.contact) {
-    out += ",\"contact\":";
-    json::append_string(out, state::to_text(physics.contact));
-  }
-  if (physics.method != usual.method) {
-    out += ",\"method\":";
-    json::append_string(out, state::to_text(physics.method));
-  }
-  out += '}';
+  if (physics.central_gravity != usual.central_gravity)
+    text.number("central_gravity", physics.central_gravity);
+  if (physics.contact != usual.contact) text.text("contact", state::to_text(physics.contact));
+  if (physics.method != usual.method) text.text("method", state::to_text(physics.method));
 }
 
 }  // namespace
@@ -102,37 +66,19 @@ terrain::HeightGrid knots_of(const MapDefinition& definition) {
 }
 
 std::string canonical_text(const MapDefinition& definition) {
-  std::string out = "{\"name\":";
-  json::append_string(out, definition.name);
-  out += ",\"terrain\":";
-  if (definition.surface == SurfaceKind::kFunction) {
-    append_function(out, std::get<FunctionTerrain>(definition.terrain));
-  } else if (const auto* tiled = std::get_if<TiledTerrain>(&definition.terrain)) {
-    append_tiled(out, *tiled);
-  } else {
-    append_heights(out, knots_of(definition));
-  }
-  out += ",\"surface\":";
-  json::append_string(out, to_text(definition.surface));
-  if (definition.physics.edges != state::Parameters{}.edges) {
-    out += ",\"edges\":";
-    json::append_string(out, state::to_text(definition.physics.edges));
-  }
-  out += ",\"physics\":";
-  append_physics(out, definition.physics);
-  out += ",\"spawns\":[";
-  for (std::size_t k = 0; k < definition.spawns.size(); ++k) {
-    out += k == 0 ? "{\"position\":" : ",{\"position\":";
-    append_pair(out, definition.spawns[k].position.x, definition.spawns[k].position.y);
-    out += ",\"heading\":";
-    append_pair(out, definition.spawns[k].heading.x, definition.spawns[k].heading.y);
-    if (definition.spawns[k].speed != 0.0) {
-      out += ",\"speed\":";
-      json::append_double(out, definition.spawns[k].speed);
-    }
-    out += '}';
-  }
-  out += "]}";
+  std::string out;
+  json::ObjectText text(out);
+  text.text("name", definition.name);
+  text.object("terrain", [&](json::ObjectText& terrain) { add_terrain(terrain, definition); });
+  text.text("surface", to_text(definition.surface));
+  if (definition.physics.edges != state::Parameters{}.edges)
+    text.text("edges", state::to_text(definition.physics.edges));
+  text.object("physics", [&](json::ObjectText& physics) { add_physics(physics, definition.physics); });
+  text.objects("spawns", definition.spawns, [](json::ObjectText& entry, const SpawnPoint& spawn) {
+    entry.pair("position", spawn.position).pair("heading", spawn.heading);
+    if (spawn.speed != 0.0) entry.number("speed", spawn.speed);
+  });
+  text.end();
   return out;
 }
 

@@ -48,7 +48,7 @@ void read_choice(const json::Fields& fields, std::string_view key, E& out, FromT
                  std::string wanted, json::Problems& problems) {
   const auto value = fields.find(key);
   if (!value) return;
-  const std::optional<E> found = value->is(json::Kind::kString) ? from_text(value->text()) : std::nullopt;
+  const std::optional<E> found = json::choice_of(*value, from_text);
   if (found) {
     out = *found;
   } else {

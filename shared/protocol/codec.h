@@ -33,8 +33,6 @@ tl::expected<ServerMessage, DecodeError> decode_server(std::string_view line,
 std::string encode(const ClientMessage& message);
 /// REQUIRES no Frame: those are written once for all who see them (server/room/frame_encoder.h).
 std::string encode(const ServerMessage& message);
-/// knots_json: the member `knots`, as JSON; empty: none. REQUIRES none where the message has an overview.
-std::string encode_map(const MapMessage& message, std::string_view knots_json);
 
 inline constexpr std::size_t kMaxValueChars = 24;
 /// A column's value of a row, given in units (m, m/s, rad), as text at `to`, which has room for

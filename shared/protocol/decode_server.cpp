@@ -227,13 +227,19 @@ Decoded read_rooms(FieldReader& reader, const Context&) {
   return reader.finish<ServerMessage>(std::move(rooms));
 }
 
-void read_overview(FieldReader& knots, Overview& overview) {
+void read_overview(FieldReader& knots, terrain::HeightGrid& overview) {
   constexpr IntegerRange kSide{4, static_cast<std::int64_t>(kMaxOverviewSide)};
-  knots.pair("origin", overview.origin);
-  knots.pair("spacing", overview.spacing);
-  if (!knots.failed() && !(overview.spacing.x > 0.0 && overview.spacing.y > 0.0)) {
+  core::Vec2 origin;
+  core::Vec2 spacing;
+  knots.pair("origin", origin);
+  knots.pair("spacing", spacing);
+  if (!knots.failed() && !(spacing.x > 0.0 && spacing.y > 0.0)) {
     knots.fail(code::kBadField, "map.knots.spacing: it must be two numbers above 0");
   }
+  overview.x_origin = origin.x;
+  overview.y_origin = origin.y;
+  overview.dx = spacing.x;
+  overview.dy = spacing.y;
   knots.integer("columns", overview.columns, kSide);
   knots.integer("rows", overview.rows, kSide);
   knots.array("heights", "an array of rows", [&](json::Value row, std::size_t index) {
@@ -264,10 +270,10 @@ Decoded read_map(FieldReader& reader, const Context&) {
     if (definition->kind() != json::Kind::kObject) reader.refuse("definition", *definition, "an object");
     if (!reader.failed()) map.definition = definition->raw();  // the hash is taken over these bytes
   }
-  bool is_overview = false;
-  if (reader.field("overview", "true or false", Presence::kOptional)) reader.boolean("overview", is_overview);
-  if (is_overview)
-    reader.object("knots", [&](FieldReader& knots) { read_overview(knots, map.overview.emplace()); });
+  if (reader.field("overview", "true or false", Presence::kOptional))
+    reader.boolean("overview", map.is_overview);
+  if (map.is_overview)
+    reader.object("knots", [&](FieldReader& knots) { read_overview(knots, map.knots.emplace()); });
   return reader.finish<ServerMessage>(std::move(map));
 }
 

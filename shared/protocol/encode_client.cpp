@@ -13,7 +13,7 @@ std::string line_of(const Join& join) {
   if (!join.fields.empty()) text.array("fields", join.fields, append_name);
   text.text("format", to_text(join.format));
   if (join.state_hz) text.integer("state_hz", *join.state_hz);
-  return std::move(text).line();
+  return text.line();
 }
 
 std::string line_of(const Input& input) {
@@ -26,23 +26,17 @@ std::string line_of(const Input& input) {
   }
   if (input.ticks) text.integer("ticks", *input.ticks);
   if (input.tick) text.integer("tick", *input.tick);
-  return std::move(text).line();
+  return text.line();
 }
 
-std::string line_of(const Chat& chat) {
-  return std::move(json::ObjectText("chat").text("text", chat.text)).line();
-}
+std::string line_of(const Chat& chat) { return json::ObjectText("chat").text("text", chat.text).line(); }
 std::string line_of(const List&) { return json::ObjectText("list").line(); }
 std::string line_of(const GetMap&) { return json::ObjectText("get_map").line(); }
 std::string line_of(const Resync&) { return json::ObjectText("resync").line(); }
 std::string line_of(const Respawn&) { return json::ObjectText("respawn").line(); }
 std::string line_of(const Leave&) { return json::ObjectText("leave").line(); }
-std::string line_of(const Ping& ping) {
-  return std::move(json::ObjectText("ping").integer("t", ping.t)).line();
-}
-std::string line_of(const Pong& pong) {
-  return std::move(json::ObjectText("pong").integer("t", pong.t)).line();
-}
+std::string line_of(const Ping& ping) { return json::ObjectText("ping").integer("t", ping.t).line(); }
+std::string line_of(const Pong& pong) { return json::ObjectText("pong").integer("t", pong.t).line(); }
 
 }  // namespace
 

@@ -1,21 +1,10 @@
 #include <cassert>
 
-#include "shared/core/stable_hash.h"
 #include "shared/json/object_text.h"
 #include "shared/protocol/codec.h"
 
 namespace woodlouse::protocol {
 namespace {
-
-/// [[south row, west to east], ..., [north row]]
-std::string rows_of(const Overview& overview) {
-  std::string out = "[";
-  for (std::size_t k = 0; k < overview.heights.size(); ++k) {
-    out += k % overview.columns != 0 ? "," : k == 0 ? "[" : "],[";
-    json::append_double(out, overview.heights[k]);
-  }
-  return out + "]]";
-}
 
 std::string line_of(const Hello& hello) {
   json::ObjectText text("hello");
@@ -31,7 +20,7 @@ std::string line_of(const Hello& hello) {
     limits.integer("idle_s", hello.limits.idle_s).integer("per_address", hello.limits.per_address);
     limits.integer("per_room", hello.limits.per_room);
   });
-  return std::move(text).line();
+  return text.line();
 }
 
 std::string line_of(const Welcome& welcome) {
@@ -47,7 +36,7 @@ std::string line_of(const Welcome& welcome) {
   });
   text.text("format", to_text(welcome.format));
   text.object("map", [&](json::ObjectText& map) {
-    map.text("name", welcome.map_name).text("hash", core::to_hex(welcome.map_hash));
+    map.text("name", welcome.map_name).hash("hash", welcome.map_hash);
     map.array("extent", welcome.extent, json::append_double).integer("bytes", welcome.map_bytes);
   });
   text.object("physics", [&](json::ObjectText& physics) {
@@ -56,13 +45,10 @@ std::string line_of(const Welcome& welcome) {
     physics.number("edge_restitution", welcome.physics.edge_restitution);
   });
   text.text("mode", welcome.mode);
-  text.array("players", welcome.players, [](std::string& out, const PlayerEntry& player) {
-    json::append_integer(out += "{\"id\":", player.id);
-    json::append_string(out += ",\"name\":", player.name);
-    json::append_string(out += ",\"role\":", to_text(player.role));
-    out += '}';
+  text.objects("players", welcome.players, [](json::ObjectText& entry, const PlayerEntry& player) {
+    entry.integer("id", player.id).text("name", player.name).text("role", to_text(player.role));
   });
-  return std::move(text).line();
+  return text.line();
 }
 
 std::string line_of(const Frame&) {
@@ -90,7 +76,7 @@ std::string line_of(const Ack& ack) {
   if (ack.you) {
     text.object("you", [&](json::ObjectText& you) { append_exact(you, *ack.you); });
   }
-  return std::move(text).line();
+  return text.line();
 }
 
 std::string line_of(const Event& event) {
@@ -99,67 +85,56 @@ std::string line_of(const Event& event) {
   text.integer("id", event.id).text("name", event.name);
   if (event.kind == EventKind::kJoined) text.text("role", to_text(event.role));
   if (event.kind == EventKind::kChat) text.text("text", event.text);
-  return std::move(text).line();
+  return text.line();
 }
 
 std::string line_of(const Notice& notice) {
-  return std::move(json::ObjectText("notice").text("code", notice.code).text("text", notice.text)).line();
+  return json::ObjectText("notice").text("code", notice.code).text("text", notice.text).line();
 }
 
 std::string line_of(const ErrorMessage& error) {
   json::ObjectText text("error");
   text.text("code", error.code).text("text", error.text).boolean("fatal", error.fatal);
   if (error.retry_after_ms) text.integer("retry_after_ms", *error.retry_after_ms);
-  return std::move(text).line();
+  return text.line();
 }
 
 std::string line_of(const Bye& bye) {
   json::ObjectText text("bye");
   text.text("code", bye.code).text("text", bye.text).boolean("resumable", bye.resumable);
-  return std::move(text).line();
+  return text.line();
 }
 
 std::string line_of(const Rooms& rooms) {
   json::ObjectText text("rooms");
-  text.array("rooms", rooms.rooms, [](std::string& out, const RoomEntry& room) {
-    json::append_string(out += "{\"name\":", room.name);
-    json::append_string(out += ",\"map\":", room.map);
-    json::append_integer(out += ",\"players\":", room.players);
-    json::append_integer(out += ",\"bots\":", room.bots);
-    json::append_integer(out += ",\"spectators\":", room.spectators);
-    out += '}';
+  text.objects("rooms", rooms.rooms, [](json::ObjectText& entry, const RoomEntry& room) {
+    entry.text("name", room.name).text("map", room.map);
+    entry.integer("players", room.players).integer("bots", room.bots).integer("spectators", room.spectators);
   });
-  return std::move(text).line();
+  return text.line();
 }
 
-std::string line_of(const MapMessage& map) { return encode_map(map, {}); }
-std::string line_of(const Ping& ping) {
-  return std::move(json::ObjectText("ping").integer("t", ping.t)).line();
+/// {origin, spacing, columns, rows, heights: row by row from the south, each from west to east}
+void append_knots(json::ObjectText& knots, const terrain::HeightGrid& grid) {
+  knots.pair("origin", {grid.x_origin, grid.y_origin}).pair("spacing", {grid.dx, grid.dy});
+  knots.integer("columns", grid.columns).integer("rows", grid.rows);
+  knots.value("heights", [&](std::string& out) { json::append_rows(out, grid.heights, grid.columns); });
 }
-std::string line_of(const Pong& pong) {
-  return std::move(json::ObjectText("pong").integer("t", pong.t)).line();
+
+std::string line_of(const MapMessage& map) {
+  json::ObjectText text("map");
+  text.text("name", map.name).hash("hash", map.hash).json("definition", map.definition);
+  if (map.is_overview) text.boolean("overview", true);
+  if (map.knots) text.object("knots", [&](json::ObjectText& knots) { append_knots(knots, *map.knots); });
+  return text.line();
 }
+std::string line_of(const Ping& ping) { return json::ObjectText("ping").integer("t", ping.t).line(); }
+std::string line_of(const Pong& pong) { return json::ObjectText("pong").integer("t", pong.t).line(); }
 
 }  // namespace
 
 std::string encode(const ServerMessage& message) {
   return std::visit([](const auto& alternative) { return line_of(alternative); }, message);
-}
-
-std::string encode_map(const MapMessage& message, std::string_view knots_json) {
-  json::ObjectText text("map");
-  text.text("name", message.name)
-      .text("hash", core::to_hex(message.hash))
-      .json("definition", message.definition);
-  if (!knots_json.empty()) text.json("knots", knots_json);
-  if (message.overview) {
-    text.boolean("overview", true).object("knots", [&](json::ObjectText& knots) {
-      knots.pair("origin", message.overview->origin).pair("spacing", message.overview->spacing);
-      knots.integer("columns", message.overview->columns).integer("rows", message.overview->rows);
-      knots.json("heights", rows_of(*message.overview));
-    });
-  }
-  return std::move(text).line();
 }
 
 }  // namespace woodlouse::protocol

@@ -1,7 +1,5 @@
 #include "shared/protocol/field_reader.h"
 
-#include <charconv>
-
 #include "shared/protocol/codes.h"
 #include "shared/protocol/text_cleaning.h"
 
@@ -28,8 +26,8 @@ std::optional<std::int64_t> FieldReader::checked_integer(std::string_view name, 
                                                          Presence presence) {
   if (error_) return std::nullopt;
   const auto value = object_.find(name);
-  const auto number = value ? value->integer() : std::nullopt;
-  if (number && *number >= range.low && *number <= range.high) return number;
+  const auto number = value ? json::integer_of(*value, range.low, range.high) : std::nullopt;
+  if (number) return number;
   if (value) {
     refuse(name, *value, wants_integer(range));
   } else if (presence == Presence::kRequired) {
@@ -57,24 +55,22 @@ void FieldReader::pair(std::string_view name, core::Vec2& out) {
   const auto value = field(name, kWants, Presence::kRequired);
   if (!value) return;
   if (value->kind() != json::Kind::kArray || value->size() != 2) return refuse(name, *value, kWants);
-  double numbers[2] = {};
-  array(name, kWants, [&](json::Value element, std::size_t index) {
-    if (!element.is_number()) return refuse(name, index, element, "a number");
-    numbers[index] = element.number();
+  if (const auto numbers = json::pair_of(*value)) {
+    out = *numbers;
+    return;
+  }
+  array(name, kWants, [&](json::Value element, std::size_t index) {  // which of the two is none?
+    if (!element.is_number()) refuse(name, index, element, "a number");
   });
-  out = {numbers[0], numbers[1]};
 }
 
 void FieldReader::hash(std::string_view name, std::uint64_t& out) {
   constexpr std::string_view kWants = "16 hex digits in quotes";
   const auto value = field(name, kWants, Presence::kRequired);
   if (!value) return;
-  if (value->kind() != json::Kind::kString) return refuse(name, *value, kWants);
-  const std::string_view text = value->text();
-  const bool lower_hex =
-      text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-  if (!lower_hex) return refuse(name, *value, kWants);
-  std::from_chars(text.data(), text.data() + text.size(), out, 16);
+  const auto hash = json::hash_of(*value);
+  if (!hash) return refuse(name, *value, kWants);
+  out = *hash;
 }
 
 void FieldReader::cleaned_text(std::string_view name, std::string& out, ByteRange bytes, Presence presence) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "shared/json/fields.h"
 #include "shared/protocol/line_object.h"
 
 namespace woodlouse::protocol {
@@ -57,8 +58,7 @@ class FieldReader {
               Presence presence = Presence::kRequired) {
     const auto value = field(name, wants, presence);
     if (!value) return;
-    const std::optional<E> found =
-        value->kind() == json::Kind::kString ? from_text(value->text()) : std::nullopt;
+    const std::optional<E> found = json::choice_of(*value, from_text);
     if (found) {
       out = *found;
     } else {

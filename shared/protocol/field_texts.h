@@ -16,13 +16,6 @@ namespace woodlouse::protocol {
 inline constexpr std::string_view kRoleTexts = R"("player", "bot" or "spectator")";
 inline constexpr std::string_view kFormatTexts = R"("quantized" or "exact")";
 
-inline std::optional<Role> role_from_text(std::string_view text) {
-  for (const Role role : {Role::kPlayer, Role::kBot, Role::kSpectator}) {
-    if (to_text(role) == text) return role;
-  }
-  return std::nullopt;
-}
-
 inline std::optional<Format> format_from_text(std::string_view text) {
   for (const Format format : {Format::kQuantized, Format::kExact}) {
     if (to_text(format) == text) return format;

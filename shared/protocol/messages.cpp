@@ -76,6 +76,13 @@ std::string_view to_text(Role role) {
   return "player";
 }
 
+std::optional<Role> role_from_text(std::string_view text) {
+  for (const Role role : {Role::kPlayer, Role::kBot, Role::kSpectator}) {
+    if (to_text(role) == text) return role;
+  }
+  return std::nullopt;
+}
+
 std::string_view to_text(EventKind kind) {
   switch (kind) {
     case EventKind::kJoined:

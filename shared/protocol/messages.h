@@ -17,6 +17,7 @@
 #include "shared/state/parameters.h"
 #include "shared/state/state_hash.h"
 #include "shared/state/thrust.h"
+#include "shared/terrain/height_grid.h"
 
 namespace woodlouse::protocol {
 
@@ -76,6 +77,7 @@ enum class Format : std::uint8_t { kQuantized, kExact };
 enum class Role : std::uint8_t { kPlayer, kBot, kSpectator };
 std::string_view to_text(Format format);
 std::string_view to_text(Role role);
+std::optional<Role> role_from_text(std::string_view text);
 
 // ---- client to server ----------------------------------------------------------------------------------
 
@@ -258,24 +260,18 @@ struct Rooms {
   friend bool operator==(const Rooms&, const Rooms&) = default;
 };
 
-/// Heights of a map too big to be sent: the whole domain at a few knots, for drawing; nothing may be computed
-/// from it.
-struct Overview {
-  core::Vec2 origin, spacing;         ///< of the south-western knot; between knots, > 0 [m]
-  std::size_t columns = 0, rows = 0;  ///< 4 to kMaxOverviewSide
-  std::vector<double> heights;        ///< row by row from the south, each from west to east [m]
-  friend bool operator==(const Overview&, const Overview&) = default;
-};
 inline constexpr std::size_t kMaxOverviewSide = 257;
 
 /// The map: `definition` is a map file (maps/README.md) as a JSON object. Where its terrain names a function,
-/// the message also carries `knots` {origin, spacing, columns, rows, heights} for who only draws. Where it
-/// names a file, the map is too big to be sent, and `knots` are its overview.
+/// `knots` are that function's heights for who only draws. Where it names a file, the map is too big to be
+/// sent, and `knots` are its overview: the whole domain at 4 to kMaxOverviewSide knots each way, for drawing;
+/// nothing may be computed from it.
 struct MapMessage {
   std::string name;
   std::uint64_t hash = 0;
   std::string definition;
-  std::optional<Overview> overview = std::nullopt;
+  bool is_overview = false;
+  std::optional<terrain::HeightGrid> knots = std::nullopt;  ///< decoded: of an overview alone
   friend bool operator==(const MapMessage&, const MapMessage&) = default;
 };
 

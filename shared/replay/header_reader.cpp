@@ -14,8 +14,8 @@ constexpr std::size_t kMaxPathBytes = 4096;
 
 void read_map(const json::Value& value, Header& header, Problems& problems) {
   const Fields fields(value, {"name", "hash", "definition", "file"}, problems);
-  header.map_name = demand_text(fields, "name", problems);
-  header.map_hash = demand_hash(fields, "hash", problems);
+  header.map_name = fields.text("name", kMaxTextBytes);
+  header.map_hash = fields.hash("hash");
   const auto definition = fields.find("definition");
   const auto file = fields.find("file");
   if (definition.has_value() == file.has_value()) {
@@ -31,8 +31,7 @@ void read_map(const json::Value& value, Header& header, Problems& problems) {
 
 Parent read_parent(const json::Value& value, Problems& problems) {
   const Fields fields(value, {"file", "tick", "hash"}, problems);
-  return {demand_text(fields, "file", problems), demand_integer(fields, "tick", 0, kMaxTick, problems),
-          demand_hash(fields, "hash", problems)};
+  return {fields.text("file", kMaxTextBytes), fields.integer("tick", 0, kMaxTick), fields.hash("hash")};
 }
 
 /// Format, version and behavior first: what another version's other fields mean, this build can't know.
@@ -65,13 +64,13 @@ Header read_header(const json::Value& root, Problems& problems) {
   if (problems.count() != 0) return header;
   const Fields fields(root, {"format", "version", "behavior", "build", "seed", "tick_hz", "parent", "map"},
                       problems);
-  header.build = demand_text(fields, "build", problems);
+  header.build = fields.text("build", kMaxTextBytes);
   if (const auto seed = fields.demand("seed")) {
-    const auto number = seed->is(json::Kind::kString) ? unsigned_text(seed->text(), 10) : std::nullopt;
+    const auto number = seed->is(json::Kind::kString) ? json::unsigned_text(seed->text(), 10) : std::nullopt;
     if (!number) problems.add(*seed, "a whole number of 64 bits as text is wanted");
     header.seed = number.value_or(0);
   }
-  header.tick_hz = static_cast<std::uint32_t>(demand_integer(fields, "tick_hz", 1, 1000, problems));
+  header.tick_hz = static_cast<std::uint32_t>(fields.integer("tick_hz", 1, 1000));
   if (const auto value = fields.find("parent")) header.parent = read_parent(*value, problems);
   if (const auto value = fields.demand("map")) read_map(*value, header, problems);
   return header;

@@ -6,7 +6,7 @@
 
 #include "shared/json/document.h"
 #include "shared/json/fields.h"
-#include "shared/json/text.h"
+#include "shared/json/object_text.h"
 #include "shared/replay/index.h"
 #include "shared/replay/line_fields.h"
 
@@ -22,31 +22,32 @@ constexpr std::size_t kTailBytes = 32u << 10;  // the end line and its reason fi
 
 // ---- writing ---------------------------------------------------------------------------------------------
 
-template <typename List, typename Write>
-void append_rows(std::string& out, std::string_view key, const List& list, const Write& write) {
-  out.append(",\"").append(key).append("\":[");
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    out += k == 0 ? "[" : ",[";
-    write(list[k]);
-    out += ']';
-  }
+void append_place(std::string& out, const KeyframePlace& place) {
+  json::append_integer(out += '[', place.tick);
+  json::append_integer(out += ',', place.offset);
+  json::append_integer(out += ',', place.line);
   out += ']';
 }
 
 void append_player(std::string& out, const PlayerSpan& player) {
-  json::append_integer(out, player.player);
-  out += ',';
-  json::append_string(out, player.label.name);
-  out += ',';
-  json::append_string(out, protocol::to_text(player.label.role));
-  out += ',';
-  json::append_integer(out, player.joined);
+  json::append_integer(out += '[', player.player);
+  json::append_string(out += ',', player.label.name);
+  json::append_string(out += ',', protocol::to_text(player.label.role));
+  json::append_integer(out += ',', player.joined);
   out += ',';
   if (player.left) {
     json::append_integer(out, *player.left);
   } else {
     out += "null";
   }
+  out += ']';
+}
+
+void append_mark(std::string& out, const Mark& mark) {
+  json::append_integer(out += '[', mark.tick);
+  json::append_string(out += ',', to_text(mark.kind));
+  json::append_integer(out += ',', mark.player);
+  out += ']';
 }
 
 // ---- reading ---------------------------------------------------------------------------------------------
@@ -78,7 +79,7 @@ match::PlayerId player_id(const json::Value& value, Problems& problems) {
 }
 
 MarkKind kind_of(const json::Value& value, Problems& problems) {
-  const std::string text = text_of(value, problems);
+  const std::string text = json::any_text(value, kMaxTextBytes, problems);
   for (const MarkKind kind : {MarkKind::kJoin, MarkKind::kLeave, MarkKind::kRespawn, MarkKind::kChat}) {
     if (to_text(kind) == text) return kind;
   }
@@ -89,15 +90,15 @@ MarkKind kind_of(const json::Value& value, Problems& problems) {
 ReplayIndex read_fields(const json::Value& root, Problems& problems) {
   const Fields fields(root, {"index", "keyframes", "players", "marks", "inputs"}, problems);
   ReplayIndex index;
-  index.last_tick = demand_integer(fields, "index", 0, kMaxTick, problems);
-  index.inputs = demand_integer(fields, "inputs", 0, kMaxOffset, problems);
+  index.last_tick = fields.integer("index", 0, kMaxTick);
+  index.inputs = fields.integer("inputs", 0, kMaxOffset);
   read_rows(fields, "keyframes", 3, problems, [&](const Values& row) {
     index.keyframes.push_back({number(row[0], kMaxTick, problems), number(row[1], kMaxOffset, problems),
                                number(row[2], kMaxOffset, problems)});
   });
   read_rows(fields, "players", 5, problems, [&](const Values& row) {
     PlayerSpan player{player_id(row[0], problems),
-                      {text_of(row[1], problems), role_of(row[2], problems)},
+                      {json::any_text(row[1], kMaxTextBytes, problems), role_of(row[2], problems)},
                       number(row[3], kMaxTick, problems),
                       {}};
     if (!row[4].is(json::Kind::kNull)) player.left = number(row[4], kMaxTick, problems);
@@ -144,8 +145,8 @@ std::optional<End> read_end(std::istream& in, const std::string& source) {
   if (!document) return std::nullopt;
   Problems problems(source);
   const Fields fields(document->root(), {"end", "reason", "index"}, problems);
-  End end{demand_integer(fields, "end", 0, kMaxTick, problems), demand_text(fields, "reason", problems),
-          demand_integer(fields, "index", 0, kMaxOffset, problems)};
+  End end{fields.integer("end", 0, kMaxTick), fields.text("reason", kMaxTextBytes),
+          fields.integer("index", 0, kMaxOffset)};
   if (problems.count() != 0) return std::nullopt;
   return end;
 }
@@ -153,24 +154,13 @@ std::optional<End> read_end(std::istream& in, const std::string& source) {
 }  // namespace
 
 void append_index(std::string& out, const ReplayIndex& index) {
-  out += "{\"index\":";
-  json::append_integer(out, index.last_tick);
-  out += ",\"inputs\":";
-  json::append_integer(out, index.inputs);
-  append_rows(out, "keyframes", index.keyframes, [&](const KeyframePlace& place) {
-    json::append_integer(out, place.tick);
-    out += ',';
-    json::append_integer(out, place.offset);
-    out += ',';
-    json::append_integer(out, place.line);
-  });
-  append_rows(out, "players", index.players, [&](const PlayerSpan& player) { append_player(out, player); });
-  append_rows(out, "marks", index.marks, [&](const Mark& mark) {
-    json::append_integer(out, mark.tick);
-    out.append(",\"").append(to_text(mark.kind)).append("\",");
-    json::append_integer(out, mark.player);
-  });
-  out += "}\n";
+  json::ObjectText line(out);
+  line.integer("index", index.last_tick).integer("inputs", index.inputs);
+  line.array("keyframes", index.keyframes, append_place);
+  line.array("players", index.players, append_player);
+  line.array("marks", index.marks, append_mark);
+  line.end();
+  out += '\n';
 }
 
 std::optional<ReplayIndex> read_index(std::istream& in, const std::string& source) {

@@ -37,7 +37,7 @@ std::optional<PlayerLabel> read_label(const Fields& fields, Problems& problems) 
   const auto role = fields.find("role");
   if (!name && !role) return std::nullopt;
   PlayerLabel label;
-  label.name = demand_text(fields, "name", problems);
+  label.name = fields.text("name", kMaxTextBytes);
   if (const auto given = fields.demand("role")) label.role = role_of(*given, problems);
   return label;
 }
@@ -129,8 +129,8 @@ void read_list(const json::Value& value, Problems& problems, const Read& read) {
 StepLine read_step(const json::Value& root, Problems& problems) {
   const Fields fields(root, {"step", "roster", "inputs", "hash"}, problems);
   StepLine line;
-  line.step.tick = demand_integer(fields, "step", 0, kMaxTick, problems);
-  line.step.hash = demand_hash(fields, "hash", problems);
+  line.step.tick = fields.integer("step", 0, kMaxTick);
+  line.step.hash = fields.hash("hash");
   if (const auto roster = fields.find("roster")) {
     read_list(*roster, problems, [&](const json::Value& value) { read_change(value, line, problems); });
   }
@@ -182,7 +182,8 @@ void read_player(const json::Value& value, Keyframe& keyframe, Problems& problem
   }
   keyframe.state.players.push_back(player);
   if (values.size() == 2) return;
-  keyframe.labels[player.player] = {text_of(values[2], problems), role_of(values[3], problems)};
+  keyframe.labels[player.player] = {json::any_text(values[2], kMaxTextBytes, problems),
+                                    role_of(values[3], problems)};
 }
 
 void read_waiting(const json::Value& value, Keyframe& keyframe, Problems& problems) {
@@ -203,13 +204,12 @@ Keyframe read_keyframe(const json::Value& root, Problems& problems) {
                       problems);
   Keyframe keyframe;
   match::MatchState& state = keyframe.state;
-  state.tick = demand_integer(fields, "keyframe", 0, kMaxTick, problems);
-  state.hash = demand_hash(fields, "hash", problems);
-  state.previous = demand_hash(fields, "previous", problems);
-  state.inputs = demand_hash(fields, "inputs", problems);
-  state.generator = demand_hash(fields, "generator", problems);
-  state.next_player =
-      static_cast<match::PlayerId>(demand_integer(fields, "next_player", 1, kMaxUint32, problems));
+  state.tick = fields.integer("keyframe", 0, kMaxTick);
+  state.hash = fields.hash("hash");
+  state.previous = fields.hash("previous");
+  state.inputs = fields.hash("inputs");
+  state.generator = fields.hash("generator");
+  state.next_player = static_cast<match::PlayerId>(fields.integer("next_player", 1, kMaxUint32));
   const auto list = [&](std::string_view key, const auto& read) {
     if (const auto value = fields.demand(key)) read_list(*value, problems, read);
   };
@@ -225,25 +225,25 @@ Keyframe read_keyframe(const json::Value& root, Problems& problems) {
 ChatLine read_chat(const json::Value& root, Problems& problems) {
   const Fields fields(root, {"chat", "player", "name", "text"}, problems);
   ChatLine line;
-  line.tick = demand_integer(fields, "chat", 0, kMaxTick, problems);
-  line.player = static_cast<match::PlayerId>(demand_integer(fields, "player", 0, kMaxUint32, problems));
-  line.name = demand_text(fields, "name", problems);
-  line.text = demand_text(fields, "text", problems);
+  line.tick = fields.integer("chat", 0, kMaxTick);
+  line.player = static_cast<match::PlayerId>(fields.integer("player", 0, kMaxUint32));
+  line.name = fields.text("name", kMaxTextBytes);
+  line.text = fields.text("text", kMaxTextBytes);
   return line;
 }
 
 /// Its other fields are checked by who reads it (index_text.cpp).
 IndexLine read_index_line(const json::Value& root, Problems& problems) {
   const Fields fields(root, {"index", "keyframes", "players", "marks", "inputs"}, problems);
-  return {demand_integer(fields, "index", 0, kMaxTick, problems)};
+  return {fields.integer("index", 0, kMaxTick)};
 }
 
 End read_end(const json::Value& root, Problems& problems) {
   const Fields fields(root, {"end", "reason", "index"}, problems);
   End end;
-  end.tick = demand_integer(fields, "end", 0, kMaxTick, problems);
-  end.reason = demand_text(fields, "reason", problems);
-  end.index_offset = demand_integer(fields, "index", 0, kMaxOffset, problems);
+  end.tick = fields.integer("end", 0, kMaxTick);
+  end.reason = fields.text("reason", kMaxTextBytes);
+  end.index_offset = fields.integer("index", 0, kMaxOffset);
   return end;
 }
 

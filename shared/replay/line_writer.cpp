@@ -7,8 +7,7 @@
 #include <span>
 #include <variant>
 
-#include "shared/core/stable_hash.h"
-#include "shared/json/text.h"
+#include "shared/json/object_text.h"
 #include "shared/state/louse_fields.h"
 
 namespace woodlouse::replay {
@@ -62,75 +61,48 @@ void append_thrust(std::string& out, state::ThrustKind kind, core::Vec2 value) {
   assert(false);
 }
 
-/// Calls write(element) for each, with commas between and brackets around.
-template <typename List, typename Write>
-void append_list(std::string& out, const List& list, const Write& write) {
-  char before = '[';
-  for (const auto& element : list) {
-    out += before;
-    before = ',';
-    write(element);
-  }
-  if (before == '[') out += before;
-  out += ']';
+void append_roster_change(json::ObjectText& entry, const match::RosterChange& change,
+                          const PlayerLabels& labels) {
+  entry.integer(to_text(change.action), change.player);
+  const auto label = labels.find(change.player);
+  if (change.action != match::RosterAction::kJoin || label == labels.end()) return;
+  entry.text("name", label->second.name).text("role", protocol::to_text(label->second.role));
 }
 
-void append_number(std::string& out, std::string_view key, std::uint64_t value) {
-  out += key;
-  json::append_integer(out, value);
-}
-
-void append_hash(std::string& out, std::string_view key, std::uint64_t value) {
-  out.append(key).append("\"").append(core::to_hex(value)).append("\"");
-}
-
-void append_roster(std::string& out, std::span<const match::RosterChange> roster,
-                   const PlayerLabels& labels) {
+void add_roster(json::ObjectText& line, std::span<const match::RosterChange> roster,
+                const PlayerLabels& labels) {
   if (roster.empty()) return;
-  out += ",\"roster\":";
-  append_list(out, roster, [&](const match::RosterChange& change) {
-    out.append("{\"").append(to_text(change.action));
-    append_number(out, "\":", change.player);
-    const auto label = labels.find(change.player);
-    if (change.action == match::RosterAction::kJoin && label != labels.end()) {
-      out += ",\"name\":";
-      json::append_string(out, label->second.name);
-      out += ",\"role\":";
-      json::append_string(out, protocol::to_text(label->second.role));
-    }
-    out += '}';
+  line.objects("roster", roster, [&](json::ObjectText& entry, const match::RosterChange& change) {
+    append_roster_change(entry, change, labels);
   });
 }
 
 /// [player, seq, thrust, margin in ms, ticks]: what is not known, or held, is left out at the end.
 void append_input(std::string& out, const match::AppliedInput& input, std::optional<std::int64_t> margin) {
-  append_number(out, "[", input.player);
-  append_number(out, ",", input.seq);
-  out += ',';
-  append_thrust(out, input.kind, input.thrust);
+  json::append_integer(out += '[', input.player);
+  json::append_integer(out += ',', input.seq);
+  append_thrust(out += ',', input.kind, input.thrust);
   const bool has_ticks = input.ticks != state::kHeld;
   if (margin) {
-    out += ',';
-    json::append_integer(out, *margin);
+    json::append_integer(out += ',', *margin);
   } else if (has_ticks) {
     out += ",null";
   }
-  if (has_ticks) append_number(out, ",", input.ticks);
+  if (has_ticks) json::append_integer(out += ',', input.ticks);
   out += ']';
 }
 
 void append_waiting(std::string& out, const match::AppliedInput& input) {
-  append_number(out, "[", input.tick);
-  append_number(out, ",", input.player);
-  append_number(out, ",", input.seq);
-  out += ',';
-  append_thrust(out, input.kind, input.thrust);
-  if (input.ticks != state::kHeld) append_number(out, ",", input.ticks);
+  json::append_integer(out += '[', input.tick);
+  json::append_integer(out += ',', input.player);
+  json::append_integer(out += ',', input.seq);
+  append_thrust(out += ',', input.kind, input.thrust);
+  if (input.ticks != state::kHeld) json::append_integer(out += ',', input.ticks);
   out += ']';
 }
 
 void append_player(std::string& out, const match::PlayerSeq& player, const PlayerLabels& labels) {
-  append_number(out, "[", player.player);
+  json::append_integer(out += '[', player.player);
   out += ',';
   if (player.last_seq) {
     json::append_integer(out, *player.last_seq);
@@ -138,28 +110,28 @@ void append_player(std::string& out, const match::PlayerSeq& player, const Playe
     out += "null";
   }
   if (const auto label = labels.find(player.player); label != labels.end()) {
-    out += ',';
-    json::append_string(out, label->second.name);
-    out += ',';
-    json::append_string(out, protocol::to_text(label->second.role));
+    json::append_string(out += ',', label->second.name);
+    json::append_string(out += ',', protocol::to_text(label->second.role));
   }
   out += ']';
 }
 
-void append_columns(std::string& out) {
-  append_list(out, state::kLouseFields,
-              [&](const state::LouseField& field) { json::append_string(out, field.name); });
-}
+void append_name(std::string& out, const state::LouseField& field) { json::append_string(out, field.name); }
 
 void append_louse(std::string& out, const state::Louse& louse) {
-  append_list(out, state::kLouseFields, [&](const state::LouseField& field) {
+  json::append_array(out, state::kLouseFields, [&](std::string& row, const state::LouseField& field) {
     const double value = state::field_value(louse, field);
     if (state::holds_integer(field)) {
-      json::append_integer(out, static_cast<std::uint32_t>(value));
+      json::append_integer(row, static_cast<std::uint32_t>(value));
     } else {
-      json::append_double(out, value);
+      json::append_double(row, value);
     }
   });
+}
+
+void end_line(std::string& out, json::ObjectText& line) {
+  line.end();
+  out += '\n';
 }
 
 }  // namespace
@@ -179,85 +151,70 @@ Header make_header(const match::Match& match, std::string_view build, std::strin
 }
 
 void append_header(std::string& out, const Header& header) {
-  out += "{\"format\":";
-  json::append_string(out, kFormat);
-  append_number(out, ",\"version\":", kFormatVersion);
-  append_number(out, ",\"behavior\":", static_cast<std::uint64_t>(header.behavior));
-  out += ",\"build\":";
-  json::append_string(out, header.build);
+  json::ObjectText line(out);
+  line.text("format", kFormat).integer("version", kFormatVersion).integer("behavior", header.behavior);
+  line.text("build", header.build);
   // Text, because many readers hold numbers as doubles.
-  out.append(",\"seed\":\"").append(std::to_string(header.seed));
-  append_number(out, "\",\"tick_hz\":", header.tick_hz);
+  line.text("seed", std::to_string(header.seed)).integer("tick_hz", header.tick_hz);
   if (header.parent) {
-    out += ",\"parent\":{\"file\":";
-    json::append_string(out, header.parent->file);
-    append_number(out, ",\"tick\":", header.parent->tick);
-    append_hash(out, ",\"hash\":", header.parent->hash);
-    out += '}';
+    line.object("parent", [&](json::ObjectText& parent) {
+      parent.text("file", header.parent->file).integer("tick", header.parent->tick);
+      parent.hash("hash", header.parent->hash);
+    });
   }
-  out += ",\"map\":{\"name\":";
-  json::append_string(out, header.map_name);
-  append_hash(out, ",\"hash\":", header.map_hash);
-  if (!header.map_definition.empty()) {
-    out.append(",\"definition\":").append(header.map_definition);
-  } else {
-    out += ",\"file\":";
-    json::append_string(out, header.map_file);
-  }
-  out += "}}\n";
+  line.object("map", [&](json::ObjectText& map) {
+    map.text("name", header.map_name).hash("hash", header.map_hash);
+    if (!header.map_definition.empty()) {
+      map.json("definition", header.map_definition);
+    } else {
+      map.text("file", header.map_file);
+    }
+  });
+  end_line(out, line);
 }
 
 void append_keyframe(std::string& out, const match::MatchState& state, const PlayerLabels& labels) {
-  append_number(out, "{\"keyframe\":", state.tick);
-  append_hash(out, ",\"hash\":", state.hash);
-  append_hash(out, ",\"previous\":", state.previous);
-  append_hash(out, ",\"inputs\":", state.inputs);
-  append_hash(out, ",\"generator\":", state.generator);
-  append_number(out, ",\"next_player\":", state.next_player);
-  out += ",\"players\":";
-  append_list(out, state.players,
-              [&](const match::PlayerSeq& player) { append_player(out, player, labels); });
-  append_roster(out, state.roster, labels);
-  out += ",\"waiting\":";
-  append_list(out, state.waiting, [&](const match::AppliedInput& input) { append_waiting(out, input); });
-  out += ",\"columns\":";
-  append_columns(out);
-  out += ",\"lice\":";
-  append_list(out, state.lice, [&](const state::Louse& louse) { append_louse(out, louse); });
-  out += "}\n";
+  json::ObjectText line(out);
+  line.integer("keyframe", state.tick).hash("hash", state.hash).hash("previous", state.previous);
+  line.hash("inputs", state.inputs).hash("generator", state.generator);
+  line.integer("next_player", state.next_player);
+  line.array("players", state.players,
+             [&](std::string& list, const match::PlayerSeq& player) { append_player(list, player, labels); });
+  add_roster(line, state.roster, labels);
+  line.array("waiting", state.waiting, append_waiting);
+  line.array("columns", state::kLouseFields, append_name);
+  line.array("lice", state.lice, append_louse);
+  end_line(out, line);
 }
 
 void append_step(std::string& out, const match::StepRecord& step, const PlayerLabels& labels,
                  const Margins& margins) {
-  append_number(out, "{\"step\":", step.tick);
-  append_roster(out, step.roster, labels);
+  json::ObjectText line(out);
+  line.integer("step", step.tick);
+  add_roster(line, step.roster, labels);
   if (!step.inputs.empty()) {
-    out += ",\"inputs\":";
-    append_list(out, step.inputs, [&](const match::AppliedInput& input) {
+    line.array("inputs", step.inputs, [&](std::string& list, const match::AppliedInput& input) {
       const auto margin = margins.find({input.player, input.seq});
-      append_input(out, input, margin != margins.end() ? std::optional(margin->second) : std::nullopt);
+      append_input(list, input, margin != margins.end() ? std::optional(margin->second) : std::nullopt);
     });
   }
-  append_hash(out, ",\"hash\":", step.hash);
-  out += "}\n";
+  line.hash("hash", step.hash);
+  end_line(out, line);
 }
 
-void append_chat(std::string& out, const ChatLine& line) {
-  append_number(out, "{\"chat\":", line.tick);
-  append_number(out, ",\"player\":", line.player);
-  out += ",\"name\":";
-  json::append_string(out, line.name);
-  out += ",\"text\":";
-  json::append_string(out, line.text);
-  out += "}\n";
+void append_chat(std::string& out, const ChatLine& chat) {
+  json::ObjectText line(out);
+  line.integer("chat", chat.tick)
+      .integer("player", chat.player)
+      .text("name", chat.name)
+      .text("text", chat.text);
+  end_line(out, line);
 }
 
 void append_end(std::string& out, const End& end) {
-  append_number(out, "{\"end\":", end.tick);
-  out += ",\"reason\":";
-  json::append_string(out, end.reason);
-  append_number(out, ",\"index\":", end.index_offset);
-  out += "}\n";
+  json::ObjectText line(out);
+  line.integer("end", end.tick).text("reason", end.reason).integer("index", end.index_offset);
+  end_line(out, line);
 }
 
 }  // namespace woodlouse::replay

@@ -19,6 +19,7 @@ struct HeightGrid {
   double dx = 1.0;  ///< > 0 [m]
   double dy = 1.0;  ///< > 0 [m]
   std::vector<double> heights;
+  friend bool operator==(const HeightGrid&, const HeightGrid&) = default;
 
   [[nodiscard]] double at(std::size_t i, std::size_t j) const {
     assert(i < columns && j < rows);

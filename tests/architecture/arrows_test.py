@@ -16,7 +16,7 @@ ARROWS = {
     "physics": {"core", "state", "terrain"},
     "document": {"core", "state", "terrain", "physics"},
     "map": {"core", "json", "state", "terrain", "physics"},
-    "protocol": {"core", "json", "state"},
+    "protocol": {"core", "json", "state", "terrain"},
     "match": {"core", "state", "terrain", "physics", "map"},
     "replay": {"core", "json", "state", "terrain", "physics", "map", "match", "protocol"},
 }

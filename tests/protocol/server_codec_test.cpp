@@ -108,8 +108,8 @@ TEST_CASE("every server message comes back as it was sent") {
       Rooms{},
       MapMessage{"volcano", 0xfedcba9876543210,
                  R"({"name":"volcano","terrain":{"heights":[[1,2.50],[3,4e0]]}})"},
-      MapMessage{"alps", 7, R"({"name":"alps","terrain":{"file":"alps.flt"}})",
-                 Overview{{-50.0, 0.25}, {0.5, 1.0 / 3.0}, 4, 5, std::vector<double>(20, -1.5)}},
+      MapMessage{"alps", 7, R"({"name":"alps","terrain":{"file":"alps.flt"}})", true,
+                 terrain::HeightGrid{4, 5, -50.0, 0.25, 0.5, 1.0 / 3.0, std::vector<double>(20, -1.5)}},
       Ping{12},
       Pong{-12}};
   for (const ServerMessage& message : messages) {
@@ -136,12 +136,14 @@ TEST_CASE("a map's definition comes back byte for byte, with knots or without, w
                        R"({"name":"a \"definition\":{ ]","physics":{"drag":0.20},"terrain":[[1,2],[3,4]]})"};
   const std::string knots =
       R"({"origin":[0,0],"spacing":[1,1],"columns":2,"rows":2,"heights":[[1,2],[3,4]]})";
-  for (const std::string& line : {encode_map(map, ""), encode_map(map, knots)}) {
-    const auto back = decode(line);
+  MapMessage drawn = map;
+  drawn.knots = terrain::HeightGrid{2, 2, 0.0, 0.0, 1.0, 1.0, {1.0, 2.0, 3.0, 4.0}};
+  for (const MapMessage& message : {map, drawn}) {
+    const auto back = decode(line_of(message));
     REQUIRE(back);
     CHECK(std::get<MapMessage>(*back) == map);
   }
-  CHECK(encode_map(map, knots).find(",\"knots\":" + knots + "}\n") != std::string::npos);
+  CHECK(line_of(drawn).find(",\"knots\":" + knots + "}") != std::string::npos);
   const auto shuffled =
       decode(R"({ "x":"definition", "definition" : {"a":{"definition":1}} ,"hash":"0000000000000001",)"
              R"("name":"m","type":"map"})");

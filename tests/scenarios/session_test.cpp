@@ -39,7 +39,7 @@ TEST_CASE(
   const Said said = run({}, written.file());
   CHECK(said.exit == Exit::kSame);
   CHECK_THAT(said.out, StartsWith("ok 1 scenarios, 2 hashes, scalar"));
-  CHECK(update(written.file()).log.empty());
+  CHECK_THAT(update(written.file()).log, !Contains("updated"));  // it may name lanes this machine has none of
   CHECK(written.read("small.json") == text);
 }
 

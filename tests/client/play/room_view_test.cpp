@@ -195,10 +195,11 @@ TEST_CASE(
   protocol::Welcome message = welcome(*volcano(), 1);
   message.map_hash = core::stable_hash(definition);
   message.extent = {-500, -500, 500, 500};
-  const protocol::Overview overview{{-500, -500}, {250, 250}, 5, 5, std::vector<double>(25, 3.0)};
+  const terrain::HeightGrid overview{5, 5, -500, -500, 250, 250, std::vector<double>(25, 3.0)};
   RoomView room;
   REQUIRE(room.on_message(message, kStart));
-  REQUIRE(room.on_message(protocol::MapMessage{"alps", message.map_hash, definition, overview}, kStart));
+  REQUIRE(
+      room.on_message(protocol::MapMessage{"alps", message.map_hash, definition, true, overview}, kStart));
   REQUIRE(room.map()->detail == map::Detail::kOverview);
   REQUIRE(room.pilot() != nullptr);
   static_cast<void>(room.take_outgoing());
