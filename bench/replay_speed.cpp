@@ -13,9 +13,10 @@
 #include <vector>
 
 #include "shared/core/random.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 #include "shared/replay/inspect.h"
-#include "shared/replay/verify.h"
+#include "shared/replay/parallel_verify.h"
+#include "shared/replay/source_file.h"
 #include "shared/replay/writer.h"
 
 namespace {
@@ -39,7 +40,7 @@ struct Game {
 void play(const std::shared_ptr<const map::Map>& map, const Game& game, const std::filesystem::path& file) {
   match::Match match(map, {kTickHz, 7});
   core::Random random(1);
-  replay::ReplayWriter writer(replay::encoding_of(file));
+  replay::ReplayWriter writer(replay::encoding_of(file.string()));
   std::ofstream out(file, std::ios::binary);
   std::string bytes;
   writer.append_header(bytes, replay::make_header(match, "woodlouse-replay-speed", ""));
@@ -73,7 +74,7 @@ void play(const std::shared_ptr<const map::Map>& map, const Game& game, const st
 int time_verify(const Game& game, const std::filesystem::path& file) {
   for (const unsigned jobs : {1u, std::max(2u, std::thread::hardware_concurrency())}) {
     const auto start = Clock::now();
-    const auto verification = replay::verify(replay::ReplaySource::of_file(file), jobs);
+    const auto verification = replay::verify(replay::source_of_file(file), jobs);
     const double taken = seconds_since(start);
     if (!verification || !verification->ok()) {
       std::cerr << (verification ? to_text(*verification) : verification.error().text()) << '\n';
@@ -92,7 +93,7 @@ int time_inspect(const Game& game, const std::filesystem::path& file) {
   for (int round = 0; round < kRounds; ++round) {
     const std::uint64_t tick = random.next() % (std::uint64_t{game.seconds} * kTickHz);
     const auto start = Clock::now();
-    const auto archive = replay::ReplayArchive::open(file);
+    const auto archive = replay::ReplayArchive::open(replay::source_of_file(file));
     if (!archive || !replay::inspect_state(**archive, tick)) return 1;
     taken.push_back(1000.0 * seconds_since(start));
   }

@@ -10,6 +10,7 @@
 #include "client/terminal/descriptor.h"
 #include "client/watch/recording_view.h"
 #include "client/watch/replay_viewer.h"
+#include "shared/replay/source_file.h"
 
 namespace woodlouse::client {
 namespace {
@@ -41,7 +42,7 @@ Outcome show(const Config& config, RecordingView& recording) {
 }  // namespace
 
 Outcome watch_recording(const Config& config) {
-  const auto recording = RecordingView::open(replay::ReplaySource::of_file(config.recording));
+  const auto recording = RecordingView::open(replay::source_of_file(config.recording));
   if (!recording) return no_recording(recording.error());
   const Outcome outcome = show(config, **recording);
   const auto& difference = (*recording)->proof().difference();

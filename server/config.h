@@ -13,7 +13,7 @@
 #include "server/log.h"
 #include "server/net/listen_address.h"
 #include "shared/core/error.h"
-#include "shared/replay/inspect.h"
+#include "shared/replay/inspect_file.h"
 
 namespace woodlouse::server {
 

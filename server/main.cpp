@@ -6,8 +6,8 @@
 #include "server/config.h"
 #include "server/log.h"
 #include "server/server.h"
-#include "shared/map/map_loader.h"
-#include "shared/replay/verify.h"
+#include "shared/map/map_file.h"
+#include "shared/replay/verify_file.h"
 
 namespace {
 

@@ -16,7 +16,7 @@
 #include "server/watchers/recorder.h"
 #include "server/watchers/shadow.h"
 #include "shared/core/stable_hash.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 #include "shared/protocol/codes.h"
 
 namespace woodlouse::server {

@@ -16,7 +16,7 @@
 #include "bench/lab/problems/motion.h"
 #include "bench/lab/report/progress.h"
 #include "shared/core/random.h"
-#include "shared/map/flt_grid.h"
+#include "shared/map/flt_grid_file.h"
 
 namespace woodlouse::lab {
 namespace {

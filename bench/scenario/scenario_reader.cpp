@@ -13,7 +13,8 @@
 #include "shared/core/joined.h"
 #include "shared/core/whole_file.h"
 #include "shared/json/fields.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/grid_folder_file.h"
+#include "shared/map/map_file.h"
 
 namespace woodlouse::scenario {
 namespace {
@@ -64,7 +65,8 @@ std::filesystem::path folder_of_map(const json::Value& value, const std::filesys
 MapPointer read_map(const json::Value& value, const std::filesystem::path& file,
                     const std::filesystem::path& folder, Problems& problems) {
   if (value.is(json::Kind::kObject)) {
-    return keep(map::parse_map(lines_before(value) + std::string(value.raw()), file.string(), folder),
+    const map::DiskFolder grids(folder);
+    return keep(map::parse_map(lines_before(value) + std::string(value.raw()), file.string(), &grids),
                 problems);
   }
   if (!value.is(json::Kind::kString)) {
@@ -91,7 +93,8 @@ MapPointer with_spawns(const MapPointer& map, const json::Value& spawns, const s
   const std::string_view own = spawns.is(json::Kind::kArray) ? spawns.raw() : "null";
   const std::string text =
       core::joined({lines_before(spawns), std::string_view(map->canonical).substr(0, at), kKey, own, "}"});
-  return keep(map::parse_map(text, file.string(), folder), problems);
+  const map::DiskFolder grids(folder);
+  return keep(map::parse_map(text, file.string(), &grids), problems);
 }
 
 std::vector<GoldenHash> read_goldens(const json::Value& value, Problems& problems) {

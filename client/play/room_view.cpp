@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "shared/core/stable_hash.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_text.h"
 
 namespace woodlouse::client {
 namespace {
@@ -20,7 +20,7 @@ struct Overloaded : Cases... {
 template <typename... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
-std::int64_t microseconds(TimePoint time) {
+std::int64_t microseconds(core::Time time) {
   return std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch()).count();
 }
 
@@ -40,7 +40,7 @@ protocol::Join make_join(protocol::Role role, const std::string& name, const std
   return join;
 }
 
-core::Expected<void> RoomView::on_message(const protocol::ServerMessage& message, TimePoint now) {
+core::Expected<void> RoomView::on_message(const protocol::ServerMessage& message, core::Time now) {
   return std::visit(
       Overloaded{
           [&](const protocol::Welcome& m) -> core::Expected<void> { return take(m), core::Expected<void>(); },
@@ -110,7 +110,7 @@ void RoomView::begin_piloting() {
   pilot_.emplace(ground, map_->definition.physics, welcome_->tick_hz, welcome_->id);
 }
 
-void RoomView::take(const protocol::Frame& frame, TimePoint now) {
+void RoomView::take(const protocol::Frame& frame, core::Time now) {
   if (!view_) return;
   verifier_.take(frame);
   clock_->observe(frame.tick, now);
@@ -134,7 +134,7 @@ void RoomView::take(const protocol::Frame& frame, TimePoint now) {
   if (row != view_->newest()->lice.end()) pilot_->compare(frame.tick, row->second);
 }
 
-void RoomView::measure_rate(std::uint64_t tick, TimePoint now) {
+void RoomView::measure_rate(std::uint64_t tick, core::Time now) {
   if (!rate_time_ || tick < rate_tick_) {
     rate_time_ = now;
     rate_tick_ = tick;
@@ -154,7 +154,7 @@ void RoomView::take(const protocol::Event& event) {
     pilot_->respawned();
 }
 
-void RoomView::take(const protocol::Pong& pong, TimePoint now) {
+void RoomView::take(const protocol::Pong& pong, core::Time now) {
   const double seconds = static_cast<double>(microseconds(now) - pong.t) * 1e-6;
   if (!(seconds >= 0.0 && seconds < 60.0)) return;  // not an answer to a ping of this run
   round_trips_.push_back(seconds);
@@ -166,7 +166,7 @@ std::optional<double> RoomView::rtt_seconds() const {
   return *std::min_element(round_trips_.begin(), round_trips_.end());
 }
 
-void RoomView::notice(std::string text, TimePoint now) {
+void RoomView::notice(std::string text, core::Time now) {
   notice_ = std::move(text);
   notice_until_ = now + kNoticeFor;
 }
@@ -182,7 +182,7 @@ void RoomView::on_lost() {
   outgoing_.clear();
 }
 
-void RoomView::update(TimePoint now) {
+void RoomView::update(core::Time now) {
   if (!notice_.empty() && now >= notice_until_) notice_.clear();
   if (!welcome_) return;
   if (!pinged_ || now - *pinged_ >= kPingEvery) {
@@ -196,7 +196,7 @@ void RoomView::update(TimePoint now) {
   draw_lice(now);
 }
 
-void RoomView::draw_lice(TimePoint now) {
+void RoomView::draw_lice(core::Time now) {
   lice_.clear();
   if (!clock_->running()) return;
   const double frame_gap = 2.0 / std::max(1u, welcome_->state_hz);

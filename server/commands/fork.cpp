@@ -7,7 +7,8 @@
 #include "shared/core/joined.h"
 #include "shared/protocol/text_cleaning.h"
 #include "shared/replay/archive.h"
-#include "shared/replay/recorded_map.h"
+#include "shared/replay/recorded_map_file.h"
+#include "shared/replay/source_file.h"
 
 namespace woodlouse::server {
 namespace {
@@ -50,7 +51,7 @@ core::Error with_advice(core::Error error, const ForkPoint& point) {
 }  // namespace
 
 core::Expected<Opening> open_fork(const ForkPoint& point) {
-  const auto archive = ReplayArchive::open(point.recording);
+  const auto archive = ReplayArchive::open(replay::source_of_file(point.recording));
   if (!archive) return tl::unexpected(with_advice(archive.error(), point));
   if (point.tick < (*archive)->first_tick() || point.tick > (*archive)->last_tick())
     return tl::unexpected(without_tick(**archive, point));
@@ -69,7 +70,7 @@ core::Expected<Opening> open_fork(const ForkPoint& point) {
   Opening opening;
   opening.map = (*archive)->map();
   opening.match = match::Match::restore(opening.map, (*playback)->match().settings(), state);
-  opening.map_file = replay::map_file_of((*archive)->header(), (*archive)->source().folder).string();
+  opening.map_file = replay::map_file_of((*archive)->header(), point.recording.parent_path()).string();
   opening.orphans = orphans_of(**archive, *opening.match);
   opening.parent = replay::Parent{point.recording.string(), state.tick, state.hash};
   return opening;

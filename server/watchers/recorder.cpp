@@ -30,7 +30,7 @@ Recorder::Recorder(std::filesystem::path file, std::ofstream out, boost::asio::t
       disk_(disk),
       log_(std::move(log)),
       out_(std::move(out)),
-      writer_(replay::encoding_of(file_)),
+      writer_(replay::encoding_of(file_.string())),
       flush_timer_(disk.get_executor()) {}
 
 void Recorder::begin(const replay::Header& header, match::MatchState first) {

@@ -10,7 +10,7 @@
 
 #include "shared/core/joined.h"
 #include "shared/json/text.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_text.h"
 
 namespace woodlouse::map {
 namespace {

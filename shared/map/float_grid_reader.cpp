@@ -1,14 +1,14 @@
 #include "shared/map/float_grid_reader.h"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
-#include "shared/map/flt_grid.h"
 #include "shared/map/height_survey.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_text.h"
 #include "shared/map/scaled_heights.h"
 #include "shared/map/terrain_ranges.h"
 
@@ -68,23 +68,24 @@ std::optional<HeightSurvey> survey(const json::Fields& fields, const TiledTerrai
 
 }  // namespace
 
-bool is_float_grid(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return extension == ".flt";
+bool is_float_grid(std::string_view path) {
+  constexpr std::string_view kEnd = ".flt";
+  if (path.size() <= kEnd.size() || path[path.size() - kEnd.size() - 1] == '/') return false;
+  const std::string_view end = path.substr(path.size() - kEnd.size());
+  return std::equal(end.begin(), end.end(), kEnd.begin(), [](char ours, char theirs) {
+    return (ours >= 'A' && ours <= 'Z' ? static_cast<char>(ours - 'A' + 'a') : ours) == theirs;
+  });
 }
 
-std::optional<TerrainDefinition> read_float_grid(const json::Value& value, const std::filesystem::path& path,
-                                                 json::Problems& problems) {
+std::optional<TerrainDefinition> read_float_grid(const json::Value& value, const GridFolder& folder,
+                                                 const std::string& path, json::Problems& problems) {
   const json::Fields fields(value, {"file", "scale", "fill_level", "storage", "fingerprint"}, problems);
   TiledTerrain terrain;
   terrain.scale = fields.number_or("scale", kGridScale, 1.0);
   terrain.fill_level = fields.number_or("fill_level", kHeight, 0.0);
   const Storage storage = read_storage(fields, problems);
   if (const auto file = fields.find("file")) terrain.file = file->text();
-  auto grid = FltGrid::open(path);
+  auto grid = folder.open_heights(path);
   if (!grid) {
     problems.add(grid.error());
     return std::nullopt;
@@ -92,11 +93,11 @@ std::optional<TerrainDefinition> read_float_grid(const json::Value& value, const
   terrain.heights = std::make_shared<ScaledHeights>(std::move(*grid), terrain.scale, kHeight.max);
   const terrain::GridFrame frame = terrain.heights->frame();
   if (!check_frame(value, frame, problems)) return std::nullopt;
-  auto surveyed = survey(fields, terrain, path.string(), problems);
+  auto surveyed = survey(fields, terrain, path, problems);
   if (!surveyed) return std::nullopt;
   const bool is_small = frame.columns * frame.rows <= kMaxKnots;
   if (storage == Storage::kWhole || (storage == Storage::kBySize && is_small)) {
-    if (is_small) return read_whole(*terrain.heights, terrain.fill_level, path.string(), problems);
+    if (is_small) return read_whole(*terrain.heights, terrain.fill_level, path, problems);
     problems.add(value, core::joined({"more than ", std::to_string(kMaxKnots), " knots can't be read whole"}),
                  "take storage tiles, or leave it out");
     return std::nullopt;

@@ -5,10 +5,9 @@
 #include <utility>
 
 #include "shared/core/joined.h"
-#include "shared/core/whole_file.h"
 #include "shared/map/esri_ascii_grid.h"
 #include "shared/map/float_grid_reader.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_text.h"
 #include "shared/map/terrain_ranges.h"
 
 namespace woodlouse::map {
@@ -45,44 +44,33 @@ FunctionTerrain read_function(const json::Value& value, const json::Value& name,
 }
 
 /// The path of a grid file, if it stays in the map's folder.
-std::optional<std::filesystem::path> grid_path(const json::Value& name, const std::filesystem::path& folder,
-                                               json::Problems& problems) {
+std::optional<std::string> grid_path(const json::Value& name, const GridFolder* folder,
+                                     json::Problems& problems) {
   const std::optional<std::string> text = json::text_in(name, 1, 255, problems);
   if (!text) return std::nullopt;
-  if (folder.empty()) {
+  if (folder == nullptr) {
     problems.add(name, "a map that comes without a folder can't name a file", "send its heights in place");
     return std::nullopt;
   }
-  const std::filesystem::path relative(*text);
-  const bool climbs =
-      std::any_of(relative.begin(), relative.end(), [](const auto& part) { return part == ".."; });
-  if (relative.is_absolute() || climbs) {
-    problems.add(name, "leaves the map's folder", "put the grid beside the map and name it without a path");
-    return std::nullopt;
-  }
-  std::error_code error;
-  const auto base = std::filesystem::weakly_canonical(folder, error);
-  const auto file = error ? folder / relative : std::filesystem::weakly_canonical(folder / relative, error);
-  const auto inside = std::mismatch(base.begin(), base.end(), file.begin(), file.end()).first == base.end();
-  if (error || !inside) {
-    problems.add(name, "leaves the map's folder by a link", "put the grid itself beside the map");
-    return std::nullopt;
-  }
-  return folder / relative;
+  core::Expected<std::string> path = folder->find(*text);
+  if (path) return std::move(*path);
+  problems.add(name, path.error().what, path.error().hint);
+  return std::nullopt;
 }
 
 /// An ESRI ASCII grid, its middle laid at the origin: real-world coordinates would cost digits and help
 /// nobody.
 std::optional<HeightGrid> read_ascii_grid(const json::Value& value, const json::Value& name,
-                                          const std::filesystem::path& path, json::Problems& problems) {
+                                          const GridFolder& folder, const std::string& path,
+                                          json::Problems& problems) {
   const json::Fields fields(value, {"file", "scale"}, problems);
   const double scale = fields.number_or("scale", kGridScale, 1.0);
-  const core::Expected<std::string> text = core::read_whole_file(path, kMaxMapBytes);
+  const core::Expected<std::string> text = folder.read_text(path);
   if (!text) {
     problems.add(name, text.error().text());
     return std::nullopt;
   }
-  json::Problems grid_problems(path.string());
+  json::Problems grid_problems(path);
   std::optional<HeightGrid> grid = parse_esri_ascii_grid(*text, grid_problems);
   for (core::Error& error : grid_problems.errors()) problems.add(std::move(error));
   if (!grid) return std::nullopt;
@@ -114,10 +102,11 @@ std::optional<TerrainDefinition> read_grid_file(const json::Value& value, const 
                                                 const GridPlace& place, json::Problems& problems) {
   if (const auto* overview = std::get_if<HeightGrid>(&place))
     return read_overview(value, *overview, problems);
-  const auto path = grid_path(name, std::get<std::filesystem::path>(place), problems);
+  const GridFolder* folder = std::get<const GridFolder*>(place);
+  const auto path = grid_path(name, folder, problems);
   if (!path) return std::nullopt;
-  if (is_float_grid(*path)) return read_float_grid(value, *path, problems);
-  if (auto grid = read_ascii_grid(value, name, *path, problems)) return std::move(*grid);
+  if (is_float_grid(*path)) return read_float_grid(value, *folder, *path, problems);
+  if (auto grid = read_ascii_grid(value, name, *folder, *path, problems)) return std::move(*grid);
   return std::nullopt;
 }
 

@@ -1,12 +1,12 @@
 // The `terrain` object of a map file: a named function, a grid file, or heights in place.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <variant>
 
 #include "shared/json/document.h"
 #include "shared/json/fields.h"
+#include "shared/map/grid_folder.h"
 #include "shared/map/map_definition.h"
 
 namespace woodlouse::map {
@@ -15,7 +15,7 @@ using TerrainDefinition = std::variant<FunctionTerrain, terrain::HeightGrid, Til
 
 /// Where the heights of a grid file are: in the folder that the file is looked up in (an empty one allows
 /// none), or, for a map that came over a wire, in the overview that came with it.
-using GridPlace = std::variant<std::filesystem::path, terrain::HeightGrid>;
+using GridPlace = std::variant<const GridFolder*, terrain::HeightGrid>;
 
 /// Nothing, and at least one problem, when something is wrong.
 std::optional<TerrainDefinition> read_terrain(const json::Value& value, const GridPlace& place,

@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "shared/replay/recorded_map.h"
 #include "shared/replay/rerun.h"
 
 namespace woodlouse::replay {
@@ -14,16 +13,12 @@ ReplayArchive::ReplayArchive(ReplaySource source, Header header, std::shared_ptr
       map_(std::move(map)),
       index_(std::move(index)) {}
 
-core::Expected<std::shared_ptr<const ReplayArchive>> ReplayArchive::open(const std::filesystem::path& file) {
-  return open(ReplaySource::of_file(file));
-}
-
 core::Expected<std::shared_ptr<const ReplayArchive>> ReplayArchive::open(ReplaySource source) {
   const auto stream = source.open();
   if (!stream) return tl::unexpected(stream.error());
   core::Expected<Header> header = ReplayReader(**stream, source.name).read_header();
   if (!header) return tl::unexpected(header.error());
-  const auto map = load_recorded_map(*header, source.name, source.folder);
+  const auto map = recorded_map(*header, source);
   if (!map) return tl::unexpected(map.error());
   std::optional<ReplayIndex> index = read_index(**stream, source.name);
   if (index) {
@@ -53,12 +48,6 @@ core::Expected<std::unique_ptr<Playback>> ReplayArchive::play(std::uint64_t tick
   std::unique_ptr<Playback> playback(new Playback(shared_from_this()));
   if (auto sought = playback->seek(tick); !sought) return tl::unexpected(sought.error());
   return playback;
-}
-
-core::Expected<std::unique_ptr<match::Match>> ReplayArchive::match_at(std::uint64_t tick) const {
-  auto playback = play(tick);
-  if (!playback) return tl::unexpected(playback.error());
-  return (*playback)->rerun_->release();
 }
 
 }  // namespace woodlouse::replay

@@ -1,13 +1,12 @@
 // A recording opened to be looked at anywhere: what was played, who and when, and the exact match at any
 // tick. The one door to recordings for whoever shows, inspects, forks or checks them.
 //
-//     auto archive = ReplayArchive::open("game.ndjson.zst");       // plain or zstd, finished or cut off
-//     auto playback = (*archive)->play((*archive)->first_tick());  // the match, restored and re-run
+//     auto archive = ReplayArchive::open(source_of_file("game.ndjson.zst"));  // plain or zstd, finished or
+//     cut off auto playback = (*archive)->play((*archive)->first_tick());  // the match, restored and re-run
 //     while (auto step = (*playback)->advance(); step && *step) ...
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <istream>
 #include <memory>
@@ -32,7 +31,6 @@ class ReplayArchive : public std::enable_shared_from_this<ReplayArchive> {
  public:
   /// Reads header, map and index; an index that is missing or damaged is made anew by scanning the file.
   /// Errors: no recording, another version or behavior (both are named), a map that is not the recorded one.
-  static core::Expected<std::shared_ptr<const ReplayArchive>> open(const std::filesystem::path& file);
   static core::Expected<std::shared_ptr<const ReplayArchive>> open(ReplaySource source);
 
   [[nodiscard]] const Header& header() const { return header_; }
@@ -58,11 +56,9 @@ class ReplayArchive : public std::enable_shared_from_this<ReplayArchive> {
   [[nodiscard]] const ReplayIndex& index() const { return index_; }
   [[nodiscard]] const ReplaySource& source() const { return source_; }
 
-  /// The exact match at a tick of first_tick() .. last_tick(): the keyframe before it and at most
-  /// kKeyframeSeconds re-run. Inputs that waited for a later tick are those the keyframe knew.
+  /// A playback that stands at a tick of first_tick() .. last_tick(), the exact match: the keyframe before it
+  /// and at most kKeyframeSeconds re-run. Inputs that waited for a later tick are those the keyframe knew.
   /// Errors: the tick is not in the recording; the file is damaged there.
-  [[nodiscard]] core::Expected<std::unique_ptr<match::Match>> match_at(std::uint64_t tick) const;
-  /// A playback that stands at that tick. Errors as match_at().
   [[nodiscard]] core::Expected<std::unique_ptr<Playback>> play(std::uint64_t tick) const;
 
  private:

@@ -1,9 +1,5 @@
 #include "shared/replay/inspect.h"
 
-#include <cmath>
-#include <ostream>
-
-#include "shared/core/joined.h"
 #include "shared/replay/line_writer.h"
 
 namespace woodlouse::replay {
@@ -19,11 +15,6 @@ PlayerLabels labels_at(const ReplayArchive& archive, std::uint64_t tick) {
   return labels;
 }
 
-int report(const core::Error& error, std::ostream& errors) {
-  errors << error.text() << '\n';
-  return 1;
-}
-
 }  // namespace
 
 core::Expected<InspectedState> inspect_state(const ReplayArchive& archive, std::uint64_t tick) {
@@ -33,31 +24,6 @@ core::Expected<InspectedState> inspect_state(const ReplayArchive& archive, std::
   append_keyframe(state.json, (*playback)->match().state(), labels_at(archive, tick));
   state.difference = (*playback)->first_difference();
   return state;
-}
-
-int inspect_command(const InspectRequest& request, std::ostream& out, std::ostream& errors) {
-  const auto archive = ReplayArchive::open(request.file);
-  if (!archive) return report(archive.error(), errors);
-  const bool wants_state = request.tick || request.seconds;
-  if (request.summary || !wants_state) {
-    const core::Expected<std::string> summary = inspect_summary(**archive);
-    if (!summary) return report(summary.error(), errors);
-    out << *summary;
-  }
-  if (!wants_state) return 0;
-  const double at = request.seconds.value_or(0.0) * (*archive)->header().tick_hz;
-  // A little up, because 41.7 s are 2502 ticks, not 2501.999.
-  const std::uint64_t tick = request.tick ? *request.tick
-                             : at < 1e15  ? static_cast<std::uint64_t>(std::floor(at + 1e-6))
-                                          : std::uint64_t{1} << 53;
-  const core::Expected<InspectedState> state = inspect_state(**archive, tick);
-  if (!state) return report(state.error(), errors);
-  out << state->json;
-  if (!state->difference) return 0;
-  return report(
-      {request.file.string(), core::joined({"differs at tick ", std::to_string(*state->difference)}),
-       "the state printed is the re-run's; ask verify"},
-      errors);
 }
 
 }  // namespace woodlouse::replay

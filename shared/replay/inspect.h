@@ -1,9 +1,7 @@
-// `woodlouse-server inspect`: the exact state at a tick, or what a recording holds.
+// The exact state at a tick of a recording, or what it holds.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <iosfwd>
 #include <optional>
 #include <string>
 
@@ -23,15 +21,5 @@ core::Expected<InspectedState> inspect_state(const ReplayArchive& archive, std::
 /// Header, players, events, and for each player how many inputs, how many of them late, and their margins:
 /// reads the whole recording. A table for people.
 core::Expected<std::string> inspect_summary(const ReplayArchive& archive);
-
-struct InspectRequest {
-  std::filesystem::path file;
-  std::optional<std::uint64_t> tick;
-  std::optional<double> seconds;  ///< since tick 0; >= 0
-  bool summary = false;           ///< also when neither tick nor seconds are asked for
-};
-
-/// 0; 1 when it can't be read, or the state is not the recorded one: told on `errors`.
-int inspect_command(const InspectRequest& request, std::ostream& out, std::ostream& errors);
 
 }  // namespace woodlouse::replay

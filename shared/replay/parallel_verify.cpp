@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <memory>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -13,9 +15,9 @@
 namespace woodlouse::replay {
 namespace {
 
-/// Of one stretch: what came of it, and where it ended.
+/// Of one segment: what came of it, and where it ended.
 struct Finding {
-  core::Expected<Stretch> stretch;
+  core::Expected<Segment> segment;
   bool is_where_planned = false;  ///< it began and ended at the index's keyframes
 };
 
@@ -26,14 +28,14 @@ class Plan {
         findings_(archive_->index().keyframes.size()),
         first_bad_(findings_.size()) {}
 
-  /// Takes one stretch after the other until none is left that matters.
+  /// Takes one segment after the other until none is left that matters.
   void work() {
     for (;;) {
       const std::size_t k = next_.fetch_add(1);
       if (k >= findings_.size() || k > first_bad_.load()) return;
       findings_[k] = run(k);
       const Finding& finding = *findings_[k];
-      if (finding.is_where_planned && finding.stretch && !finding.stretch->difference) continue;
+      if (finding.is_where_planned && finding.segment && !finding.segment->difference) continue;
       std::size_t before = first_bad_.load();
       while (k < before && !first_bad_.compare_exchange_weak(before, k)) {
       }
@@ -45,12 +47,12 @@ class Plan {
     Verification verification;
     for (std::optional<Finding>& finding : findings_) {
       if (!finding || !finding->is_where_planned) return std::nullopt;
-      if (!finding->stretch) return tl::unexpected(finding->stretch.error());
-      verification.ticks += finding->stretch->steps;
-      verification.difference = std::move(finding->stretch->difference);
+      if (!finding->segment) return tl::unexpected(finding->segment.error());
+      verification.ticks += finding->segment->steps;
+      verification.difference = std::move(finding->segment->difference);
       if (verification.difference) return verification;
     }
-    verification.cut_off = !findings_.back()->stretch->has_end;
+    verification.cut_off = !findings_.back()->segment->has_end;
     return verification;
   }
 
@@ -62,26 +64,26 @@ class Plan {
     (*stream)->seekg(static_cast<std::streamoff>(places[k].offset));
     ReplayReader reader(**stream, archive_->source().name, places[k].line - 1);
     core::Expected<std::optional<Line>> line = reader.next();
-    if (!line || !*line || !std::holds_alternative<Keyframe>(**line)) return {Stretch{}, false};
+    if (!line || !*line || !std::holds_alternative<Keyframe>(**line)) return {Segment{}, false};
     const Header& header = archive_->header();
-    core::Expected<Stretch> stretch = run_stretch(reader, archive_->map(), {header.tick_hz, header.seed},
+    core::Expected<Segment> segment = run_segment(reader, archive_->map(), {header.tick_hz, header.seed},
                                                   std::get<Keyframe>(std::move(**line)));
     const bool is_last = k + 1 == places.size();
-    bool is_where_planned = !stretch || !stretch->next == is_last;
-    if (stretch && stretch->next && !is_last) {
+    bool is_where_planned = !segment || !segment->next == is_last;
+    if (segment && segment->next && !is_last) {
       is_where_planned = places[k].offset + reader.line_offset() == places[k + 1].offset &&
                          reader.line_number() == places[k + 1].line;
     }
-    return {std::move(stretch), is_where_planned};
+    return {std::move(segment), is_where_planned};
   }
 
   std::shared_ptr<const ReplayArchive> archive_;
   std::vector<std::optional<Finding>> findings_;
   std::atomic<std::size_t> next_{0};
-  std::atomic<std::size_t> first_bad_;  ///< no later stretch matters
+  std::atomic<std::size_t> first_bad_;  ///< no later segment matters
 };
 
-/// The first stretch begins right behind the header.
+/// The first segment begins right behind the header.
 bool begins_behind_header(const ReplayArchive& archive) {
   const auto stream = archive.source().open();
   if (!stream) return false;
@@ -90,9 +92,9 @@ bool begins_behind_header(const ReplayArchive& archive) {
   return reader.line_offset() == archive.index().keyframes.front().offset && reader.line_number() == 2;
 }
 
-}  // namespace
-
-std::optional<core::Expected<Verification>> verify_in_parallel(const ReplaySource& source, unsigned jobs) {
+/// Nothing when the recording has no index that leads from each segment to the next, or can't be opened at
+/// all.
+std::optional<core::Expected<Verification>> verify_by_index(const ReplaySource& source, unsigned jobs) {
   const auto archive = ReplayArchive::open(source);
   if (!archive || !begins_behind_header(**archive)) return std::nullopt;
   Plan plan(*archive);
@@ -101,6 +103,16 @@ std::optional<core::Expected<Verification>> verify_in_parallel(const ReplaySourc
     for (unsigned k = 0; k < jobs; ++k) threads.emplace_back([&plan] { plan.work(); });
   }
   return plan.verdict();
+}
+
+}  // namespace
+
+core::Expected<Verification> verify(const ReplaySource& source, unsigned jobs) {
+  assert(jobs >= 1);
+  if (jobs > 1) {
+    if (auto verification = verify_by_index(source, jobs)) return std::move(*verification);
+  }
+  return verify(source);
 }
 
 }  // namespace woodlouse::replay

@@ -1,4 +1,4 @@
-// One stretch of a recording being re-run: restored from a keyframe, step after step as recorded, and at each
+// One segment of a recording being re-run: restored from a keyframe, step after step as recorded, and at each
 // the question whether it went as recorded.
 #pragma once
 
@@ -40,7 +40,6 @@ class Rerun {
   [[nodiscard]] std::string difference_to(const Keyframe& keyframe) const;
 
   [[nodiscard]] const match::Match& match() const { return *match_; }
-  std::unique_ptr<match::Match> release() { return std::move(match_); }
 
  private:
   explicit Rerun(std::unique_ptr<match::Match> match, match::PlayerId last_joined)

@@ -10,16 +10,16 @@ namespace {
 
 using core::joined;
 
-void compare(const Rerun& rerun, const Keyframe& keyframe, Stretch& stretch) {
+void compare(const Rerun& rerun, const Keyframe& keyframe, Segment& segment) {
   const std::uint64_t tick = keyframe.state.tick;
   const std::string found = rerun.difference_to(keyframe);
-  if (!found.empty() && !stretch.difference) {
-    stretch.difference =
+  if (!found.empty() && !segment.difference) {
+    segment.difference =
         Difference{tick, "the keyframe is another, though every hash up to it is the same", {}};
   }
-  if (!stretch.difference) return;
+  if (!segment.difference) return;
   const bool is_same = found.empty();
-  stretch.difference->detail =
+  segment.difference->detail =
       joined({"keyframe ", std::to_string(tick), ": ",
               is_same ? "the same lice, so what was altered moved none: a hash, or an input without effect"
                       : found});
@@ -40,11 +40,11 @@ core::Expected<void> check_end(ReplayReader& reader, const End& end, std::uint64
 
 }  // namespace
 
-core::Expected<Stretch> run_stretch(ReplayReader& reader, const std::shared_ptr<const map::Map>& map,
+core::Expected<Segment> run_segment(ReplayReader& reader, const std::shared_ptr<const map::Map>& map,
                                     const match::MatchSettings& settings, Keyframe start) {
   auto rerun = Rerun::from(map, settings, std::move(start), reader.place());
   if (!rerun) return tl::unexpected(rerun.error());
-  Stretch stretch;
+  Segment segment;
   for (;;) {
     core::Expected<std::optional<Line>> line = reader.next();
     if (!line) return tl::unexpected(line.error());
@@ -52,28 +52,28 @@ core::Expected<Stretch> run_stretch(ReplayReader& reader, const std::shared_ptr<
     if (const auto* step = std::get_if<StepLine>(&**line)) {
       auto difference = (*rerun)->step(*step, reader.place());
       if (!difference) return tl::unexpected(difference.error());
-      ++stretch.steps;
-      if (!stretch.difference) stretch.difference = std::move(*difference);
+      ++segment.steps;
+      if (!segment.difference) segment.difference = std::move(*difference);
     }
     const std::uint64_t tick = (*rerun)->match().tick();
     if (auto* keyframe = std::get_if<Keyframe>(&**line)) {
-      if (keyframe->state.tick != tick || stretch.steps == 0) {
+      if (keyframe->state.tick != tick || segment.steps == 0) {
         return core::fail(reader.place(),
                           joined({"a keyframe of tick ", std::to_string(keyframe->state.tick),
                                   " stands where tick ", std::to_string(tick), " is reached"}));
       }
-      compare(**rerun, *keyframe, stretch);
-      stretch.next = std::move(*keyframe);
-      return stretch;
+      compare(**rerun, *keyframe, segment);
+      segment.next = std::move(*keyframe);
+      return segment;
     }
     if (const auto* end = std::get_if<End>(&**line)) {
       if (auto checked = check_end(reader, *end, tick); !checked) return tl::unexpected(checked.error());
-      stretch.has_end = true;
+      segment.has_end = true;
       break;
     }
   }
-  if (stretch.difference) stretch.difference->detail = "no keyframe follows that could say which louse";
-  return stretch;
+  if (segment.difference) segment.difference->detail = "no keyframe follows that could say which louse";
+  return segment;
 }
 
 }  // namespace woodlouse::replay

@@ -12,7 +12,7 @@
 
 namespace woodlouse::replay {
 
-struct Stretch {
+struct Segment {
   std::uint64_t steps = 0;
   std::optional<Difference> difference;
   std::optional<Keyframe> next;  ///< where it ended; empty: at the end of the recording
@@ -21,7 +21,7 @@ struct Stretch {
 
 /// Re-runs from `start`, which `reader` has read last, through the next keyframe or the end. Errors: lines
 /// that are damaged or do not follow each other.
-core::Expected<Stretch> run_stretch(ReplayReader& reader, const std::shared_ptr<const map::Map>& map,
+core::Expected<Segment> run_segment(ReplayReader& reader, const std::shared_ptr<const map::Map>& map,
                                     const match::MatchSettings& settings, Keyframe start);
 
 }  // namespace woodlouse::replay

@@ -1,18 +1,18 @@
 #include "shared/replay/source.h"
 
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <sstream>
-#include <system_error>
 #include <utility>
 
+#include "shared/core/joined.h"
+#include "shared/core/stable_hash.h"
+#include "shared/map/map_text.h"
 #include "shared/replay/zstd_input.h"
 
 namespace woodlouse::replay {
 namespace {
 
+using core::joined;
 using Stream = std::unique_ptr<std::istream>;
 
 /// Owns the buffer that it reads through.
@@ -36,32 +36,39 @@ bool is_compressed(std::istream& in) {
   return is_frame || is_skippable;
 }
 
-Stream unpacked(Stream in) {
-  if (!is_compressed(*in)) return in;
-  return std::make_unique<ZstdStream>(std::move(in));
-}
-
-core::Expected<Stream> open_file(const std::filesystem::path& file) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error))
-    return core::fail(file.string(), "is a folder, not a recording");
-  errno = 0;
-  auto in = std::make_unique<std::ifstream>(file, std::ios::binary);
-  if (!*in) return core::fail(file.string(), std::string("can't be opened: ") + std::strerror(errno));
-  return unpacked(std::move(in));
+core::Expected<MapPointer> map_of(const Header& header, const ReplaySource& source) {
+  if (!header.map_definition.empty())
+    return map::parse_map(header.map_definition, joined({source.name, ":1: map.definition"}), nullptr);
+  if (source.find_map) return source.find_map(header);
+  return core::fail(joined({source.name, ":1: map.file"}),
+                    "is only named, and files are not looked for here");
 }
 
 }  // namespace
 
-ReplaySource ReplaySource::of_file(const std::filesystem::path& file) {
-  return {file.string(), file.parent_path(), [file] { return open_file(file); }};
+std::unique_ptr<std::istream> unpacked(std::unique_ptr<std::istream> in) {
+  if (!is_compressed(*in)) return in;
+  return std::make_unique<ZstdStream>(std::move(in));
 }
 
-ReplaySource ReplaySource::of_bytes(std::string bytes, std::string name,
-                                    const std::filesystem::path& folder) {
-  return {std::move(name), folder, [bytes = std::move(bytes)]() -> core::Expected<Stream> {
+ReplaySource ReplaySource::of_bytes(std::string bytes, std::string name) {
+  return {std::move(name),
+          [bytes = std::move(bytes)]() -> core::Expected<Stream> {
             return unpacked(std::make_unique<std::istringstream>(bytes));
-          }};
+          },
+          {}};
+}
+
+core::Expected<MapPointer> recorded_map(const Header& header, const ReplaySource& source) {
+  core::Expected<MapPointer> map = map_of(header, source);
+  if (map && (*map)->hash != header.map_hash) {
+    return core::fail(joined({source.name, ":1: map.hash"}),
+                      joined({"the map's hash is ", core::to_hex((*map)->hash), ", recorded is ",
+                              core::to_hex(header.map_hash)}),
+                      header.map_definition.empty() ? "put the map it was played on beside the recording"
+                                                    : "the map in the recording was altered");
+  }
+  return map;
 }
 
 }  // namespace woodlouse::replay

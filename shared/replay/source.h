@@ -1,26 +1,36 @@
-// Where a recording's bytes come from: a file, or a text in memory. Compressed ones are told by their first
-// bytes and unpacked on the way.
+// Where a recording's bytes come from: whoever has them opens streams on them. Compressed ones are told by
+// their first bytes and unpacked on the way. source_file.h: from files.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <istream>
 #include <memory>
 #include <string>
 
 #include "shared/core/error.h"
+#include "shared/map/map_definition.h"
+#include "shared/replay/format.h"
 
 namespace woodlouse::replay {
 
+using MapPointer = std::shared_ptr<const map::Map>;
+
 /// Opens as many streams on one recording as are wanted: text, that can be sought in by the byte.
 struct ReplaySource {
-  std::string name;              ///< in errors
-  std::filesystem::path folder;  ///< where a map that is only named is looked for first
+  std::string name;  ///< in errors
   std::function<core::Expected<std::unique_ptr<std::istream>>()> open;
+  /// The map that a header only names; null: none is looked for.
+  std::function<core::Expected<MapPointer>(const Header&)> find_map;
 
-  static ReplaySource of_file(const std::filesystem::path& file);
   /// `bytes`: plain or compressed.
-  static ReplaySource of_bytes(std::string bytes, std::string name, const std::filesystem::path& folder = {});
+  static ReplaySource of_bytes(std::string bytes, std::string name);
 };
+
+/// The text of what may be compressed.
+std::unique_ptr<std::istream> unpacked(std::unique_ptr<std::istream> in);
+
+/// The recorded map: the one in the header, or the one it names. Errors: it is not found, not a map, or
+/// another one than was recorded.
+core::Expected<MapPointer> recorded_map(const Header& header, const ReplaySource& source);
 
 }  // namespace woodlouse::replay

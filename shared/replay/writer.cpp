@@ -18,8 +18,11 @@ bool is_player(const match::MatchState& state, match::PlayerId player) {
 
 }  // namespace
 
-Encoding encoding_of(const std::filesystem::path& file) {
-  return file.extension() == ".zst" ? Encoding::kZstd : Encoding::kPlain;
+Encoding encoding_of(std::string_view file) {
+  constexpr std::string_view kEnd = ".zst";
+  const bool is_packed = file.size() > kEnd.size() && file.substr(file.size() - kEnd.size()) == kEnd &&
+                         file[file.size() - kEnd.size() - 1] != '/';
+  return is_packed ? Encoding::kZstd : Encoding::kPlain;
 }
 
 ReplayWriter::ReplayWriter(Encoding encoding)

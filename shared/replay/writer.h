@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -20,7 +19,7 @@ enum class Encoding {
 };
 
 /// By name: FILE.zst is kZstd.
-Encoding encoding_of(const std::filesystem::path& file);
+Encoding encoding_of(std::string_view file);
 
 /// How many ticks lie between keyframes. A keyframe is due at every multiple.
 constexpr std::uint64_t keyframe_ticks(std::uint32_t tick_hz) {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <new>
 #include <utility>
 
+#include "shared/core/allocation.h"
 #include "shared/core/joined.h"
 #include "shared/replay/zstd_table.h"
 
@@ -15,7 +15,7 @@ ZstdInput::ZstdInput(std::unique_ptr<std::istream> packed)
       context_(ZSTD_createDCtx()),
       in_(ZSTD_DStreamInSize()),
       out_(ZSTD_DStreamOutSize()) {
-  if (!context_) throw std::bad_alloc();
+  if (!context_) core::out_of_memory();
   ZSTD_DCtx_setParameter(context_.get(), ZSTD_d_windowLogMax, kMaxWindowLog);
   pending_ = {in_.data(), 0, 0};
 }

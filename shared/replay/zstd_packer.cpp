@@ -1,12 +1,13 @@
 #include "shared/replay/zstd_packer.h"
 
 #include <cassert>
-#include <new>
+
+#include "shared/core/allocation.h"
 
 namespace woodlouse::replay {
 
 FramePacker::FramePacker() : context_(ZSTD_createCCtx()), buffer_(ZSTD_CStreamOutSize()) {
-  if (!context_) throw std::bad_alloc();
+  if (!context_) core::out_of_memory();
   ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_compressionLevel, kLevel);
   ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_windowLog, kWindowLog);
   ZSTD_CCtx_setParameter(context_.get(), ZSTD_c_checksumFlag, 1);

@@ -35,7 +35,7 @@ TilePointer TileStore::find_or_build(std::size_t index, Purpose purpose) {
 }
 
 TilePointer TileStore::find(std::size_t index) {
-  const std::lock_guard lock(mutex_);
+  const core::Lock lock(mutex_);
   const auto place = places_.find(index);
   if (place == places_.end()) return nullptr;
   slots_[place->second].wanted = true;
@@ -44,7 +44,7 @@ TilePointer TileStore::find(std::size_t index) {
 
 TilePointer TileStore::keep(std::size_t index, TilePointer tile, Purpose purpose) {
   TilePointer thrown_out;  // ends after the lock: freeing takes its time too
-  const std::lock_guard lock(mutex_);
+  const core::Lock lock(mutex_);
   ++counters_.built;
   if (purpose == Purpose::kAhead) ++counters_.prepared;
   if (const auto place = places_.find(index); place != places_.end()) return slots_[place->second].tile;
@@ -72,7 +72,7 @@ bool TileStore::build_all() {
 }
 
 TileStore::Counters TileStore::counters() const {
-  const std::lock_guard lock(mutex_);
+  const core::Lock lock(mutex_);
   return counters_;
 }
 

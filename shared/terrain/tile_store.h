@@ -12,10 +12,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <unordered_map>
 #include <vector>
 
+#include "shared/core/lock.h"
 #include "shared/terrain/bspline_tile.h"
 #include "shared/terrain/height_source.h"
 
@@ -69,7 +69,7 @@ class TileStore {
   const std::size_t tiles_x_;
   const std::size_t all_tiles_;
 
-  mutable std::mutex mutex_;                             ///< guards what follows
+  mutable core::Mutex mutex_;                            ///< guards what follows
   std::unordered_map<std::size_t, std::size_t> places_;  ///< tile to slot; never iterated
   std::vector<Slot> slots_;
   std::size_t hand_ = 0;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "shared/map/esri_ascii_grid.h"
-#include "shared/map/flt_grid.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/flt_grid_file.h"
+#include "shared/map/map_file.h"
 #include "shared/protocol/codec.h"
 #include "shared/replay/archive.h"
 #include "shared/replay/writer.h"

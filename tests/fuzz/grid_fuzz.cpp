@@ -10,7 +10,7 @@
 
 #include "shared/json/text.h"
 #include "shared/map/esri_ascii_grid.h"
-#include "shared/map/flt_grid.h"
+#include "shared/map/flt_grid_file.h"
 #include "tests/fuzz/property.h"
 
 using namespace woodlouse;

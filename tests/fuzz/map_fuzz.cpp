@@ -14,7 +14,8 @@
 #include "shared/core/stable_hash.h"
 #include "shared/json/document.h"
 #include "shared/map/canonical_map.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/grid_folder_file.h"
+#include "shared/map/map_file.h"
 #include "shared/map/map_reader.h"
 #include "shared/match/match.h"
 #include "tests/fuzz/map_size.h"
@@ -27,14 +28,14 @@ using fuzz::same_bits;
 
 namespace {
 
-const std::filesystem::path kGrids = std::filesystem::path(WOODLOUSE_SOURCE_DIR) / "tests" / "fuzz" / "grids";
+const map::DiskFolder kGrids(std::filesystem::path(WOODLOUSE_SOURCE_DIR) / "tests" / "fuzz" / "grids");
 
 /// Everything that is wrong, not only the first.
 void check_problems(std::string_view text) {
   const auto document = json::parse_file(text, "map.json", {8, 100'000});
   if (!document) return;
   json::Problems problems("map.json");
-  const auto definition = map::read_definition(document->root(), kGrids, problems);
+  const auto definition = map::read_definition(document->root(), &kGrids, problems);
   demand(definition.has_value() == (problems.count() == 0), "a map is refused for a reason");
   demand(problems.count() <= json::Problems::kMaxProblems, "the list of problems is bounded");
   for (const core::Error& error : problems.errors()) {
@@ -70,7 +71,7 @@ void check_same(const map::SpawnPoint& a, const map::SpawnPoint& b) {
 /// What clients and recordings get is the map that was played.
 void check_canonical(const map::Map& map) {
   const bool is_tiled = std::holds_alternative<map::TiledTerrain>(map.definition.terrain);
-  const auto again = map::parse_map(map.canonical, "canonical", is_tiled ? kGrids : std::filesystem::path());
+  const auto again = map::parse_map(map.canonical, "canonical", is_tiled ? &kGrids : nullptr);
   demand(again.has_value(), "the canonical text is a map", again ? "" : again.error().text());
   demand((*again)->canonical == map.canonical && (*again)->hash == map.hash, "the canonical text is its own");
   const map::MapDefinition& a = map.definition;
@@ -117,7 +118,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string_view text(reinterpret_cast<const char*>(data), size);
   if (!fuzz::is_quick_map(text)) return 0;
   check_problems(text);
-  const auto map = map::parse_map(text, "map.json", kGrids);
+  const auto map = map::parse_map(text, "map.json", &kGrids);
   if (!map) {
     demand(!map.error().where.empty(), "an error names its place", map.error().what);
     demand_readable(map.error().text());

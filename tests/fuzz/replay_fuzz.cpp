@@ -19,7 +19,6 @@
 #include "shared/replay/archive.h"
 #include "shared/replay/format.h"
 #include "shared/replay/line_writer.h"
-#include "shared/replay/recorded_map.h"
 #include "shared/replay/rerun.h"
 #include "shared/replay/source.h"
 #include "shared/state/state_hash.h"
@@ -169,7 +168,7 @@ bool check_lines(const ReplaySource& source) {
   check_round_trip(*header);
   const bool is_quick = !header->map_definition.empty() && fuzz::is_quick_map(header->map_definition);
   std::shared_ptr<const map::Map> map;
-  if (is_quick) map = load_recorded_map(*header, source.name, {}).value_or(nullptr);
+  if (is_quick) map = recorded_map(*header, source).value_or(nullptr);
   for (;;) {
     const auto line = reader.next();
     if (!line) {

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "shared/core/random.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 #include "shared/replay/writer.h"
 
 namespace {
@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
   for (const Seed& seed : kSeeds) {
     for (const std::string_view ending : {".ndjson", ".ndjson.zst"}) {
       const std::filesystem::path file = folder / (std::string(seed.name) + std::string(ending));
-      const std::string bytes = recording(seed, replay::encoding_of(file));
+      const std::string bytes = recording(seed, replay::encoding_of(file.string()));
       std::ofstream out(file, std::ios::binary);
       out << bytes;
       if (bytes.empty() || !out.flush()) {

@@ -7,7 +7,7 @@
 #include "shared/core/stable_hash.h"
 #include "shared/map/canonical_map.h"
 #include "shared/map/height_survey.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 #include "tests/support/big_map_files.h"
 
 namespace woodlouse::map {

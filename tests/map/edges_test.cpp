@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 
 namespace woodlouse::map {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "shared/core/random.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 
 namespace woodlouse::map {
 namespace {

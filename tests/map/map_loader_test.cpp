@@ -1,4 +1,4 @@
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 
 #include <bit>
 #include <catch2/catch.hpp>

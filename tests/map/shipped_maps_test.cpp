@@ -4,7 +4,7 @@
 #include <string>
 
 #include "shared/map/canonical_map.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 
 namespace woodlouse::map {
 namespace {

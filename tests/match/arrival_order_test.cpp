@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "shared/core/random.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 #include "shared/match/match.h"
 
 using namespace woodlouse;

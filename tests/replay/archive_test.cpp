@@ -4,6 +4,7 @@
 
 #include "shared/core/random.h"
 #include "shared/replay/inspect.h"
+#include "shared/replay/parallel_verify.h"
 #include "shared/replay/writer.h"
 #include "tests/replay/recorded_match.h"
 
@@ -35,16 +36,16 @@ TEST_CASE("the match at any tick is the one that was played, and goes on with th
     CHECK_FALSE(archive->is_cut_off());
     CHECK(archive->end_reason() == "steps done");
     for (std::uint64_t tick = 1; tick <= 300; tick += 7) {
-      const auto match = archive->match_at(tick);
-      REQUIRE(match);
-      CHECK((*match)->tick() == tick);
-      CHECK(without_waiting((*match)->state()) == without_waiting(recording.states[tick - 1]));
+      const auto playback = archive->play(tick);
+      REQUIRE(playback);
+      CHECK((*playback)->tick() == tick);
+      CHECK(without_waiting((*playback)->match().state()) == without_waiting(recording.states[tick - 1]));
     }
     for (const KeyframePlace& place : archive->index().keyframes) {
       if (place.tick == 0) continue;
-      const auto match = archive->match_at(place.tick);
-      REQUIRE(match);
-      CHECK(state_text((*match)->state()) == state_text(recording.states[place.tick - 1]));
+      const auto playback = archive->play(place.tick);
+      REQUIRE(playback);
+      CHECK(state_text((*playback)->match().state()) == state_text(recording.states[place.tick - 1]));
     }
   }
 }
@@ -113,9 +114,9 @@ TEST_CASE("a recording without an index, with a damaged or with a lying one is r
   const auto check = [&](const std::string& bytes) {
     const auto archive = opened(bytes);
     CHECK(archive->index().keyframes.size() == 4);
-    const auto match = archive->match_at(150);
-    REQUIRE(match);
-    CHECK((*match)->hash() == recording.states[149].hash);
+    const auto playback = archive->play(150);
+    REQUIRE(playback);
+    CHECK((*playback)->match().hash() == recording.states[149].hash);
     for (const unsigned jobs : {1u, 3u}) {
       const auto verification = verify(ReplaySource::of_bytes(bytes, "r"), jobs);
       REQUIRE(verification);

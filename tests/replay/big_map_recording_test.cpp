@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 #include "shared/replay/writer.h"
 #include "tests/replay/recorded_match.h"
 #include "tests/support/big_map_files.h"

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "shared/core/random.h"
+#include "shared/replay/parallel_verify.h"
 #include "shared/replay/writer.h"
 #include "shared/replay/zstd_input.h"
 #include "tests/replay/recorded_match.h"

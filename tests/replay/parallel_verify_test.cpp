@@ -3,6 +3,7 @@
 #include <string>
 
 #include "shared/core/random.h"
+#include "shared/replay/parallel_verify.h"
 #include "tests/replay/recorded_match.h"
 
 namespace woodlouse::replay {

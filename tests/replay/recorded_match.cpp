@@ -7,7 +7,8 @@
 
 #include "shared/core/joined.h"
 #include "shared/core/random.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
+#include "shared/replay/recorded_map_file.h"
 #include "shared/replay/writer.h"
 
 namespace woodlouse::replay {
@@ -148,8 +149,9 @@ std::size_t Recording::line_of_step(std::uint64_t step) const {
 }
 
 core::Expected<Verification> verify_text(const std::string& text, const std::filesystem::path& folder) {
-  std::istringstream in(text);
-  return verify(in, "r.jsonl", folder);
+  ReplaySource source = ReplaySource::of_bytes(text, "r.jsonl");
+  source.find_map = [folder](const Header& header) { return load_named_map(header, folder); };
+  return verify(source);
 }
 
 std::shared_ptr<const ReplayArchive> opened(const std::string& bytes) {

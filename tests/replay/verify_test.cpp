@@ -5,8 +5,9 @@
 #include <sstream>
 #include <string>
 
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 #include "shared/replay/verify.h"
+#include "shared/replay/verify_file.h"
 #include "shared/replay/writer.h"
 #include "tests/replay/recorded_match.h"
 

@@ -1,4 +1,4 @@
-#include "shared/map/flt_grid.h"
+#include "shared/map/flt_grid_file.h"
 
 #include <bit>
 #include <catch2/catch.hpp>

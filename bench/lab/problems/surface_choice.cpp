@@ -6,8 +6,8 @@
 
 #include "bench/lab/problems/names.h"
 #include "shared/map/canonical_map.h"
-#include "shared/map/flt_grid.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/flt_grid_file.h"
+#include "shared/map/map_file.h"
 
 namespace woodlouse::lab {
 namespace {

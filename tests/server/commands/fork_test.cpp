@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 #include "shared/replay/writer.h"
 
 using namespace woodlouse;

@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
 

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 
 using namespace woodlouse;
 using namespace woodlouse::server;

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "server/room/room.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 #include "tests/support/big_map_files.h"
 
 using namespace woodlouse;

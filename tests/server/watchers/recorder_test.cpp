@@ -11,8 +11,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "shared/map/map_loader.h"
-#include "shared/replay/verify.h"
+#include "shared/map/map_file.h"
+#include "shared/replay/parallel_verify.h"
+#include "shared/replay/source_file.h"
 
 using namespace woodlouse;
 using namespace woodlouse::server;
@@ -57,8 +58,7 @@ TEST_CASE("a recorded game with joins, inputs, keyframes and chat verifies") {
     REQUIRE(recorder);
     play(**recorder, disk, 700);
   }
-  std::ifstream in(file);
-  const auto result = replay::verify(in, file.string(), file.parent_path());
+  const auto result = replay::verify(replay::source_of_file(file));
   REQUIRE(result);
   CHECK(result->ok());
   CHECK_FALSE(result->cut_off);
@@ -78,7 +78,7 @@ TEST_CASE("a recording named .zst is packed and verifies") {
     REQUIRE(recorder);
     play(**recorder, disk, 700);
   }
-  const auto result = replay::verify(replay::ReplaySource::of_file(file), 2);
+  const auto result = replay::verify(replay::source_of_file(file), 2);
   REQUIRE(result);
   CHECK(replay::to_text(*result) == "ok 700 ticks\n");
   CHECK(log.text.str().empty());

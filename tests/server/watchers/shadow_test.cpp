@@ -12,7 +12,8 @@
 #include <future>
 #include <sstream>
 
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
+#include "shared/replay/source_file.h"
 #include "shared/replay/verify.h"
 
 using namespace woodlouse;
@@ -54,7 +55,7 @@ class Stage {
     return folder_ / ("dump." + std::to_string(tick) + "." + side + ".ndjson");
   }
   [[nodiscard]] static std::string verdict(const fs::path& file) {
-    const auto result = replay::verify(replay::ReplaySource::of_file(file), 1);
+    const auto result = replay::verify(replay::source_of_file(file));
     return result ? replay::to_text(*result) : result.error().text();
   }
 

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <memory>
 #include <string_view>
 #include <vector>
 
 #include "shared/core/error.h"
+#include "shared/map/grid_folder.h"
 #include "shared/map/map_definition.h"
 
 namespace woodlouse::map {
@@ -16,21 +16,17 @@ inline constexpr std::size_t kMaxMapBytes = 128u
                                             << 20;   ///< of a map or grid file; room for kMaxKnots heights
 inline constexpr std::size_t kMaxKnots = 4'000'000;  ///< of one terrain
 
-/// The map of a JSON text. `source` names it in errors; grid files are looked up in `folder`. An empty folder
-/// allows none: a text that came over a wire reads no files here.
-/// Errors: where = "file:line: field", what, hint.
+/// The map of a JSON text. `source` names it in errors; a grid file is looked up in `folder`. Null allows
+/// none: a text that came over a wire reads no files here. Errors: where = "file:line: field", what, hint.
 core::Expected<std::shared_ptr<const Map>> parse_map(std::string_view text, std::string_view source,
-                                                     const std::filesystem::path& folder);
+                                                     const GridFolder* folder);
 
 /// A big map as a client gets it: the text of its definition, which names a file that is not here, and an
 /// overview of that file's heights. Detail::kOverview; its hash is that of the text. Errors as above.
 core::Expected<std::shared_ptr<const Map>> parse_overview(std::string_view text, std::string_view source,
                                                           const terrain::HeightGrid& overview);
 
-/// The map of a file.
-core::Expected<std::shared_ptr<const Map>> load_map(const std::filesystem::path& file);
-
-/// Everything that is wrong with a map file, for `woodlouse-server check`; empty: nothing.
-std::vector<core::Error> check_map(const std::filesystem::path& file);
+/// Everything that is wrong with a map's text; empty: nothing. As parse_map().
+std::vector<core::Error> check_map(std::string_view text, std::string_view source, const GridFolder* folder);
 
 }  // namespace woodlouse::map

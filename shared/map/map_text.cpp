@@ -1,11 +1,10 @@
-#include "shared/map/map_loader.h"
+#include "shared/map/map_text.h"
 
 #include <string>
 #include <utility>
 
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
-#include "shared/core/whole_file.h"
 #include "shared/json/document.h"
 #include "shared/json/fields.h"
 #include "shared/map/canonical_map.h"
@@ -62,16 +61,10 @@ std::optional<MapDefinition> read(std::string_view text, const GridPlace& place,
   return read_definition(document->root(), place, problems);
 }
 
-/// The folder a map file lies in; never empty, which would forbid its grid file.
-std::filesystem::path folder_of(const std::filesystem::path& file) {
-  const std::filesystem::path folder = file.parent_path();
-  return folder.empty() ? std::filesystem::path(".") : folder;
-}
-
 }  // namespace
 
 core::Expected<std::shared_ptr<const Map>> parse_map(std::string_view text, std::string_view source,
-                                                     const std::filesystem::path& folder) {
+                                                     const GridFolder* folder) {
   json::Problems problems{std::string(source)};
   std::optional<MapDefinition> definition = read(text, folder, problems);
   if (!definition) return tl::unexpected(problems.errors().front());
@@ -92,17 +85,9 @@ core::Expected<std::shared_ptr<const Map>> parse_overview(std::string_view text,
   return map;
 }
 
-core::Expected<std::shared_ptr<const Map>> load_map(const std::filesystem::path& file) {
-  const core::Expected<std::string> text = core::read_whole_file(file, kMaxMapBytes);
-  if (!text) return tl::unexpected(text.error());
-  return parse_map(*text, file.string(), folder_of(file));
-}
-
-std::vector<core::Error> check_map(const std::filesystem::path& file) {
-  const core::Expected<std::string> text = core::read_whole_file(file, kMaxMapBytes);
-  if (!text) return {text.error()};
-  json::Problems problems(file.string());
-  read(*text, folder_of(file), problems);
+std::vector<core::Error> check_map(std::string_view text, std::string_view source, const GridFolder* folder) {
+  json::Problems problems{std::string(source)};
+  read(text, folder, problems);
   return std::move(problems.errors());
 }
 

@@ -1,0 +1,19 @@
+// Maps in files; what is in one is map_text.h's.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "shared/core/error.h"
+#include "shared/map/map_text.h"
+
+namespace woodlouse::map {
+
+/// The map of a file. Errors: where = "file:line: field", what, hint.
+core::Expected<std::shared_ptr<const Map>> load_map(const std::filesystem::path& file);
+
+/// Everything that is wrong with a map file, for `woodlouse-server check`; empty: nothing.
+std::vector<core::Error> check_map(const std::filesystem::path& file);
+
+}  // namespace woodlouse::map
