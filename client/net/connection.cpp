@@ -38,12 +38,12 @@ void Connection::stop() {
   link_.reset();
 }
 
-double Connection::retry_seconds(TimePoint now) const {
+double Connection::retry_seconds(core::Time now) const {
   if (phase_ != Phase::kWaiting) return 0.0;
   return std::max(0.0, std::chrono::duration<double>(retry_.expiry() - now).count());
 }
 
-void Connection::on_message(const protocol::ServerMessage& message, TimePoint arrival) {
+void Connection::on_message(const protocol::ServerMessage& message, core::Time arrival) {
   if (std::holds_alternative<protocol::Welcome>(message)) {
     phase_ = Phase::kJoined;
     was_joined_ = true;

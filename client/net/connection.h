@@ -7,6 +7,7 @@
 #include <string>
 
 #include "client/net/link.h"
+#include "shared/core/clock.h"
 
 namespace woodlouse::client {
 
@@ -16,7 +17,7 @@ std::chrono::seconds retry_delay(int attempt);
 class ConnectionListener {
  public:
   virtual ~ConnectionListener() = default;
-  virtual void on_message(const protocol::ServerMessage& message, TimePoint arrival) = 0;
+  virtual void on_message(const protocol::ServerMessage& message, core::Time arrival) = 0;
   /// The line broke, or an attempt failed; the next one follows by itself unless stop() is called.
   virtual void on_lost() = 0;
 };
@@ -44,10 +45,10 @@ class Connection final : public LinkListener {
   /// Failed attempts since the line was last up.
   [[nodiscard]] int attempts() const { return attempts_; }
   /// Seconds to the next attempt; 0 while connecting.
-  [[nodiscard]] double retry_seconds(TimePoint now) const;
+  [[nodiscard]] double retry_seconds(core::Time now) const;
 
   // Of the link, for it alone to call.
-  void on_message(const protocol::ServerMessage& message, TimePoint arrival) override;
+  void on_message(const protocol::ServerMessage& message, core::Time arrival) override;
   void on_closed(const std::string& reason) override;
 
  private:

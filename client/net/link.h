@@ -10,7 +10,7 @@
 #include <string>
 
 #include "client/net/address.h"
-#include "client/terminal/keyboard.h"
+#include "shared/core/clock.h"
 #include "shared/protocol/framing.h"
 #include "shared/protocol/messages.h"
 
@@ -20,7 +20,7 @@ namespace woodlouse::client {
 class LinkListener {
  public:
   virtual ~LinkListener() = default;
-  virtual void on_message(const protocol::ServerMessage& message, TimePoint arrival) = 0;
+  virtual void on_message(const protocol::ServerMessage& message, core::Time arrival) = 0;
   /// The link has ended, for this reason; nothing comes after it.
   virtual void on_closed(const std::string& reason) = 0;
 };

@@ -5,11 +5,11 @@
 
 namespace woodlouse::client {
 
-double ServerClock::elapsed(TimePoint now) const {
+double ServerClock::elapsed(core::Time now) const {
   return std::chrono::duration<double>(now - origin_).count();
 }
 
-void ServerClock::observe(std::uint64_t tick, TimePoint arrival) {
+void ServerClock::observe(std::uint64_t tick, core::Time arrival) {
   if (!running_) {
     running_ = true;
     origin_ = last_observed_ = last_shown_ = arrival;
@@ -31,7 +31,7 @@ void ServerClock::observe(std::uint64_t tick, TimePoint arrival) {
   }
 }
 
-double ServerClock::tick(TimePoint now) {
+double ServerClock::tick(core::Time now) {
   const double pause = std::max(0.0, std::chrono::duration<double>(now - last_shown_).count());
   last_shown_ = std::max(last_shown_, now);
   const double gap = line_ - shown_;

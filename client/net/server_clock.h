@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "client/terminal/keyboard.h"
+#include "shared/core/clock.h"
 
 namespace woodlouse::client {
 
@@ -18,13 +18,13 @@ class ServerClock {
   explicit ServerClock(std::uint32_t tick_hz) : tick_hz_(tick_hz) {}
 
   /// A frame of `tick` arrived.
-  void observe(std::uint64_t tick, TimePoint arrival);
+  void observe(std::uint64_t tick, core::Time arrival);
 
   /// Whether any frame has arrived, so that tick() means something.
   [[nodiscard]] bool running() const { return running_; }
   /// The tick whose frame, on time, arrives at `now`. Never falls between calls but by a jump. REQUIRES
   /// running().
-  double tick(TimePoint now);
+  double tick(core::Time now);
   [[nodiscard]] double tick_hz() const { return tick_hz_; }
 
  private:
@@ -34,13 +34,13 @@ class ServerClock {
   static constexpr double kSlew = 0.05;          ///< seconds a second
   static constexpr double kJump = 0.5;           ///< seconds
 
-  [[nodiscard]] double elapsed(TimePoint now) const;
+  [[nodiscard]] double elapsed(core::Time now) const;
 
   double tick_hz_;
   bool running_ = false;
-  TimePoint origin_{};
-  TimePoint last_observed_{};
-  TimePoint last_shown_{};
+  core::Time origin_{};
+  core::Time last_observed_{};
+  core::Time last_shown_{};
   double line_ = 0.0;    ///< ticks, at origin_
   double shown_ = 0.0;   ///< the same, slewed
   double latest_ = 0.0;  ///< what tick() last said

@@ -44,7 +44,7 @@ void ChatEntry::paste(std::string_view text) {
   // The keyboard's own decoder drops bad UTF-8 and finds the line breaks.
   Keyboard decoder;
   std::vector<TerminalInput> inputs;
-  decoder.feed(text, TimePoint{}, inputs);
+  decoder.feed(text, core::Time{}, inputs);
   for (const TerminalInput& input : inputs) {
     const Key* key = std::get_if<Key>(&input);
     if (key == nullptr) continue;

@@ -94,7 +94,7 @@ void Game::perform(Action action) {
 
 bool Game::drive(Action action) {
   Pilot* const pilot = session_.room().pilot();
-  const TimePoint now = steady_clock::now();
+  const core::Time now = steady_clock::now();
   switch (action) {
     case Action::kPushPulse:
       if (pilot != nullptr) pilot->steering().push(now);
@@ -128,13 +128,13 @@ bool Game::drive(Action action) {
   }
 }
 
-Scene Game::scene(TimePoint now, double fps) {
+Scene Game::scene(core::Time now, double fps) {
   session_.update(now);
   check_server(now);
   return build_scene(session_, interface_, chat_, {settings_.look, fps, bindings_.release_seen(), now});
 }
 
-void Game::check_server(TimePoint now) {
+void Game::check_server(core::Time now) {
   if (session_.failure()) {
     const core::Error& error = *session_.failure();
     loop_.finish(

@@ -14,6 +14,7 @@
 #include "client/terminal/terminal_guard.h"
 #include "client/terminal/terminal_loop.h"
 #include "client/terminal/terminal_screen.h"
+#include "shared/core/clock.h"
 
 namespace woodlouse::client {
 
@@ -36,12 +37,12 @@ class Game final : private Performance {
 
  private:
   void on_input(const TerminalInput& input) override;
-  Scene scene(TimePoint now, double fps) override;
+  Scene scene(core::Time now, double fps) override;
   void on_key(const Key& key);
   void perform(Action action);
   bool drive(Action action);
   void close_chat(ChatEntry::Outcome outcome);
-  void check_server(TimePoint now);
+  void check_server(core::Time now);
 
   Session& session_;
   TerminalGuard& guard_;
@@ -51,7 +52,7 @@ class Game final : private Performance {
   KeyBindings bindings_;
   Interface interface_;
   ChatEntry chat_;
-  TimePoint server_seen_{};  ///< when server_alive_ was last asked
+  core::Time server_seen_{};  ///< when server_alive_ was last asked
   TerminalLoop loop_;
 };
 

@@ -43,7 +43,7 @@ protocol::Input Pilot::order(std::uint64_t tick, const ThrustOrder& wanted) {
   return input;
 }
 
-std::optional<protocol::Input> Pilot::update(TimePoint now, ServerClock& clock, double rtt_seconds) {
+std::optional<protocol::Input> Pilot::update(core::Time now, ServerClock& clock, double rtt_seconds) {
   if (!clock.running()) return std::nullopt;
   ahead_ = std::max(ahead_, clock.tick(now) + lead_.ticks(rtt_seconds));
   auto next = static_cast<std::uint64_t>(std::max(0.0, ahead_));
@@ -95,7 +95,7 @@ void Pilot::respawned() {
   correction_ = {};
 }
 
-void Pilot::fade(TimePoint now) {
+void Pilot::fade(core::Time now) {
   const double seconds = std::chrono::duration<double>(now - last_update_).count();
   last_update_ = now;
   correction_ = std::exp(-std::clamp(seconds, 0.0, 1.0) / kFadeSeconds) * correction_;

@@ -19,6 +19,7 @@
 #include "client/play/prediction.h"
 #include "client/play/steering.h"
 #include "client/play/view_state.h"
+#include "shared/core/clock.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::client {
@@ -47,7 +48,7 @@ class Pilot {
         std::uint32_t tick_hz, std::uint32_t id);
 
   /// Runs the prediction on to now and says what to send, at most one input a tick.
-  std::optional<protocol::Input> update(TimePoint now, ServerClock& clock, double rtt_seconds);
+  std::optional<protocol::Input> update(core::Time now, ServerClock& clock, double rtt_seconds);
   void acknowledge(const protocol::Ack& ack);
   /// The server's row of this louse: where it strays from what was predicted, an exact state is asked for.
   void compare(std::uint64_t tick, const LouseSample& row);
@@ -67,7 +68,7 @@ class Pilot {
   static constexpr double kLargestFade = 2.0;   ///< [m]; a longer one is shown at once
 
   protocol::Input order(std::uint64_t tick, const ThrustOrder& wanted);
-  void fade(TimePoint now);
+  void fade(core::Time now);
 
   std::uint32_t id_;
   Ways ways_;
@@ -75,13 +76,13 @@ class Pilot {
   std::optional<Prediction> prediction_;
   Lead lead_;
   std::uint32_t seq_ = 0;
-  std::uint64_t last_tick_ = 0;     ///< the step the last input asked for
-  double ahead_ = 0.0;              ///< fractional tick the louse is drawn at
-  bool heading_taken_ = false;      ///< the steering points where the louse does
-  bool wants_state_ = true;         ///< ask for an exact state with the next input, wanted or not
-  std::optional<TimePoint> asked_;  ///< when
-  core::Vec2 correction_;           ///< still to be faded out
-  TimePoint last_update_{};
+  std::uint64_t last_tick_ = 0;      ///< the step the last input asked for
+  double ahead_ = 0.0;               ///< fractional tick the louse is drawn at
+  bool heading_taken_ = false;       ///< the steering points where the louse does
+  bool wants_state_ = true;          ///< ask for an exact state with the next input, wanted or not
+  std::optional<core::Time> asked_;  ///< when
+  core::Vec2 correction_;            ///< still to be faded out
+  core::Time last_update_{};
 };
 
 }  // namespace woodlouse::client

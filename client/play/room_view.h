@@ -18,6 +18,7 @@
 #include "client/play/trail.h"
 #include "client/play/view_state.h"
 #include "client/play/visible_lice.h"
+#include "shared/core/clock.h"
 #include "shared/core/error.h"
 #include "shared/map/map_definition.h"
 #include "shared/protocol/messages.h"
@@ -33,17 +34,17 @@ class RoomView {
   static constexpr std::chrono::milliseconds kNoticeFor{4000};
 
   /// One message of the server. Error: the server can't be played with (its map is unreadable); leave.
-  core::Expected<void> on_message(const protocol::ServerMessage& message, TimePoint now);
+  core::Expected<void> on_message(const protocol::ServerMessage& message, core::Time now);
   /// The line is cut: keeps the chat and the map, forgets the session.
   void on_lost();
   /// Runs on to now: prediction, trails, pings. What is to be sent is in take_outgoing().
-  void update(TimePoint now);
+  void update(core::Time now);
   [[nodiscard]] std::vector<protocol::ClientMessage> take_outgoing();
 
   void say(std::string text) { outgoing_.emplace_back(protocol::Chat{std::move(text)}); }
   void respawn() { outgoing_.emplace_back(protocol::Respawn{}); }
   /// A line over the key line for kNoticeFor.
-  void notice(std::string text, TimePoint now);
+  void notice(std::string text, core::Time now);
 
   [[nodiscard]] const protocol::Welcome* welcome() const { return welcome_ ? &*welcome_ : nullptr; }
   [[nodiscard]] const map::Map* map() const { return map_.get(); }
@@ -65,12 +66,12 @@ class RoomView {
  private:
   void take(const protocol::Welcome& welcome);
   core::Expected<void> take(const protocol::MapMessage& message);
-  void take(const protocol::Frame& frame, TimePoint now);
+  void take(const protocol::Frame& frame, core::Time now);
   void take(const protocol::Event& event);
-  void take(const protocol::Pong& pong, TimePoint now);
-  void measure_rate(std::uint64_t tick, TimePoint now);
+  void take(const protocol::Pong& pong, core::Time now);
+  void measure_rate(std::uint64_t tick, core::Time now);
   void begin_piloting();
-  void draw_lice(TimePoint now);
+  void draw_lice(core::Time now);
 
   std::optional<protocol::Welcome> welcome_;
   std::shared_ptr<const map::Map> map_;
@@ -83,13 +84,13 @@ class RoomView {
   std::map<std::uint32_t, Trail> trails_;
   std::vector<protocol::ClientMessage> outgoing_;
   std::deque<double> round_trips_;  ///< [s], the newest last
-  std::optional<TimePoint> pinged_;
-  std::optional<TimePoint> resync_asked_;
+  std::optional<core::Time> pinged_;
+  std::optional<core::Time> resync_asked_;
   std::uint64_t rate_tick_ = 0;  ///< where the measured rate's window begins
-  std::optional<TimePoint> rate_time_;
+  std::optional<core::Time> rate_time_;
   double measured_tick_hz_ = 0.0;
   std::string notice_;
-  TimePoint notice_until_{};
+  core::Time notice_until_{};
 };
 
 /// The join of our client: its columns, its format.

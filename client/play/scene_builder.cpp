@@ -54,7 +54,7 @@ int rank_of(const std::vector<ScoreRow>& scores, std::uint32_t id) {
   return row == scores.end() ? 0 : static_cast<int>(row - scores.begin()) + 1;
 }
 
-void fill_steering_numbers(const Steering& steering, TimePoint now, HudNumbers& hud) {
+void fill_steering_numbers(const Steering& steering, core::Time now, HudNumbers& hud) {
   hud.thrust = steering.braking(now) ? -1.0 : steering.pushing(now) ? 1.0 : 0.0;
   hud.push_seconds = steering.seconds_left(now);
   hud.cruise = steering.cruising();

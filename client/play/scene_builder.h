@@ -8,6 +8,7 @@
 #include "client/play/interface.h"
 #include "client/play/room_view.h"
 #include "client/play/session.h"
+#include "shared/core/clock.h"
 
 namespace woodlouse::client {
 
@@ -16,7 +17,7 @@ struct FrameFacts {
   Look look;
   double fps = 0.0;  ///< shown in the last second
   bool key_up_known = false;
-  TimePoint now{};
+  core::Time now{};
 };
 
 Scene build_scene(const Session& session, const Interface& interface, const ChatEntry& entry,

@@ -8,7 +8,7 @@ Session::Session(boost::asio::io_context& context, const Address& address, proto
     : context_(context), connection_(context, address, std::move(join), *this) {}
 
 core::Expected<void> Session::join() {
-  const TimePoint begin = std::chrono::steady_clock::now();
+  const core::Time begin = std::chrono::steady_clock::now();
   connection_.start();
   context_.restart();
   while (connection_.phase() == Connection::Phase::kConnecting) context_.run_one();
@@ -19,7 +19,7 @@ core::Expected<void> Session::join() {
   return core::fail(connection_.address().text(), connection_.reason());
 }
 
-void Session::update(TimePoint now) {
+void Session::update(core::Time now) {
   room_.update(now);
   for (const protocol::ClientMessage& message : room_.take_outgoing()) connection_.send(message);
 }
@@ -28,7 +28,7 @@ void Session::leave() {
   if (connection_.phase() == Connection::Phase::kJoined) {
     connection_.send(protocol::Leave{});
     context_.restart();
-    const TimePoint end = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
+    const core::Time end = std::chrono::steady_clock::now() + std::chrono::milliseconds(200);
     while (connection_.phase() == Connection::Phase::kJoined && std::chrono::steady_clock::now() < end) {
       context_.run_one_until(end);
     }
@@ -36,7 +36,7 @@ void Session::leave() {
   connection_.stop();
 }
 
-void Session::on_message(const protocol::ServerMessage& message, TimePoint arrival) {
+void Session::on_message(const protocol::ServerMessage& message, core::Time arrival) {
   const auto taken = room_.on_message(message, arrival);
   for (const protocol::ClientMessage& answer : room_.take_outgoing()) connection_.send(answer);
   if (taken) return;

@@ -7,6 +7,7 @@
 
 #include "client/net/connection.h"
 #include "client/play/room_view.h"
+#include "shared/core/clock.h"
 #include "shared/core/error.h"
 
 namespace woodlouse::client {
@@ -18,7 +19,7 @@ class Session final : private ConnectionListener {
   /// Runs the io_context until the server has welcomed us. Error: why it did not; the reason in `what`.
   core::Expected<void> join();
   /// Runs the room on to now and sends what it has to say.
-  void update(TimePoint now);
+  void update(core::Time now);
   /// Says good-bye to the server and ends the line, waiting at most 200 ms for the words to go out.
   void leave();
 
@@ -30,7 +31,7 @@ class Session final : private ConnectionListener {
   [[nodiscard]] std::chrono::milliseconds join_time() const { return join_time_; }
 
  private:
-  void on_message(const protocol::ServerMessage& message, TimePoint arrival) override;
+  void on_message(const protocol::ServerMessage& message, core::Time arrival) override;
   void on_lost() override;
 
   boost::asio::io_context& context_;

@@ -7,9 +7,9 @@
 namespace woodlouse::client {
 namespace {
 
-constexpr TimePoint kPast{};
+constexpr core::Time kPast{};
 
-double seconds(TimePoint::duration duration) { return std::chrono::duration<double>(duration).count(); }
+double seconds(core::Time::duration duration) { return std::chrono::duration<double>(duration).count(); }
 
 }  // namespace
 
@@ -39,12 +39,12 @@ core::Vec2 Steering::heading() const {
   return {std::cos(angle), std::sin(angle)};
 }
 
-void Steering::push(TimePoint now) {
+void Steering::push(core::Time now) {
   push_until_ = now + kPulse;
   brake_until_ = kPast;
 }
 
-void Steering::brake(TimePoint now) {
+void Steering::brake(core::Time now) {
   brake_until_ = now + kPulse;
   push_until_ = kPast;
   cruise_ = false;
@@ -72,26 +72,26 @@ void Steering::toggle_cruise() {
 
 void Steering::release_all() { push_held_ = brake_held_ = false; }
 
-bool Steering::pushing(TimePoint now) const {
+bool Steering::pushing(core::Time now) const {
   return !braking(now) && (cruise_ || push_held_ || now < push_until_);
 }
 
-state::Thrust Steering::wanted(TimePoint now) const {
+state::Thrust Steering::wanted(core::Time now) const {
   if (braking(now)) return {state::ThrustKind::kAlongHeading, {-1.0, 0.0}};
   if (pushing(now)) return {state::ThrustKind::kMapVector, wire_vector(heading())};
   return {};
 }
 
-TimePoint Steering::wanted_until(TimePoint now) const {
+core::Time Steering::wanted_until(core::Time now) const {
   if (braking(now)) return brake_held_ ? now + kPulse : brake_until_;
   return cruise_ || push_held_ ? now + kPulse : push_until_;
 }
 
-double Steering::seconds_left(TimePoint now) const {
+double Steering::seconds_left(core::Time now) const {
   return pushing(now) || braking(now) ? seconds(wanted_until(now) - now) : 0.0;
 }
 
-std::optional<ThrustOrder> Steering::poll(TimePoint now) {
+std::optional<ThrustOrder> Steering::poll(core::Time now) {
   const state::Thrust want = wanted(now);
   if (want.kind == state::ThrustKind::kNone) {
     if (sent_until_ <= now) return std::nullopt;  // what was sent has ended, or is about to, by itself
@@ -99,7 +99,7 @@ std::optional<ThrustOrder> Steering::poll(TimePoint now) {
     sent_ = {};
     return ThrustOrder{{state::ThrustKind::kMapVector, {0.0, 0.0}}, 1};
   }
-  const TimePoint until = wanted_until(now);
+  const core::Time until = wanted_until(now);
   const bool same = want == sent_ && sent_until_ > now;
   if (same && (until <= sent_until_ || sent_until_ - now >= kRenewBefore)) return std::nullopt;
   sent_ = want;

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "client/terminal/keyboard.h"
+#include "shared/core/clock.h"
 #include "shared/core/vec2.h"
 #include "shared/state/louse.h"
 
@@ -40,8 +40,8 @@ class Steering {
   void reset();
   void turn(Turn direction);
 
-  void push(TimePoint now);
-  void brake(TimePoint now);  ///< also ends cruise
+  void push(core::Time now);
+  void brake(core::Time now);  ///< also ends cruise
   void hold_push() { push_held_ = true; }
   void hold_brake();  ///< also ends cruise
   void release_push();
@@ -50,18 +50,18 @@ class Steering {
   void release_all();  ///< the terminal lost focus: releases will not be seen
 
   /// The order to send now, or nothing while the last one still says it.
-  std::optional<ThrustOrder> poll(TimePoint now);
+  std::optional<ThrustOrder> poll(core::Time now);
 
   [[nodiscard]] core::Vec2 heading() const;
   [[nodiscard]] bool cruising() const { return cruise_; }
-  [[nodiscard]] bool pushing(TimePoint now) const;
-  [[nodiscard]] bool braking(TimePoint now) const { return brake_held_ || now < brake_until_; }
+  [[nodiscard]] bool pushing(core::Time now) const;
+  [[nodiscard]] bool braking(core::Time now) const { return brake_held_ || now < brake_until_; }
   /// How long the present push or brake still lasts by itself [s]; a held or latched one counts as a pulse.
-  [[nodiscard]] double seconds_left(TimePoint now) const;
+  [[nodiscard]] double seconds_left(core::Time now) const;
 
  private:
-  [[nodiscard]] state::Thrust wanted(TimePoint now) const;
-  [[nodiscard]] TimePoint wanted_until(TimePoint now) const;
+  [[nodiscard]] state::Thrust wanted(core::Time now) const;
+  [[nodiscard]] core::Time wanted_until(core::Time now) const;
 
   std::uint32_t tick_hz_;
   double base_angle_ = 0.0;  ///< [rad], of the heading before any turn
@@ -69,10 +69,10 @@ class Steering {
   bool cruise_ = false;
   bool push_held_ = false;
   bool brake_held_ = false;
-  TimePoint push_until_{};
-  TimePoint brake_until_{};
+  core::Time push_until_{};
+  core::Time brake_until_{};
   state::Thrust sent_;  ///< what the server was last told
-  TimePoint sent_until_{};
+  core::Time sent_until_{};
 };
 
 /// A unit vector as the wire can carry it: multiples of 1/128, rounded towards zero so that its length stays

@@ -120,7 +120,7 @@ void TextGame::say(const std::string& line) {
 
 void TextGame::update() {
   if (outcome_) return;
-  const TimePoint now = steady_clock::now();
+  const core::Time now = steady_clock::now();
   session_.update(now);
   tell_connection();
   tell_news();
@@ -197,7 +197,7 @@ void TextGame::on_key(const Key& key) {
 
 void TextGame::perform(Action action) {
   Pilot* const pilot = session_.room().pilot();
-  const TimePoint now = steady_clock::now();
+  const core::Time now = steady_clock::now();
   switch (action) {
     case Action::kPushPulse:
     case Action::kPushHold:

@@ -14,6 +14,7 @@
 #include "client/play/session.h"
 #include "client/terminal/key_input.h"
 #include "client/terminal/outcome.h"
+#include "shared/core/clock.h"
 
 namespace woodlouse::client {
 
@@ -64,7 +65,7 @@ class TextGame {
   std::size_t lines_told_ = 0;  ///< of the roster's
   std::string notice_told_;
   Connection::Phase phase_told_ = Connection::Phase::kJoined;
-  TimePoint state_told_{};
+  core::Time state_told_{};
   std::optional<Outcome> outcome_;
 };
 

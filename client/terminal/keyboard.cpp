@@ -16,12 +16,12 @@ bool ends_with(std::string_view text, std::string_view end) {
 
 }  // namespace
 
-void Keyboard::feed(std::string_view bytes, TimePoint now, std::vector<TerminalInput>& out) {
+void Keyboard::feed(std::string_view bytes, core::Time now, std::vector<TerminalInput>& out) {
   for (const char c : bytes) take(static_cast<unsigned char>(c), out);
   last_byte_ = now;
 }
 
-std::optional<TimePoint> Keyboard::deadline() const {
+std::optional<core::Time> Keyboard::deadline() const {
   switch (state_) {
     case State::kGround:
       return std::nullopt;
@@ -32,7 +32,7 @@ std::optional<TimePoint> Keyboard::deadline() const {
   }
 }
 
-void Keyboard::expire(TimePoint now, std::vector<TerminalInput>& out) {
+void Keyboard::expire(core::Time now, std::vector<TerminalInput>& out) {
   const auto due = deadline();
   if (!due || now < *due) return;
   if (state_ == State::kEscape) out.push_back(Key{.code = KeyCode::kEscape});

@@ -16,9 +16,9 @@
 #include <variant>
 #include <vector>
 
-namespace woodlouse::client {
+#include "shared/core/clock.h"
 
-using TimePoint = std::chrono::steady_clock::time_point;
+namespace woodlouse::client {
 
 enum class KeyCode : std::uint8_t {
   kCharacter,
@@ -77,11 +77,11 @@ class Keyboard {
       500};  ///< half a sequence is dropped after this
 
   /// Takes bytes as read at `now`; appends what they mean to `out`.
-  void feed(std::string_view bytes, TimePoint now, std::vector<TerminalInput>& out);
+  void feed(std::string_view bytes, core::Time now, std::vector<TerminalInput>& out);
   /// Ends what has waited too long: a lone ESC becomes the key.
-  void expire(TimePoint now, std::vector<TerminalInput>& out);
+  void expire(core::Time now, std::vector<TerminalInput>& out);
   /// When expire() would do something, if nothing arrives.
-  [[nodiscard]] std::optional<TimePoint> deadline() const;
+  [[nodiscard]] std::optional<core::Time> deadline() const;
 
  private:
   enum class State : std::uint8_t { kGround, kEscape, kCsi, kLinuxFunctionKey, kSs3, kUtf8, kPaste };
@@ -93,7 +93,7 @@ class Keyboard {
   void take_paste(unsigned char byte, std::vector<TerminalInput>& out);
 
   State state_ = State::kGround;
-  TimePoint last_byte_{};
+  core::Time last_byte_{};
   std::string sequence_;  ///< parameters of the CSI under way
   bool overlong_ = false;
   std::string paste_;

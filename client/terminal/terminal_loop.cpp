@@ -54,7 +54,7 @@ void TerminalLoop::on_input(const TerminalInput& input) {
   performance_.on_input(input);
 }
 
-void TerminalLoop::schedule(TimePoint at) {
+void TerminalLoop::schedule(core::Time at) {
   timer_.expires_at(at);
   timer_.async_wait([this](boost::system::error_code error) {
     if (!error) frame();
@@ -62,13 +62,13 @@ void TerminalLoop::schedule(TimePoint at) {
 }
 
 void TerminalLoop::hurry() {
-  const TimePoint soonest = std::max(steady_clock::now(), last_frame_ + kHurriedGap);
+  const core::Time soonest = std::max(steady_clock::now(), last_frame_ + kHurriedGap);
   if (soonest < next_frame_) schedule(soonest);
 }
 
 void TerminalLoop::frame() {
   if (outcome_) return;
-  const TimePoint now = steady_clock::now();
+  const core::Time now = steady_clock::now();
   last_frame_ = now;
   const Scene scene = performance_.scene(now, fps_);
   if (!outcome_) show(scene, now);
@@ -82,7 +82,7 @@ void TerminalLoop::frame() {
   schedule(next_frame_);
 }
 
-void TerminalLoop::show(const Scene& scene, TimePoint now) {
+void TerminalLoop::show(const Scene& scene, core::Time now) {
   const Size size = terminal_size(STDOUT_FILENO);
   if (cells_.size() != size) cells_.resize(size);
   if (guard_.take_resumed()) screen_.invalidate();

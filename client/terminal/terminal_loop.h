@@ -13,6 +13,7 @@
 #include "client/terminal/outcome.h"
 #include "client/terminal/terminal_guard.h"
 #include "client/terminal/terminal_screen.h"
+#include "shared/core/clock.h"
 
 namespace woodlouse::client {
 
@@ -23,7 +24,7 @@ class Performance {
   virtual void on_input(const TerminalInput& input) = 0;
   /// Runs on to now and says what is seen then. fps: the frames shown in the last second. What is returned
   /// after finish() is not shown.
-  virtual Scene scene(TimePoint now, double fps) = 0;
+  virtual Scene scene(core::Time now, double fps) = 0;
 };
 
 class TerminalLoop {
@@ -41,9 +42,9 @@ class TerminalLoop {
 
  private:
   void on_input(const TerminalInput& input);
-  void schedule(TimePoint at);
+  void schedule(core::Time at);
   void frame();
-  void show(const Scene& scene, TimePoint now);
+  void show(const Scene& scene, core::Time now);
   void flush_when_taken();
 
   boost::asio::io_context& context_;
@@ -58,9 +59,9 @@ class TerminalLoop {
   Composer composer_;
   CellBuffer cells_;
   std::optional<Outcome> outcome_;
-  TimePoint next_frame_{};  ///< on the regular schedule
-  TimePoint last_frame_{};
-  TimePoint second_began_{};  ///< of the fps count
+  core::Time next_frame_{};  ///< on the regular schedule
+  core::Time last_frame_{};
+  core::Time second_began_{};  ///< of the fps count
   int frames_ = 0;
   double fps_ = 0.0;
 };

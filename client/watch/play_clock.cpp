@@ -11,9 +11,9 @@ PlayClock::PlayClock(std::uint64_t first, std::uint64_t last, std::uint32_t tick
   assert(first <= last && tick_hz > 0);
 }
 
-void PlayClock::update(TimePoint now) {
+void PlayClock::update(core::Time now) {
   const auto passed =
-      updated_ ? std::min<TimePoint::duration>(now - *updated_, kLongestGap) : TimePoint::duration{};
+      updated_ ? std::min<core::Time::duration>(now - *updated_, kLongestGap) : core::Time::duration{};
   updated_ = now;
   if (!playing_) return;
   place(position_ + std::chrono::duration<double>(passed).count() * speed() * tick_hz_);

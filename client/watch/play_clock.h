@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "client/terminal/keyboard.h"
+#include "shared/core/clock.h"
 
 namespace woodlouse::client {
 
@@ -22,7 +22,7 @@ class PlayClock {
   PlayClock(std::uint64_t first, std::uint64_t last, std::uint32_t tick_hz);
 
   /// Runs on to now; pauses at the end.
-  void update(TimePoint now);
+  void update(core::Time now);
 
   /// Play or pause; at the end: from the beginning again.
   void toggle();
@@ -57,7 +57,7 @@ class PlayClock {
   double position_;  ///< [ticks], first_ .. last_
   std::size_t speed_ = 2;
   bool playing_ = true;
-  std::optional<TimePoint> updated_;
+  std::optional<core::Time> updated_;
 };
 
 }  // namespace woodlouse::client

@@ -120,7 +120,7 @@ void Screening::go_to_previous_event() {
   clock_.go_to(after == marks.begin() ? clock_.first() : shown_at(*std::prev(after)));
 }
 
-void Screening::update(TimePoint now) {
+void Screening::update(core::Time now) {
   clock_.update(now);
   const auto shown = recording_.show(clock_.tick());
   if (shown) return;

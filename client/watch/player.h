@@ -12,6 +12,7 @@
 #include "client/watch/play_clock.h"
 #include "client/watch/recording_view.h"
 #include "client/watch/replay_keys.h"
+#include "shared/core/clock.h"
 
 namespace woodlouse::client {
 
@@ -25,7 +26,7 @@ class Screening {
   /// What the key asks of whoever runs the terminal (leave, suspend, draw anew), if anything.
   std::optional<Action> on_key(const Key& key);
   /// Runs on to now.
-  void update(TimePoint now);
+  void update(core::Time now);
   [[nodiscard]] Scene scene(const FrameFacts& facts) const;
 
   [[nodiscard]] const PlayClock& clock() const { return clock_; }

@@ -58,7 +58,7 @@ core::Expected<void> RecordingView::run_to(std::uint64_t tick) {
   return {};
 }
 
-void RecordingView::prove(TimePoint deadline) {
+void RecordingView::prove(core::Time deadline) {
   while (prover_ && std::chrono::steady_clock::now() < deadline) {
     const auto step = prover_->advance();
     const bool has_more = step && *step;

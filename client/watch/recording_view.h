@@ -13,6 +13,7 @@
 #include "client/play/visible_lice.h"
 #include "client/watch/recorded_chat.h"
 #include "client/watch/recording_proof.h"
+#include "shared/core/clock.h"
 #include "shared/core/error.h"
 #include "shared/replay/archive.h"
 #include "shared/replay/playback.h"
@@ -30,7 +31,7 @@ class RecordingView {
   core::Expected<void> show(std::uint64_t tick);
   /// Re-runs the recording from its beginning, beside what is shown, until `deadline` or its end: after a
   /// while every tick is proven, wherever one looks.
-  void prove(TimePoint deadline);
+  void prove(core::Time deadline);
 
   [[nodiscard]] std::uint64_t tick() const { return playback_->tick(); }
   [[nodiscard]] Sight sight() const { return {archive_->map().get(), lice_, trails_, nullptr}; }

@@ -29,7 +29,7 @@ void ReplayViewer::on_input(const TerminalInput& input) {
   loop_.hurry();
 }
 
-Scene ReplayViewer::scene(TimePoint now, double fps) {
+Scene ReplayViewer::scene(core::Time now, double fps) {
   screening_.update(now);
   recording_.prove(now + std::chrono::nanoseconds(std::chrono::seconds(1)) / (settings_.fps * kProvingShare));
   return screening_.scene({settings_.look, fps, false, now});

@@ -7,6 +7,7 @@
 #include "client/terminal/outcome.h"
 #include "client/terminal/terminal_loop.h"
 #include "client/watch/player.h"
+#include "shared/core/clock.h"
 
 namespace woodlouse::client {
 
@@ -24,7 +25,7 @@ class ReplayViewer final : private Performance {
   static constexpr int kProvingShare = 3;  ///< one part in so many of a frame's time goes to proving ahead
 
   void on_input(const TerminalInput& input) override;
-  Scene scene(TimePoint now, double fps) override;
+  Scene scene(core::Time now, double fps) override;
 
   RecordingView& recording_;
   TerminalGuard& guard_;

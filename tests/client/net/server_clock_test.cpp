@@ -9,9 +9,9 @@ using namespace woodlouse::client;
 
 namespace {
 
-TimePoint at(double seconds) {
-  return TimePoint{} +
-         std::chrono::duration_cast<TimePoint::duration>(std::chrono::duration<double>(1000.0 + seconds));
+woodlouse::core::Time at(double seconds) {
+  return woodlouse::core::Time{} + std::chrono::duration_cast<woodlouse::core::Time::duration>(
+                                       std::chrono::duration<double>(1000.0 + seconds));
 }
 
 }  // namespace

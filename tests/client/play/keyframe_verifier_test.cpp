@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "client/play/room_view.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 #include "shared/match/match.h"
 #include "shared/protocol/codec.h"
 
@@ -139,7 +139,7 @@ TEST_CASE("a room that asked for all in exact format verifies its keys and shows
   welcome.fields = join.fields;
   welcome.format = join.format;
   welcome.map_hash = match.map().hash;
-  const TimePoint now{std::chrono::seconds(100)};
+  const core::Time now{std::chrono::seconds(100)};
   RoomView room;
   REQUIRE(room.on_message(welcome, now));
   protocol::Frame key = decoded(key_line(match));

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "shared/core/random.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 #include "shared/match/match.h"
 
 using namespace woodlouse;
@@ -18,9 +18,9 @@ namespace {
 
 constexpr std::uint32_t kTickHz = 60;
 
-TimePoint at(double ms) {
-  return TimePoint{} +
-         std::chrono::duration_cast<TimePoint::duration>(std::chrono::duration<double, std::milli>(1e6 + ms));
+core::Time at(double ms) {
+  return core::Time{} + std::chrono::duration_cast<core::Time::duration>(
+                            std::chrono::duration<double, std::milli>(1e6 + ms));
 }
 
 struct Line {

@@ -9,7 +9,7 @@
 
 #include "client/play/pilot.h"
 #include "shared/core/random.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 #include "shared/match/match.h"
 
 using namespace woodlouse;

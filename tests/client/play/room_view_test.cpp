@@ -5,7 +5,7 @@
 #include "client/play/scene_builder.h"
 #include "client/play/text_game.h"
 #include "shared/core/stable_hash.h"
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 
 using namespace woodlouse;
 using namespace woodlouse::client;
@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-const TimePoint kStart{std::chrono::seconds(100)};
+const core::Time kStart{std::chrono::seconds(100)};
 
 std::shared_ptr<const map::Map> volcano() {
   auto loaded = map::load_map(std::string(WOODLOUSE_SOURCE_DIR) + "/maps/volcano.json");
@@ -205,7 +205,7 @@ TEST_CASE(
   static_cast<void>(room.take_outgoing());
   std::size_t asked = 0;
   for (std::uint64_t tick = 600; tick < 720; tick += 3) {
-    const TimePoint now = kStart + std::chrono::microseconds((tick - 600) * 16667);
+    const core::Time now = kStart + std::chrono::microseconds((tick - 600) * 16667);
     REQUIRE(room.on_message(
         key(tick, {1, 7.0 + 0.01 * static_cast<double>(tick - 600), -4.0, 0.6, 0.0, 1, 0, 0}), now));
     room.update(now);

@@ -12,20 +12,20 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr std::uint32_t kTickHz = 60;
-const TimePoint kStart{std::chrono::seconds(100)};
+const core::Time kStart{std::chrono::seconds(100)};
 
 /// What the server would have acting at `now`, from the orders it was sent.
 struct Server {
   state::Thrust thrust;
-  TimePoint until{};
+  core::Time until{};
 
-  void take(const std::optional<ThrustOrder>& order, TimePoint now) {
+  void take(const std::optional<ThrustOrder>& order, core::Time now) {
     if (!order) return;
     thrust = order->thrust;
-    until = now + std::chrono::duration_cast<TimePoint::duration>(
+    until = now + std::chrono::duration_cast<core::Time::duration>(
                       std::chrono::duration<double>(order->ticks / double{kTickHz}));
   }
-  [[nodiscard]] bool pushes(TimePoint now) const { return now < until && thrust.value != core::Vec2{}; }
+  [[nodiscard]] bool pushes(core::Time now) const { return now < until && thrust.value != core::Vec2{}; }
 };
 
 }  // namespace
@@ -48,7 +48,7 @@ TEST_CASE("repeats extend the pulse without a gap and without flooding the serve
   Server server;
   int messages = 0;
   for (auto t = 0ms; t < 3000ms; t += 33ms) {
-    const TimePoint now = kStart + t;
+    const core::Time now = kStart + t;
     steering.push(now);
     const auto order = steering.poll(now);
     messages += order ? 1 : 0;

@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-const TimePoint kStart{std::chrono::seconds(100)};
+const woodlouse::core::Time kStart{std::chrono::seconds(100)};
 
 std::vector<TerminalInput> keys_of(std::string_view bytes) {
   Keyboard keyboard;

@@ -7,11 +7,11 @@ using namespace std::chrono_literals;
 
 namespace {
 
-const TimePoint kStart{std::chrono::seconds(100)};
+const woodlouse::core::Time kStart{std::chrono::seconds(100)};
 
 /// Frames of 25 ms for so long; the time when they are over.
-TimePoint run(PlayClock& clock, TimePoint from, std::chrono::milliseconds span) {
-  for (const TimePoint end = from + span; from < end;) clock.update(from += 25ms);
+woodlouse::core::Time run(PlayClock& clock, woodlouse::core::Time from, std::chrono::milliseconds span) {
+  for (const woodlouse::core::Time end = from + span; from < end;) clock.update(from += 25ms);
   return from;
 }
 
@@ -21,7 +21,7 @@ TEST_CASE("a recording plays by itself at its own rate and pauses at its end") {
   PlayClock clock(0, 600, 60);
   clock.update(kStart);
   CHECK(clock.tick() == 0);
-  const TimePoint now = run(clock, kStart, 2s);
+  const woodlouse::core::Time now = run(clock, kStart, 2s);
   CHECK(clock.tick() == 120);
   CHECK(clock.seconds() == Approx(2.0));
   CHECK(clock.total_seconds() == Approx(10.0));
@@ -34,7 +34,7 @@ TEST_CASE("what is paused stands still, and play at the end begins again") {
   PlayClock clock(100, 160, 60);
   clock.update(kStart);
   clock.toggle();
-  TimePoint now = run(clock, kStart, 1s);
+  woodlouse::core::Time now = run(clock, kStart, 1s);
   CHECK(clock.tick() == 100);
   clock.toggle();
   now = run(clock, now, 500ms);
@@ -52,7 +52,7 @@ TEST_CASE("speeds go from a quarter to sixteen times and no further") {
   clock.update(kStart);
   for (int i = 0; i < 10; ++i) clock.slower();
   CHECK(clock.speed() == 0.25);
-  TimePoint now = run(clock, kStart, 2s);
+  woodlouse::core::Time now = run(clock, kStart, 2s);
   CHECK(clock.tick() == 30);
   for (int i = 0; i < 10; ++i) clock.faster();
   CHECK(clock.speed() == 16.0);

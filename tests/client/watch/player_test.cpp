@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "shared/map/map_loader.h"
+#include "shared/map/map_file.h"
 #include "shared/match/match.h"
 #include "shared/replay/writer.h"
 
@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-const TimePoint kStart{std::chrono::seconds(100)};
+const core::Time kStart{std::chrono::seconds(100)};
 constexpr std::uint64_t kTicks = 1200;
 
 /// Twenty seconds of three lice that drive: a bot and ada from the start, lin from 10 s on; ada says
@@ -76,7 +76,7 @@ std::string altered(std::string bytes, const std::string& line_start, const std:
 TEST_CASE("a recording plays and shows who was there, when, and what was said") {
   const auto view = opened(recorded());
   Screening screening(*view, "test.ndjson", View::kMap);
-  TimePoint now = kStart;
+  core::Time now = kStart;
   screening.update(now);
   CHECK(screening.scene(facts()).lice.empty());
   for (int frame = 0; frame < 60; ++frame) screening.update(now += 100ms);
@@ -171,7 +171,7 @@ TEST_CASE("proving ahead proves every tick once, whatever is shown, and knows wh
   const auto view = opened(recorded());
   Screening screening(*view, "test.ndjson", View::kMap);
   press(screening, U'8');
-  view->prove(TimePoint::max());
+  view->prove(core::Time::max());
   press(screening, U'3');
   const Scene scene = screening.scene(facts());
   CHECK(scene.proof->verified == kTicks);
@@ -184,7 +184,7 @@ TEST_CASE("a flipped digit of a hash is told with its tick") {
                                     [](char& digit) { digit = digit == '0' ? '1' : '0'; });
   const auto view = opened(bytes);
   Screening screening(*view, "test.ndjson", View::kMap);
-  view->prove(TimePoint::max());
+  view->prove(core::Time::max());
   const Scene scene = screening.scene(facts());
   REQUIRE(scene.proof->differs);
   CHECK(*scene.proof->differs == 701);
@@ -198,7 +198,7 @@ TEST_CASE(
   const auto view = opened(bytes);
   Screening screening(*view, "test.ndjson", View::kMap);
   press(screening, U'5');
-  TimePoint now = kStart;
+  core::Time now = kStart;
   for (int frame = 0; frame < 10; ++frame) screening.update(now += 100ms);
   press(screening, U'9');
   REQUIRE(screening.scene(facts()).proof->differs);
@@ -211,7 +211,7 @@ TEST_CASE("a recording that is damaged in the middle is shown up to there and sa
   const auto view = opened(bytes);
   Screening screening(*view, "test.ndjson", View::kMap);
   press(screening, U'5');
-  TimePoint now = kStart;
+  core::Time now = kStart;
   for (int frame = 0; frame < 60; ++frame) screening.update(now += 100ms);
   CHECK(view->tick() == 700);
   CHECK_FALSE(screening.clock().is_playing());
