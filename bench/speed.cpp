@@ -98,7 +98,7 @@ void world_tick(benchmark::State& state) {
 
 /// One row of the default columns, as the server writes it.
 void row_encoding(benchmark::State& state, protocol::Format format) {
-  const server::RowWriter writer({protocol::default_columns(), format});
+  const server::RowTable writer({protocol::default_columns(), format});
   const terrain::Terrain terrain{volcano(21)};
   core::Random random(3);
   const auto metres = [&] { return 40 * random.uniform() - 20; };

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "server/config_file.h"
-#include "server/room/version.h"
+#include "server/version.h"
 
 namespace woodlouse::server {
 namespace {

@@ -4,6 +4,7 @@
 #include <boost/asio/post.hpp>
 
 #include <algorithm>
+#include <cassert>
 #include <csignal>
 #include <cstdint>
 #include <random>
@@ -13,6 +14,8 @@
 #include <variant>
 
 #include "server/commands/fork.h"
+#include "server/version.h"
+#include "server/watchers/ground_ahead.h"
 #include "server/watchers/recorder.h"
 #include "server/watchers/shadow.h"
 #include "shared/core/stable_hash.h"
@@ -51,19 +54,19 @@ std::size_t tick_threads(std::size_t rooms) {
 }
 
 /// Takes over what the recording decides.
-core::Expected<Opening> begin_fork(ServeConfig& config) {
+core::Expected<Start> begin_fork(ServeConfig& config) {
   std::error_code ignored;  // a file that is not there yet is no other one's equal
   if (config.record && fs::equivalent(*config.record, config.fork->recording, ignored))
     return core::fail("--record " + config.record->string(), "is the recording to go on from",
                       "a fork writes a recording of its own: name another file");
-  auto opening = open_fork(*config.fork);
-  if (!opening) return opening;
-  config.tick_hz = opening->match->settings().tick_hz;
+  auto start = open_fork(*config.fork);
+  if (!start) return start;
+  config.tick_hz = start->match->settings().tick_hz;
   if (const auto fits = check_state_hz(config.state_hz, config.tick_hz); !fits)
     return tl::unexpected(fits.error());
   const std::uint64_t begin = config.fork->tick;
   if (config.ticks) config.ticks = begin + std::min(*config.ticks, UINT64_MAX - begin);
-  return opening;
+  return start;
 }
 
 std::string unique_name(const std::string& name, std::set<std::string>& taken) {
@@ -85,7 +88,7 @@ Server::Server(const ServeConfig& config, std::shared_ptr<spdlog::logger> log)
       strand_(asio::make_strand(io_)),
       signals_(strand_, SIGINT, SIGTERM),
       deadline_(strand_),
-      environment_{lobby_, limits_, traffic_, log_},
+      environment_{lobby_, limits_, traffic_, kServerName, log_},
       acceptor_(io_, environment_) {
   // A bot may push once a tick and still ask for the time.
   limits_.messages_per_s = std::max(limits_.messages_per_s, 2 * config.tick_hz);
@@ -96,11 +99,11 @@ Server::~Server() = default;
 
 core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config,
                                                        std::shared_ptr<spdlog::logger> log) {
-  std::optional<Opening> fork;
+  std::optional<Start> fork;
   if (config.fork) {
-    auto opening = begin_fork(config);
-    if (!opening) return tl::unexpected(opening.error());
-    fork = std::move(*opening);
+    auto start = begin_fork(config);
+    if (!start) return tl::unexpected(start.error());
+    fork = std::move(*start);
   }
   std::unique_ptr<Server> server(new Server(config, std::move(log)));
   // The port first: a busy one must not cost somebody his recording.
@@ -120,64 +123,75 @@ core::Expected<void> Server::open_rooms(const ServeConfig& config) {
   for (const fs::path& file : config.maps) {
     const auto map = map::load_map(file);
     if (!map) return tl::unexpected(map.error());
-    const match::MatchSettings settings{config.tick_hz, seed + rooms_.size()};
-    Opening opening{*map, std::make_unique<match::Match>(*map, settings), file.string(), {}, {}};
+    const match::MatchSettings settings{config.tick_hz, seed + names.size()};
+    Start start{*map, std::make_unique<match::Match>(*map, settings), file.string(), {}, {}};
     const std::string name = unique_name((*map)->definition.name, names);
-    if (auto opened = open_room(config, name, std::move(opening)); !opened) return opened;
+    if (auto opened = open_room(config, name, std::move(start)); !opened) return opened;
   }
   return {};
 }
 
-core::Expected<void> Server::open_room(const ServeConfig& config, const std::string& name, Opening opening) {
+core::Expected<void> Server::open_room(const ServeConfig& config, const std::string& name, Start start) {
   RoomSettings settings;
   settings.name = name;
   settings.state_hz = config.state_hz;
   settings.bots = config.bots;
   settings.tick_limit = config.ticks;
   settings.per_room = limits_.per_room;
-  auto staff = hire(config, name, opening);
-  if (!staff) return tl::unexpected(staff.error());
-  const match::Match& match = *opening.match;
-  if (opening.parent)
-    log_->info("room {}: goes on from {}, tick {}, hash {}, with {} lice, {} ticks/s, {} frames/s", name,
-               opening.parent->file, match.tick(), core::to_hex(match.hash()), match.world().lice().size(),
-               config.tick_hz, config.state_hz);
-  else
-    log_->info("room {}: map {}, {} ticks/s, {} frames/s, seed {}", name, opening.map_file, config.tick_hz,
-               config.state_hz, match.settings().seed);
-  rooms_.push_back(
-      std::make_unique<Room>(ticks_, io_, std::move(settings), std::move(opening), std::move(*staff), log_));
-  lobby_.add(*rooms_.back());
+  auto watchers = make_watchers(config, name, start);
+  if (!watchers) return tl::unexpected(watchers.error());
+  log_opened(name, config, start);
+  const bool is_new =
+      lobby_.open(Room::make(ticks_, io_, std::move(settings), std::move(start), std::move(*watchers), log_));
+  assert(is_new);
+  static_cast<void>(is_new);
   return {};
 }
 
-core::Expected<RoomStaff> Server::hire(const ServeConfig& config, const std::string& room,
-                                       const Opening& opening) {
-  RoomStaff staff;
+void Server::log_opened(const std::string& room, const ServeConfig& config, const Start& start) const {
+  const match::Match& match = *start.match;
+  if (start.parent)
+    log_->info("room {}: goes on from {}, tick {}, hash {}, with {} lice, {} ticks/s, {} frames/s", room,
+               start.parent->file, match.tick(), core::to_hex(match.hash()), match.world().lice().size(),
+               config.tick_hz, config.state_hz);
+  else
+    log_->info("room {}: map {}, {} ticks/s, {} frames/s, seed {}", room, start.map_file, config.tick_hz,
+               config.state_hz, match.settings().seed);
+}
+
+core::Expected<Watchers> Server::make_watchers(const ServeConfig& config, const std::string& room,
+                                               const Start& start) {
+  Watchers watchers;
+  replay::Header header = replay::make_header(*start.match, kServerName, start.map_file);
   if (config.record) {
-    auto opened = Recorder::open(recording_of(*config.record, room, config.maps.size()), disk_, log_);
+    replay::Header recorded = header;
+    recorded.parent = start.parent;
+    auto opened = Recorder::open(recording_of(*config.record, room, config.maps.size()), std::move(recorded),
+                                 disk_, log_);
     if (!opened) return tl::unexpected(opened.error());
-    staff.recorder = std::move(*opened);
+    watchers.push_back(std::move(*opened));
   }
   if (shadows_)
-    staff.shadow = std::make_unique<Shadow>(room, opening.map, dump_of_shadow(config, room), *shadows_, log_);
-  if (std::holds_alternative<map::TiledTerrain>(opening.map->definition.terrain)) {
+    watchers.push_back(std::make_unique<Shadow>(room, start.map, std::move(header),
+                                                dump_of_shadow(config, room), *shadows_, log_));
+  if (std::holds_alternative<map::TiledTerrain>(start.map->definition.terrain)) {
     if (!ground_) ground_.emplace(1);
-    staff.ahead = GroundAhead::make(*opening.map, *ground_);
+    watchers.push_back(GroundAhead::make(room, *start.map, start.map_file, *ground_, log_));
   }
-  return staff;
+  return watchers;
 }
 
 void Server::run() {
   auto ticks_work = asio::make_work_guard(ticks_);
   auto io_work = asio::make_work_guard(io_);
   await_signal();
-  for (const auto& room : rooms_) room->start([this] { asio::post(strand_, [this] { room_ended(); }); });
+  const std::size_t rooms = lobby_.rooms().size();
+  for (const auto& room : lobby_.rooms())
+    room->start([this] { asio::post(strand_, [this] { room_ended(); }); });
   acceptor_.start();
 
   std::vector<std::jthread> threads;
-  for (std::size_t i = 0; i < tick_threads(rooms_.size()); ++i)
-    threads.emplace_back([this] { ticks_.run(); });
+  for (std::size_t i = 0; i < tick_threads(rooms); ++i) threads.emplace_back([this] { ticks_.run(); });
   for (std::size_t i = 0; i < kIoThreads; ++i) threads.emplace_back([this] { io_.run(); });
   threads.clear();
   disk_.join();
@@ -194,7 +208,7 @@ void Server::await_signal() {
 }
 
 void Server::room_ended() {
-  if (++rooms_ended_ == rooms_.size()) stop("the game is over", "ticks done");
+  if (++rooms_ended_ == lobby_.rooms().size()) stop("the game is over", "ticks done");
 }
 
 void Server::stop(const std::string& text, const std::string& reason) {
@@ -204,9 +218,10 @@ void Server::stop(const std::string& text, const std::string& reason) {
   deadline_.async_wait([this](const boost::system::error_code& error) {
     if (!error) give_up_waiting();
   });
-  parts_running_ = rooms_.size() + 1;
+  const auto rooms = lobby_.rooms();
+  parts_running_ = rooms.size() + 1;
   const auto part_done = [this] { asio::post(strand_, [this] { part_stopped(); }); };
-  for (const auto& room : rooms_) room->stop(bye, reason, part_done);
+  for (const auto& room : rooms) room->stop(bye, reason, part_done);
   acceptor_.stop(bye, part_done);
 }
 
@@ -228,7 +243,7 @@ void Server::stop_contexts() {
 }
 
 void Server::print_summary(std::ostream& out) const {
-  for (const auto& room : rooms_) out << summary(room->name(), room->metrics()) << '\n';
+  for (const auto& room : lobby_.rooms()) out << summary(room->name(), *room->figures()) << '\n';
   out << "frames sent " << traffic_.frames_sent << ", bytes sent " << traffic_.bytes_sent
       << ", lines received " << traffic_.lines_received << '\n';
 }

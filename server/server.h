@@ -55,8 +55,10 @@ class Server {
  private:
   Server(const ServeConfig& config, std::shared_ptr<spdlog::logger> log);
   core::Expected<void> open_rooms(const ServeConfig& config);
-  core::Expected<void> open_room(const ServeConfig& config, const std::string& name, Opening opening);
-  core::Expected<RoomStaff> hire(const ServeConfig& config, const std::string& room, const Opening& opening);
+  core::Expected<void> open_room(const ServeConfig& config, const std::string& name, Start start);
+  core::Expected<Watchers> make_watchers(const ServeConfig& config, const std::string& room,
+                                         const Start& start);
+  void log_opened(const std::string& room, const ServeConfig& config, const Start& start) const;
   void await_signal();
   void room_ended();
   void stop(const std::string& text, const std::string& reason);
@@ -68,8 +70,9 @@ class Server {
   boost::asio::thread_pool disk_{1};
   std::optional<boost::asio::thread_pool> ground_;  ///< once a map is too big for the memory
   std::optional<boost::asio::thread_pool> shadows_;
-  boost::asio::io_context ticks_;
   boost::asio::io_context io_;
+  boost::asio::io_context
+      ticks_;  ///< ends before io_: what rooms posted holds them, and they hand out over io_
   boost::asio::strand<boost::asio::io_context::executor_type> strand_;
   boost::asio::signal_set signals_;
   boost::asio::steady_timer deadline_;
@@ -77,7 +80,6 @@ class Server {
   protocol::Limits limits_;
   TrafficMetrics traffic_;
   Lobby lobby_;
-  std::vector<std::unique_ptr<Room>> rooms_;
   SessionEnvironment environment_;
   Acceptor acceptor_;
   std::string address_;

@@ -25,8 +25,8 @@ core::Error without_tick(const ReplayArchive& archive, const ForkPoint& point) {
 }
 
 /// By louse. A louse that nobody named can't be asked for.
-std::vector<Orphan> orphans_of(const ReplayArchive& archive, const match::Match& match) {
-  std::vector<Orphan> orphans;
+std::vector<Seat> unclaimed_seats(const ReplayArchive& archive, const match::Match& match) {
+  std::vector<Seat> seats;
   for (const match::PlayerSeq& player : match.state().players) {
     if (!match.contains(player.player)) continue;
     const auto& spans = archive.players();
@@ -36,10 +36,10 @@ std::vector<Orphan> orphans_of(const ReplayArchive& archive, const match::Match&
     if (span == spans.end() || span->player != player.player) continue;
     std::string name = protocol::clean_text(span->label.name, protocol::kMaxNameBytes);
     if (name.empty()) continue;
-    orphans.push_back(
-        {player.player, std::move(name), span->label.role, player.last_seq ? *player.last_seq + 1 : 0});
+    seats.push_back({player.player, std::move(name), span->label.role,
+                     player.last_seq ? *player.last_seq + 1 : 0, Nobody{}});
   }
-  return orphans;
+  return seats;
 }
 
 core::Error with_advice(core::Error error, const ForkPoint& point) {
@@ -50,7 +50,7 @@ core::Error with_advice(core::Error error, const ForkPoint& point) {
 
 }  // namespace
 
-core::Expected<Opening> open_fork(const ForkPoint& point) {
+core::Expected<Start> open_fork(const ForkPoint& point) {
   const auto archive = ReplayArchive::open(replay::source_of_file(point.recording));
   if (!archive) return tl::unexpected(with_advice(archive.error(), point));
   if (point.tick < (*archive)->first_tick() || point.tick > (*archive)->last_tick())
@@ -67,13 +67,13 @@ core::Expected<Opening> open_fork(const ForkPoint& point) {
     return core::fail(point.recording.string(),
                       joined({"at tick ", std::to_string(point.tick), " somebody is about to join or leave"}),
                       "take the tick after it");
-  Opening opening;
-  opening.map = (*archive)->map();
-  opening.match = match::Match::restore(opening.map, (*playback)->match().settings(), state);
-  opening.map_file = replay::map_file_of((*archive)->header(), point.recording.parent_path()).string();
-  opening.orphans = orphans_of(**archive, *opening.match);
-  opening.parent = replay::Parent{point.recording.string(), state.tick, state.hash};
-  return opening;
+  Start start;
+  start.map = (*archive)->map();
+  start.match = match::Match::restore(start.map, (*playback)->match().settings(), state);
+  start.map_file = replay::map_file_of((*archive)->header(), point.recording.parent_path()).string();
+  start.unclaimed = unclaimed_seats(**archive, *start.match);
+  start.parent = replay::Parent{point.recording.string(), state.tick, state.hash};
+  return start;
 }
 
 }  // namespace woodlouse::server

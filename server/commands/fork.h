@@ -17,6 +17,6 @@ struct ForkPoint {
 /// The match at that tick, proven up to there since the keyframe before it; inputs that waited for a later
 /// tick are those that keyframe knew. Errors: no recording or a damaged one, its map is not found or another,
 /// the tick is not in it, or what was recorded is not what a re-run gives.
-core::Expected<Opening> open_fork(const ForkPoint& point);
+core::Expected<Start> open_fork(const ForkPoint& point);
 
 }  // namespace woodlouse::server

@@ -10,7 +10,6 @@
 #include <variant>
 #include <vector>
 
-#include "server/room/version.h"
 #include "shared/core/stable_hash.h"
 #include "shared/match/match.h"
 #include "shared/protocol/codec.h"
@@ -53,7 +52,7 @@ void Session::start(std::function<void()> closed) {
     self->closed_ = std::move(closed);
     protocol::Hello hello;
     hello.behavior = match::kBehavior;
-    hello.server = kServerName;
+    hello.server = self->environment_.server_name;
     hello.session = core::to_hex(self->id_);
     hello.rooms = self->environment_.lobby.names();
     hello.features = {"quantized", "exact", "fields", "delta", "get_map"};

@@ -24,8 +24,8 @@
 #include "server/net/outbox.h"
 #include "server/net/rate_limiter.h"
 #include "server/net/send_rate.h"
+#include "server/room/directory.h"
 #include "server/room/figures.h"
-#include "server/room/lobby.h"
 #include "server/room/subscriber.h"
 #include "shared/protocol/framing.h"
 #include "shared/protocol/messages.h"
@@ -34,9 +34,10 @@ namespace woodlouse::server {
 
 /// What all sessions share; outlives them.
 struct SessionEnvironment {
-  const Lobby& lobby;
+  const Directory& lobby;
   const protocol::Limits& limits;
   TrafficMetrics& traffic;
+  std::string_view server_name;  ///< with its version
   std::shared_ptr<spdlog::logger> log;
 };
 
@@ -103,7 +104,7 @@ class Session final : public Subscriber, public std::enable_shared_from_this<Ses
 
   State state_ = State::kOpen;
   Handshake handshake_;
-  Room* room_ = nullptr;  ///< null before the join
+  std::shared_ptr<Door> room_;  ///< null before the join
   std::array<char, 16384> incoming_{};
   protocol::LineFramer framer_;
   RateLimiter limiter_;

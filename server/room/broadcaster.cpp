@@ -10,11 +10,13 @@ namespace woodlouse::server {
 namespace asio = boost::asio;
 
 void Broadcaster::add(Member member) {
-  asio::post(strand_, [this, added = std::move(member)]() mutable { members_.push_back(std::move(added)); });
+  asio::post(strand_, [self = shared_from_this(), this, added = std::move(member)]() mutable {
+    members_.push_back(std::move(added));
+  });
 }
 
 void Broadcaster::remove(SessionId session) {
-  asio::post(strand_, [this, session] {
+  asio::post(strand_, [self = shared_from_this(), this, session] {
     for (Member& member : members_)
       if (member.session == session) member.subscriber.reset();
     // A running job holds an index into the list; it is tidied when the job ends.
@@ -24,14 +26,14 @@ void Broadcaster::remove(SessionId session) {
 
 void Broadcaster::event(std::uint64_t number, Line line) {
   backlog_.fetch_add(1, std::memory_order_relaxed);
-  asio::post(strand_, [this, job = EventJob{number, std::move(line)}]() mutable {
+  asio::post(strand_, [self = shared_from_this(), this, job = EventJob{number, std::move(line)}]() mutable {
     events_.push_back(std::move(job));
     wake();
   });
 }
 
 void Broadcaster::frames(FrameKind kind, std::vector<ChannelFrame> frames) {
-  asio::post(strand_, [this, kind, job = std::move(frames)]() mutable {
+  asio::post(strand_, [self = shared_from_this(), this, kind, job = std::move(frames)]() mutable {
     if (kind == FrameKind::kKey) {
       key_ = std::move(job);
       delta_.reset();
@@ -74,7 +76,7 @@ void Broadcaster::serve(const Member& member) const {
 
 void Broadcaster::wake() {
   if (std::exchange(awake_, true)) return;
-  asio::post(strand_, [this] { hand_out_slice(); });
+  asio::post(strand_, [self = shared_from_this(), this] { hand_out_slice(); });
 }
 
 void Broadcaster::hand_out_slice() {
@@ -85,7 +87,7 @@ void Broadcaster::hand_out_slice() {
   const std::size_t end = std::min(members_.size(), next_member_ + kSlice);
   for (; next_member_ < end; ++next_member_) serve(members_[next_member_]);
   if (next_member_ == members_.size()) end_job();
-  asio::post(strand_, [this] { hand_out_slice(); });
+  asio::post(strand_, [self = shared_from_this(), this] { hand_out_slice(); });
 }
 
 }  // namespace woodlouse::server

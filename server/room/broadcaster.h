@@ -22,7 +22,8 @@
 
 namespace woodlouse::server {
 
-class Broadcaster {
+/// Held by a shared_ptr: what it has posted keeps it until it ran.
+class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
  public:
   static constexpr std::size_t kSlice = 64;         ///< members served before others may run
   static constexpr std::size_t kMaxBacklog = 1024;  ///< events waiting, past which the room makes no more

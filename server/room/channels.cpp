@@ -5,7 +5,7 @@
 
 namespace woodlouse::server {
 
-std::optional<ChannelId> FrameChannels::acquire(const RowLayout& layout) {
+std::optional<ChannelId> Channels::acquire(const RowLayout& layout) {
   const auto same = [&layout](const auto& entry) { return entry.second.encoder.layout() == layout; };
   auto found = std::find_if(channels_.begin(), channels_.end(), same);
   if (found == channels_.end()) {
@@ -16,13 +16,13 @@ std::optional<ChannelId> FrameChannels::acquire(const RowLayout& layout) {
   return found->first;
 }
 
-void FrameChannels::release(ChannelId channel) {
+void Channels::release(ChannelId channel) {
   const auto found = channels_.find(channel);
   assert(found != channels_.end());
   if (--found->second.users == 0) channels_.erase(found);
 }
 
-const Frame& FrameChannels::encode(Channel& channel, const Scene& scene, FrameKind kind) {
+const Frame& Channels::encode(Channel& channel, const Scene& scene, FrameKind kind) {
   ++encoded_;
   if (kind == FrameKind::kKey || !channel.key) {
     channel.key = channel.encoder.key(scene);
@@ -33,7 +33,7 @@ const Frame& FrameChannels::encode(Channel& channel, const Scene& scene, FrameKi
   return *channel.delta;
 }
 
-std::vector<Frame> FrameChannels::newest(ChannelId id, const Scene& scene) {
+std::vector<Frame> Channels::newest(ChannelId id, const Scene& scene) {
   Channel& channel = channels_.at(id);
   if (!channel.key) encode(channel, scene, FrameKind::kKey);
   std::vector<Frame> frames{*channel.key};
@@ -41,7 +41,7 @@ std::vector<Frame> FrameChannels::newest(ChannelId id, const Scene& scene) {
   return frames;
 }
 
-std::vector<ChannelFrame> FrameChannels::encode(const Scene& scene, FrameKind kind) {
+std::vector<ChannelFrame> Channels::encode(const Scene& scene, FrameKind kind) {
   std::vector<ChannelFrame> frames;
   frames.reserve(channels_.size());
   for (auto& [id, channel] : channels_) frames.push_back({id, encode(channel, scene, kind)});

@@ -18,7 +18,7 @@ struct ChannelFrame {
   Frame frame;
 };
 
-class FrameChannels {
+class Channels {
  public:
   static constexpr std::size_t kMaxLayouts = 32;  ///< in a room at a time; bounds the encoding of a tick
 

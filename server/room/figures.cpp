@@ -45,7 +45,7 @@ Duration DurationHistogram::quantile(double q) const {
   return max_;
 }
 
-std::string summary(const std::string& room, const RoomMetrics& m) {
+std::string summary(const std::string& room, const RoomFigures& m) {
   const std::string ground =
       m.ground ? fmt::format(", tiles built {} ({} ahead), thrown out {}, read failures {}", m.ground->built,
                              m.ground->ahead, m.ground->thrown_out, m.ground->read_failures)

@@ -35,7 +35,7 @@ class DurationHistogram {
 };
 
 /// Of a big map's tiles (terrain/tile_store.h).
-struct GroundMetrics {
+struct GroundFigures {
   std::size_t live = 0;             ///< tiles in memory
   std::uint64_t built = 0;          ///< ever
   std::uint64_t ahead = 0;          ///< of them, before a louse needed them
@@ -44,21 +44,21 @@ struct GroundMetrics {
 };
 
 /// Of a second match that re-runs the room's (shadow.h).
-struct ShadowMetrics {
+struct ShadowFigures {
   std::uint64_t ticks = 0;  ///< re-run and compared
   std::uint64_t differences = 0;
   bool ended = false;  ///< before the room did
 };
 
 /// A room's own figures; its strand owns them.
-struct RoomMetrics {
+struct RoomFigures {
   std::uint64_t ticks = 0;
   DurationHistogram lateness;  ///< start of a tick's work after its deadline
   DurationHistogram work;      ///< a tick's work, from its start
   std::uint64_t clock_moves = 0;
   std::uint64_t frames_encoded = 0;     ///< keys and deltas, once per (room, format, fields, tick)
-  std::optional<GroundMetrics> ground;  ///< of a big map
-  std::optional<ShadowMetrics> shadow;
+  std::optional<GroundFigures> ground;  ///< of a big map
+  std::optional<ShadowFigures> shadow;
 };
 
 /// What sessions count; any thread.
@@ -71,6 +71,6 @@ struct TrafficMetrics {
 /// `volcano: ticks 3600, lateness p50 0.06 ms p99 0.21 ms max 0.90 ms, clock moves 0, frames encoded 1200`
 /// On a big map also `, tiles built 412 (409 ahead), thrown out 0, read failures 0`; with a shadow `, 3600
 /// ticks shadowed, 0 differences`.
-std::string summary(const std::string& room, const RoomMetrics& metrics);
+std::string summary(const std::string& room, const RoomFigures& metrics);
 
 }  // namespace woodlouse::server

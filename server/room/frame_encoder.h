@@ -47,7 +47,7 @@ class FrameEncoder {
     std::size_t end = 0;
   };
 
-  RowWriter rows_;
+  RowTable rows_;
   bool proves_hash_ = false;  ///< exact and `all`: keys carry what else went into the hash
   Line key_text_;
   std::uint64_t key_tick_ = 0;

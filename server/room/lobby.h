@@ -1,40 +1,38 @@
-// The rooms of a server, by name.
+// The rooms of a server, by name; they open and close while it runs.
 #pragma once
 
-#include <algorithm>
+#include <functional>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "server/room/directory.h"
 #include "server/room/room.h"
 
 namespace woodlouse::server {
 
-/// Filled before the first connection, then read by every thread. Does not own the rooms.
-class Lobby {
+/// Any thread, every function: a lock is held for a look-up. A room is in memory until it is closed, its
+/// watchers are done and what it posted has run; a door that somebody still holds then refuses.
+class Lobby final : public Directory {
  public:
-  void add(Room& room) { rooms_.push_back(&room); }
+  /// Behind the rooms that are there. False, and nothing done, where one has its name.
+  [[nodiscard]] bool open(std::shared_ptr<Room> room);
+  /// Nobody finds the room any more, its members hear `bye`, its recording ends with `reason`; then `closed`
+  /// is called, on some thread. False where there is none of that name.
+  [[nodiscard]] bool close(std::string_view name, const protocol::Bye& bye, const std::string& reason,
+                           std::function<void()> closed);
 
-  /// The room of that name, the first one for an empty name, or null.
-  [[nodiscard]] Room* find(std::string_view name) const {
-    if (name.empty()) return rooms_.empty() ? nullptr : rooms_.front();
-    const auto found =
-        std::find_if(rooms_.begin(), rooms_.end(), [name](Room* room) { return room->name() == name; });
-    return found == rooms_.end() ? nullptr : *found;
-  }
-  [[nodiscard]] std::vector<std::string> names() const {
-    std::vector<std::string> names;
-    for (const Room* room : rooms_) names.push_back(room->name());
-    return names;
-  }
-  [[nodiscard]] protocol::Rooms list() const {
-    protocol::Rooms list;
-    for (const Room* room : rooms_) list.rooms.push_back(room->census());
-    return list;
-  }
+  [[nodiscard]] std::shared_ptr<Door> find(std::string_view name) const override;
+  [[nodiscard]] std::vector<std::string> names() const override;
+  [[nodiscard]] protocol::Rooms list() const override;
+  /// In the order they were opened.
+  [[nodiscard]] std::vector<std::shared_ptr<Room>> rooms() const;
 
  private:
-  std::vector<Room*> rooms_;
+  mutable std::mutex mutex_;
+  std::vector<std::shared_ptr<Room>> rooms_;
 };
 
 }  // namespace woodlouse::server

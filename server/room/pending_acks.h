@@ -23,7 +23,7 @@ struct PendingAck {
   std::uint64_t ticks_late = 0;  ///< how many steps after the one it asked for takes it
 };
 
-class AckBook {
+class PendingAcks {
  public:
   void add(std::uint64_t tick, const PendingAck& ack) { pending_[tick].push_back(ack); }
 

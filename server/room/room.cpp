@@ -3,110 +3,127 @@
 #include <boost/asio/post.hpp>
 
 #include <atomic>
-#include <memory>
-#include <optional>
+#include <cassert>
 #include <utility>
 
-#include "server/room/room_map.h"
-#include "server/room/version.h"
 #include "shared/protocol/codes.h"
 
 namespace woodlouse::server {
 
 namespace asio = boost::asio;
 
-Room::Room(asio::io_context& ticks, asio::io_context& io, RoomSettings settings, Opening opening,
-           RoomStaff staff, std::shared_ptr<spdlog::logger> log)
+/// Holds the room weakly: a session that has not heard of its closing keeps none of it.
+class Room::RoomDoor final : public Door {
+ public:
+  explicit RoomDoor(std::weak_ptr<Room> room, std::string name)
+      : room_(std::move(room)), name_(std::move(name)) {}
+
+  void join(SessionId session, std::shared_ptr<Subscriber> subscriber, protocol::Join join) override {
+    if (const auto room = room_.lock()) return room->join(session, std::move(subscriber), std::move(join));
+    Members::refuse_closed(*subscriber);
+  }
+  void submit(SessionId session, protocol::ClientMessage message, Time arrived) override {
+    if (const auto room = room_.lock()) room->submit(session, std::move(message), arrived);
+  }
+  void leave(SessionId session) override {
+    if (const auto room = room_.lock()) room->leave(session);
+  }
+  [[nodiscard]] const std::string& name() const override { return name_; }
+  [[nodiscard]] protocol::RoomEntry census() const override {
+    if (const auto room = room_.lock()) return room->census();
+    return {name_, {}, 0, 0, 0};
+  }
+
+ private:
+  std::weak_ptr<Room> room_;
+  std::string name_;
+};
+
+std::shared_ptr<Room> Room::make(asio::io_context& ticks, asio::io_context& io, RoomSettings settings,
+                                 Start start, Watchers watchers, std::shared_ptr<spdlog::logger> log) {
+  return std::shared_ptr<Room>(
+      new Room(ticks, io, std::move(settings), std::move(start), std::move(watchers), std::move(log)));
+}
+
+Room::Room(asio::io_context& ticks, asio::io_context& io, RoomSettings settings, Start start,
+           Watchers watchers, std::shared_ptr<spdlog::logger> log)
     : settings_(std::move(settings)),
       log_(std::move(log)),
       strand_(asio::make_strand(ticks)),
       timer_(strand_),
-      recorder_(std::move(staff.recorder)),
-      shadow_(std::move(staff.shadow)),
-      broadcaster_(io),
-      map_line_(encode_map_line(*opening.map)),
-      match_owner_(std::move(opening.match)),
-      tick_hz_(match_.settings().tick_hz),
-      map_file_(std::move(opening.map_file)),
-      parent_(std::move(opening.parent)),
-      ahead_(std::move(staff.ahead)) {
-  roster_.orphans = std::move(opening.orphans);
+      game_(std::move(start.match)),
+      watchers_(std::move(watchers)),
+      members_(io, settings_, *game_, watchers_, std::move(start.unclaimed), log_) {
+  assert(game_ != nullptr);
 }
 
+std::shared_ptr<Door> Room::door() { return std::make_shared<RoomDoor>(weak_from_this(), settings_.name); }
+
 void Room::start(std::function<void()> ended) {
-  asio::post(strand_, [this, ended = std::move(ended)]() mutable {
+  asio::post(strand_, [self = shared_from_this(), this, ended = std::move(ended)]() mutable {
+    if (state_ != State::kWaiting) return;
     ended_ = std::move(ended);
     state_ = State::kRunning;
-    if (recorder_) begin_recording();
-    if (shadow_) shadow_->begin(match_, map_file_);
-    add_house_bots();
-    clock_.emplace(tick_hz_, Clock::now());
+    begin_watching();
+    members_.add_house_bots();
+    clock_.emplace(game_->settings().tick_hz, Clock::now());
     arm_timer();
   });
 }
 
+void Room::begin_watching() {
+  members_.introduce_unclaimed();
+  const auto announce = [room = weak_from_this()](const protocol::Notice& notice) {
+    const auto self = room.lock();
+    if (!self) return;
+    asio::post(self->strand_, [self, notice] { self->members_.announce(notice); });
+  };
+  for (const auto& watcher : watchers_) watcher->begin(*game_, announce);
+}
+
 void Room::stop(const protocol::Bye& bye, const std::string& reason, std::function<void()> stopped) {
-  asio::post(strand_, [this, bye, reason, stopped = std::move(stopped)]() mutable {
+  asio::post(strand_, [self = shared_from_this(), this, bye, reason, stopped = std::move(stopped)]() mutable {
     state_ = State::kStopped;
     timer_.cancel();
-    for (auto& [session, member] : roster_.members) {
-      broadcaster_.remove(session);
-      member.subscriber->end(bye);
-    }
-    roster_.members.clear();
-    metrics_.frames_encoded = channels_.encoded();
-    if (clock_) metrics_.clock_moves = clock_->moves();
-    if (ahead_) metrics_.ground = ahead_->metrics();
-    finish_staff(reason, std::move(stopped));
+    members_.dismiss(bye);
+    finish_watching(reason, std::move(stopped));
   });
 }
 
-/// Both at once: a shadow that is behind must not keep the recording from its end.
-void Room::finish_staff(const std::string& reason, std::function<void()> stopped) {
-  auto parts = std::make_shared<std::atomic<int>>(1 + (recorder_ ? 1 : 0) + (shadow_ ? 1 : 0));
-  const auto part_done = [parts, stopped = std::move(stopped)] {
-    if (parts->fetch_sub(1) == 1) stopped();
+/// All at once: a shadow that is behind must not keep the recording from its end.
+void Room::finish_watching(const std::string& reason, std::function<void()> stopped) {
+  auto parts = std::make_shared<std::atomic<std::size_t>>(1 + watchers_.size());
+  const auto part_done = [self = shared_from_this(), this, parts, stopped = std::move(stopped)] {
+    if (parts->fetch_sub(1) != 1) return;
+    post_figures();
+    stopped();
   };
-  if (recorder_) recorder_->finish(reason, part_done);
-  if (shadow_)
-    shadow_->finish([this, part_done] {
-      metrics_.shadow = shadow_->metrics();
-      part_done();
-    });
+  for (const auto& watcher : watchers_) watcher->finish(reason, part_done);
   part_done();
 }
 
 void Room::join(SessionId session, std::shared_ptr<Subscriber> subscriber, protocol::Join join) {
-  asio::post(strand_, [this, session, subscriber = std::move(subscriber), join = std::move(join)]() mutable {
-    admit(session, std::move(subscriber), join);
+  asio::post(strand_, [self = shared_from_this(), this, session, subscriber = std::move(subscriber),
+                       join = std::move(join)]() mutable {
+    if (state_ == State::kStopped) return Members::refuse_closed(*subscriber);
+    members_.admit(session, std::move(subscriber), join);
+  });
+}
+
+void Room::submit(SessionId session, protocol::ClientMessage message, Time arrived) {
+  asio::post(strand_, [self = shared_from_this(), this, session, message = std::move(message), arrived] {
+    members_.take(session, message, arrived);
   });
 }
 
 void Room::leave(SessionId session) {
-  asio::post(strand_, [this, session] { remove(session); });
-}
-
-protocol::RoomEntry Room::census() const {
-  return {settings_.name, match_.map().definition.name, players_.load(), bots_.load(), spectators_.load()};
-}
-
-void Room::count(protocol::Role role, std::int32_t change) {
-  auto& counter = role == protocol::Role::kPlayer ? players_
-                  : role == protocol::Role::kBot  ? bots_
-                                                  : spectators_;
-  counter.fetch_add(static_cast<std::uint32_t>(change));
-}
-
-Scene Room::scene() const {
-  const std::uint64_t frame_ticks = tick_hz_ / settings_.state_hz;
-  return {match_.tick(),         match_.tick() / frame_ticks,
-          match_.world().lice(), match_.world().terrain(),
-          match_.hash(),         match_.link()};
+  asio::post(strand_, [self = shared_from_this(), this, session] { members_.remove(session); });
 }
 
 void Room::arm_timer() {
   timer_.expires_at(clock_->deadline());
-  timer_.async_wait([this](const boost::system::error_code& error) { on_timer(error); });
+  timer_.async_wait(
+      [self = shared_from_this(), this](const boost::system::error_code& error) { on_timer(error); });
 }
 
 void Room::on_timer(const boost::system::error_code& error) {
@@ -114,14 +131,15 @@ void Room::on_timer(const boost::system::error_code& error) {
   const Time now = Clock::now();
   const std::uint64_t moves = clock_->moves();
   const Duration late = clock_->begin(now);
-  metrics_.lateness.add(late);
+  working_.lateness.add(late);
   if (clock_->moves() != moves)
     log_->warn("room {}: tick {} came {} ms late; the clock moved, nothing is made up for", settings_.name,
-               match_.tick(), std::chrono::duration_cast<std::chrono::milliseconds>(late).count());
+               game_->tick(), std::chrono::duration_cast<std::chrono::milliseconds>(late).count());
   tick(now);
-  metrics_.work.add(Clock::now() - now);
-  ++metrics_.ticks;
-  if (settings_.tick_limit && match_.tick() >= *settings_.tick_limit) {
+  working_.work.add(Clock::now() - now);
+  ++working_.ticks;
+  if (working_.ticks % game_->settings().tick_hz == 0) post_figures();
+  if (settings_.tick_limit && game_->tick() >= *settings_.tick_limit) {
     state_ = State::kStopped;
     return ended_();
   }
@@ -129,103 +147,28 @@ void Room::on_timer(const boost::system::error_code& error) {
 }
 
 void Room::tick(Time now) {
-  const std::uint64_t number = match_.tick();
-  steer_house_bots();
-  const match::StepRecord& step = match_.advance();
-  const std::vector<PendingAck> acks = acks_.take(number);
-  if (recorder_) record_step(step, now, acks);
-  if (shadow_) shadow_->step(step, match_);
-  send_acks(number, now, acks);
-  if (match_.tick() % (tick_hz_ / settings_.state_hz) == 0) send_frames();
-  if (ahead_) look_ahead();
+  const std::uint64_t number = game_->tick();
+  members_.steer_house_bots();
+  const match::StepRecord& step = game_->advance();
+  const std::vector<InputMargin> margins = members_.margins(number, now);
+  for (const auto& watcher : watchers_) watcher->step(step, margins, *game_);
+  members_.answer(number, now);
+  members_.send_frames();
 }
 
-void Room::look_ahead() {
-  ahead_->look(match_.world().lice());
-  if (match_.tick() % tick_hz_ != 0 || metrics_.ground) return;  // once a second, until it was told
-  const GroundMetrics ground = ahead_->metrics();
-  if (ground.read_failures == 0) return;
-  metrics_.ground = ground;
-  log_->error(
-      "room {}: the map's file can't be read any more ({} reads failed; {}). Where it could not, ground "
-      "without data "
-      "stands in: the game goes on, its recording may not verify. Check the disk, and that nobody changed "
-      "the file",
-      settings_.name, ground.read_failures, map_file_);
+/// On the strand while ticks run; on whose work ended last, once they have stopped.
+void Room::post_figures() {
+  working_.frames_encoded = members_.frames_encoded();
+  if (clock_) working_.clock_moves = clock_->moves();
+  for (const auto& watcher : watchers_) watcher->add_figures(working_);
+  auto snapshot = std::make_shared<const RoomFigures>(working_);
+  const std::lock_guard lock(figures_mutex_);
+  figures_ = std::move(snapshot);
 }
 
-void Room::begin_recording() {
-  recorder_->on_failure([this](const std::string& why) {
-    asio::post(strand_, [this, why] {
-      for (auto& [session, member] : roster_.members)
-        member.subscriber->answer(protocol::Notice{std::string(protocol::code::kRecordingEnded),
-                                                   "the game is no longer recorded: " + why});
-    });
-  });
-  for (const Orphan& orphan : roster_.orphans) recorder_->player(orphan.louse, orphan.name, orphan.role);
-  replay::Header header = replay::make_header(match_, kServerName, map_file_);
-  header.parent = parent_;
-  recorder_->begin(header, match_.state());
-}
-
-void Room::add_house_bots() {
-  for (std::uint32_t number = 0; number < settings_.bots; ++number) {
-    HouseMember member{HouseBot(number, match_.settings().seed), 0, 0};
-    const std::optional<Orphan> taken = roster_.take_over(member.bot.name());
-    member.louse = taken ? taken->louse : match_.join();
-    member.seq = taken ? taken->first_seq : 0;
-    if (recorder_) recorder_->player(member.louse, member.bot.name(), protocol::Role::kBot);
-    roster_.house.push_back(std::move(member));
-    count(protocol::Role::kBot, +1);
-  }
-}
-
-void Room::steer_house_bots() {
-  const std::uint64_t period = std::max(1u, tick_hz_ / HouseBot::kDecisionsPerSecond);
-  for (HouseMember& member : roster_.house) {
-    // Spread over the period, so that no tick pays for all of them.
-    if ((match_.tick() + member.louse) % period != 0) continue;
-    const state::Louse* louse = match_.world().find(member.louse);
-    if (!louse) continue;
-    const auto& world = match_.world();
-    const state::Thrust thrust = member.bot.decide({*louse, world.terrain(), world.parameters()});
-    match_.file({member.louse, ++member.seq, thrust, state::kHeld, 0});
-  }
-}
-
-void Room::record_step(const match::StepRecord& step, Time begun, const std::vector<PendingAck>& acks) {
-  using std::chrono::microseconds;
-  std::vector<InputMargin> margins;
-  margins.reserve(acks.size());
-  for (const PendingAck& ack : acks) {
-    const auto late = static_cast<std::int64_t>(ack.ticks_late * 1'000'000 / tick_hz_);
-    const std::int64_t margin = std::chrono::duration_cast<microseconds>(begun - ack.arrived).count() - late;
-    margins.push_back({ack.player, ack.seq, margin});
-  }
-  recorder_->step(step, std::move(margins), match_);
-}
-
-void Room::send_acks(std::uint64_t tick, Time begun, const std::vector<PendingAck>& acks) {
-  for (const PendingAck& pending : acks) {
-    Member* member = roster_.find(pending.session);
-    if (!member) continue;
-    protocol::Ack ack;
-    ack.seq = pending.seq - member->first_seq;
-    ack.tick = tick;
-    ack.margin_us = std::chrono::duration_cast<std::chrono::microseconds>(begun - pending.arrived).count();
-    ack.late = pending.late;
-    ack.clamped = pending.clamped;
-    if (const state::Louse* louse = match_.world().find(pending.player))
-      ack.you = protocol::ExactState{match_.tick(), *louse};
-    member->subscriber->answer(ack);
-  }
-}
-
-void Room::send_frames() {
-  if (channels_.empty()) return;
-  const Scene now = scene();
-  const FrameKind kind = now.index % settings_.state_hz == 0 ? FrameKind::kKey : FrameKind::kDelta;
-  broadcaster_.frames(kind, channels_.encode(now, kind));
+std::shared_ptr<const RoomFigures> Room::figures() const {
+  const std::lock_guard lock(figures_mutex_);
+  return figures_;
 }
 
 }  // namespace woodlouse::server

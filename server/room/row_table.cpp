@@ -41,13 +41,13 @@ double ground_value(Column column, const state::Louse& louse, const Ground& grou
 
 }  // namespace
 
-RowWriter::RowWriter(RowLayout layout) : layout_(std::move(layout)) {
+RowTable::RowTable(RowLayout layout) : layout_(std::move(layout)) {
   assert(!layout_.fields.empty() && layout_.fields.size() <= protocol::kColumnCount);
   for (const Column column : layout_.fields) own_fields_.push_back(protocol::louse_field(column));
   needs_ground_ = std::find(own_fields_.begin(), own_fields_.end(), nullptr) != own_fields_.end();
 }
 
-void RowWriter::append(std::string& out, const state::Louse& louse, const terrain::Terrain& terrain) const {
+void RowTable::append(std::string& out, const state::Louse& louse, const terrain::Terrain& terrain) const {
   Ground ground;
   if (needs_ground_) {
     ground.sample = terrain.sample(louse.position.x, louse.position.y);

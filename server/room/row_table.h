@@ -20,10 +20,10 @@ struct RowLayout {
   friend auto operator<=>(const RowLayout&, const RowLayout&) = default;
 };
 
-class RowWriter {
+class RowTable {
  public:
   /// REQUIRES at least one field, all of them distinct.
-  explicit RowWriter(RowLayout layout);
+  explicit RowTable(RowLayout layout);
 
   void append(std::string& out, const state::Louse& louse, const terrain::Terrain& terrain) const;
   [[nodiscard]] const RowLayout& layout() const { return layout_; }

@@ -1,72 +1,92 @@
-// Who is in a room: members with a connection, the house's own bots, and lice whose player is only in the
-// recording that the game goes on from.
-// Pure. The room's strand owns it.
+// Who is in a room: sessions, the house's own bots, and lice whose player is only in the recording that the
+// game goes on from. Each has a seat. Pure. The room's strand owns it.
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "server/room/channels.h"
 #include "server/room/house_bots.h"
-#include "server/room/start.h"
 #include "server/room/subscriber.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::server {
 
-struct Member {
+/// Its player is only in the recording. Whoever joins under its name takes it over.
+struct Nobody {};
+
+/// A connection.
+struct SessionOccupant {
+  SessionId session = 0;
   std::shared_ptr<Subscriber> subscriber;
-  std::string name;
-  protocol::Role role = protocol::Role::kPlayer;
-  match::PlayerId louse = 0;  ///< 0: a spectator
   ChannelId channel = 0;
-  std::uint32_t first_seq =
-      0;  ///< what the match adds to the member's own count: a louse taken over has used some
 };
 
-struct HouseMember {
+/// One of the house's bots, counted from 0.
+struct BotOccupant {
+  std::uint32_t number = 0;
   HouseBot bot;
-  match::PlayerId louse = 0;
-  std::uint32_t seq = 0;  ///< of its last input
 };
 
-struct Roster {
-  std::map<SessionId, Member> members;
-  std::vector<HouseMember> house;
-  std::vector<Orphan> orphans;  ///< by louse
+struct Seat {
+  match::PlayerId louse = 0;  ///< 0: a spectator
+  std::string name;           ///< cleaned, not empty
+  protocol::Role role = protocol::Role::kPlayer;
+  /// What the match adds to its occupant's own count of inputs, as a louse taken over has used some; of a
+  /// bot, the last one it used.
+  std::uint32_t first_seq = 0;
+  std::variant<Nobody, BotOccupant, SessionOccupant> occupant;
+};
 
-  /// The first orphan of that name, which is none any more; nothing where there is none.
-  std::optional<Orphan> take_over(std::string_view name) {
-    const auto found = std::find_if(orphans.begin(), orphans.end(),
-                                    [name](const Orphan& orphan) { return orphan.name == name; });
-    if (found == orphans.end()) return std::nullopt;
-    Orphan taken = std::move(*found);
-    orphans.erase(found);
-    return taken;
+class Seats {
+ public:
+  /// Unclaimed seats; each has a louse.
+  explicit Seats(std::vector<Seat> unclaimed);
+
+  /// REQUIRES that its occupant (or its louse, where it is nobody's) has no seat yet. The seat stays where it
+  /// is until it is taken away.
+  Seat& add(Seat seat);
+  /// The first unclaimed seat of that name, which is gone from here; nothing where there is none.
+  std::optional<Seat> take_over(std::string_view name);
+  /// The session's seat, which is gone from here; nothing where it has none.
+  std::optional<Seat> take_away(SessionId session);
+  /// Every session's.
+  std::vector<Seat> take_away_sessions();
+
+  /// The session's, or null.
+  [[nodiscard]] Seat* find(SessionId session);
+  [[nodiscard]] std::size_t sessions() const { return sessions_; }
+  /// Unclaimed seats first, by louse, then the house's bots, then sessions by number.
+  [[nodiscard]] std::vector<protocol::PlayerEntry> entries() const;
+
+  /// Calls visit(Seat&, Occupant&) for each that such an occupant has, in the order of entries().
+  template <typename Occupant, typename Visit>
+  void for_each(const Visit& visit) {
+    constexpr std::size_t kind = std::is_same_v<Occupant, Nobody>        ? 0
+                                 : std::is_same_v<Occupant, BotOccupant> ? 1
+                                                                         : 2;
+    static_assert(std::is_same_v<std::variant_alternative_t<kind, decltype(Seat::occupant)>, Occupant>);
+    const auto end = seats_.lower_bound({kind + 1, 0});
+    for (auto at = seats_.lower_bound({kind, 0}); at != end; ++at)
+      visit(at->second, std::get<Occupant>(at->second.occupant));
   }
 
-  [[nodiscard]] Member* find(SessionId session) {
-    const auto found = members.find(session);
-    return found == members.end() ? nullptr : &found->second;
-  }
+ private:
+  using Place = std::pair<std::size_t, std::uint64_t>;  ///< kind of occupant, its number
+  static Place place_of(const Seat& seat);
 
-  /// Orphans and the house's bots first, then by the order of joining.
-  [[nodiscard]] std::vector<protocol::PlayerEntry> entries() const {
-    std::vector<protocol::PlayerEntry> entries;
-    for (const Orphan& orphan : orphans) entries.push_back({orphan.louse, orphan.name, orphan.role});
-    for (const HouseMember& member : house)
-      entries.push_back({member.louse, member.bot.name(), protocol::Role::kBot});
-    for (const auto& [session, member] : members) entries.push_back({member.louse, member.name, member.role});
-    return entries;
-  }
+  std::map<Place, Seat> seats_;
+  std::size_t sessions_ = 0;
 };
 
 }  // namespace woodlouse::server

@@ -10,20 +10,44 @@
 
 namespace woodlouse::server {
 
-std::unique_ptr<GroundAhead> GroundAhead::make(const map::Map& map, boost::asio::thread_pool& worker) {
+std::unique_ptr<GroundAhead> GroundAhead::make(std::string room, const map::Map& map, std::string map_file,
+                                               boost::asio::thread_pool& worker,
+                                               std::shared_ptr<spdlog::logger> log) {
   const auto* ground = std::get_if<terrain::TiledGround>(&map.terrain->surface());
   if (ground == nullptr) return nullptr;
-  std::unique_ptr<GroundAhead> ahead(new GroundAhead(*ground, map.definition.physics, worker));
+  std::unique_ptr<GroundAhead> ahead(new GroundAhead(std::move(room), *ground, map.definition.physics,
+                                                     std::move(map_file), worker, std::move(log)));
   for (const map::SpawnPoint& spawn : map.definition.spawns) ahead->add_around(spawn.position, 0.0);
   ahead->build();
   return ahead;
 }
 
-GroundAhead::GroundAhead(const terrain::TiledGround& ground, const state::Parameters& physics,
-                         boost::asio::thread_pool& worker)
-    : worker_(worker),
+GroundAhead::GroundAhead(std::string room, const terrain::TiledGround& ground,
+                         const state::Parameters& physics, std::string map_file,
+                         boost::asio::thread_pool& worker, std::shared_ptr<spdlog::logger> log)
+    : room_(std::move(room)),
+      map_file_(std::move(map_file)),
+      worker_(worker),
+      log_(std::move(log)),
       shared_(std::make_shared<Shared>(ground)),
       push_(physics.thrust_max + physics.gravity) {}
+
+void GroundAhead::step(const match::StepRecord&, std::span<const InputMargin>, const match::Match& game) {
+  look(game.world().lice());
+  if (!told_ && game.tick() % game.settings().tick_hz == 0) tell_of_failures();  // once a second
+}
+
+void GroundAhead::tell_of_failures() {
+  const std::uint64_t failures = figures().read_failures;
+  if (failures == 0) return;
+  told_ = true;
+  log_->error(
+      "room {}: the map's file can't be read any more ({} reads failed; {}). Where it could not, ground "
+      "without data "
+      "stands in: the game goes on, its recording may not verify. Check the disk, and that nobody changed "
+      "the file",
+      room_, failures, map_file_);
+}
 
 GroundAhead::~GroundAhead() { shared_->stopping = true; }
 
@@ -66,7 +90,7 @@ void GroundAhead::build() {
   });
 }
 
-GroundMetrics GroundAhead::metrics() const {
+GroundFigures GroundAhead::figures() const {
   const terrain::TileStore& tiles = shared_->ground.tiles();
   const terrain::TileStore::Counters counters = tiles.counters();
   return {counters.live, counters.built, counters.prepared, counters.thrown_out,

@@ -8,6 +8,7 @@
 // what is over that the ticks build themselves.
 #pragma once
 
+#include <spdlog/logger.h>
 #include <atomic>
 #include <boost/asio/thread_pool.hpp>
 #include <cstddef>
@@ -15,9 +16,10 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "server/room/figures.h"
+#include "server/room/tick_watcher.h"
 #include "shared/map/map_definition.h"
 #include "shared/state/louse.h"
 #include "shared/state/parameters.h"
@@ -25,21 +27,28 @@
 namespace woodlouse::server {
 
 /// Owned by its room's strand.
-class GroundAhead {
+class GroundAhead final : public TickWatcher {
  public:
   static constexpr double kAheadSeconds = 2.0;
   static constexpr std::size_t kTurns = 6;  ///< ticks in which all lice are looked at once
 
   /// Nothing for a map that is in memory as a whole. Begins with the spawn points. `worker` outlives it.
-  static std::unique_ptr<GroundAhead> make(const map::Map& map, boost::asio::thread_pool& worker);
+  /// room and map_file name them where the file can't be read any more, which is logged once.
+  static std::unique_ptr<GroundAhead> make(std::string room, const map::Map& map, std::string map_file,
+                                           boost::asio::thread_pool& worker,
+                                           std::shared_ptr<spdlog::logger> log);
   /// Ends the batch at work with the tile it is at.
-  ~GroundAhead();
-  GroundAhead(const GroundAhead&) = delete;
-  GroundAhead& operator=(const GroundAhead&) = delete;
+  ~GroundAhead() override;
+
+  void begin(const match::Match&, Announce) override {}
+  void step(const match::StepRecord& record, std::span<const InputMargin> margins,
+            const match::Match& game) override;
+  void finish(const std::string&, std::function<void()> done) override { done(); }
+  void add_figures(RoomFigures& figures) const override { figures.ground = this->figures(); }
 
   /// After a tick.
   void look(std::span<const state::Louse> lice);
-  [[nodiscard]] GroundMetrics metrics() const;
+  [[nodiscard]] GroundFigures figures() const;
 
  private:
   /// Outlives the room where the worker still has a batch.
@@ -50,12 +59,17 @@ class GroundAhead {
     std::atomic<bool> stopping{false};
   };
 
-  GroundAhead(const terrain::TiledGround& ground, const state::Parameters& physics,
-              boost::asio::thread_pool& worker);
+  GroundAhead(std::string room, const terrain::TiledGround& ground, const state::Parameters& physics,
+              std::string map_file, boost::asio::thread_pool& worker, std::shared_ptr<spdlog::logger> log);
+  void tell_of_failures();
   void add_around(core::Vec2 place, double reach);
   void build();
 
+  std::string room_;
+  std::string map_file_;
   boost::asio::thread_pool& worker_;
+  std::shared_ptr<spdlog::logger> log_;
+  bool told_ = false;  ///< of a file that can't be read
   std::shared_ptr<Shared> shared_;
   double push_;  ///< the largest acceleration that is looked ahead for [m/s^2]
   std::size_t turn_ = 0;

@@ -2,9 +2,12 @@
 
 #include <boost/asio/post.hpp>
 
+#include <cassert>
 #include <cerrno>
 #include <cstring>
 #include <utility>
+
+#include "shared/protocol/codes.h"
 
 namespace woodlouse::server {
 namespace {
@@ -14,6 +17,7 @@ constexpr std::size_t kWriteAt = 256u << 10;  // bytes that are not kept back fo
 }  // namespace
 
 core::Expected<std::unique_ptr<Recorder>> Recorder::open(const std::filesystem::path& file,
+                                                         replay::Header header,
                                                          boost::asio::thread_pool& disk,
                                                          std::shared_ptr<spdlog::logger> log) {
   errno = 0;
@@ -21,22 +25,26 @@ core::Expected<std::unique_ptr<Recorder>> Recorder::open(const std::filesystem::
   if (!out)
     return core::fail("cannot write the recording " + file.string(), std::strerror(errno),
                       "does its folder exist, and may you write there?");
-  return std::unique_ptr<Recorder>(new Recorder(file, std::move(out), disk, std::move(log)));
+  return std::unique_ptr<Recorder>(
+      new Recorder(file, std::move(out), std::move(header), disk, std::move(log)));
 }
 
-Recorder::Recorder(std::filesystem::path file, std::ofstream out, boost::asio::thread_pool& disk,
-                   std::shared_ptr<spdlog::logger> log)
+Recorder::Recorder(std::filesystem::path file, std::ofstream out, replay::Header header,
+                   boost::asio::thread_pool& disk, std::shared_ptr<spdlog::logger> log)
     : file_(std::move(file)),
       disk_(disk),
       log_(std::move(log)),
+      header_(std::move(header)),
+      keyframe_ticks_(replay::keyframe_ticks(header_.tick_hz)),
       out_(std::move(out)),
       writer_(replay::encoding_of(file_.string())),
       flush_timer_(disk.get_executor()) {}
 
-void Recorder::begin(const replay::Header& header, match::MatchState first) {
-  keyframe_ticks_ = replay::keyframe_ticks(header.tick_hz);
-  enqueue([this, header, first = std::move(first)](std::string& out) {
-    writer_.append_header(out, header);
+void Recorder::begin(const match::Match& game, Announce announce) {
+  assert(game.settings().tick_hz == header_.tick_hz);
+  announce_ = std::move(announce);
+  enqueue([this, first = game.state()](std::string& out) {
+    writer_.append_header(out, header_);
     writer_.append_keyframe(out, first);
   });
 }
@@ -52,13 +60,13 @@ void Recorder::chat(std::uint64_t tick, match::PlayerId player, const std::strin
   });
 }
 
-void Recorder::step(const match::StepRecord& record, std::vector<InputMargin> margins,
-                    const match::Match& match) {
+void Recorder::step(const match::StepRecord& record, std::span<const InputMargin> margins,
+                    const match::Match& game) {
   if (failed_) return;
   std::shared_ptr<const match::MatchState> keyframe;
-  if (match.tick() % keyframe_ticks_ == 0)
-    keyframe = std::make_shared<const match::MatchState>(match.state());
-  enqueue([this, record, margins = std::move(margins), keyframe = std::move(keyframe)](std::string& out) {
+  if (game.tick() % keyframe_ticks_ == 0) keyframe = std::make_shared<const match::MatchState>(game.state());
+  enqueue([this, record, margins = std::vector(margins.begin(), margins.end()),
+           keyframe = std::move(keyframe)](std::string& out) {
     for (const InputMargin& margin : margins)
       writer_.note_margin(margin.player, margin.seq, margin.microseconds);
     writer_.append_step(out, record);
@@ -76,7 +84,8 @@ void Recorder::finish(const std::string& reason, std::function<void()> done) {
       out_.close();
       if (!failed_ && !out_) give_up(std::strerror(errno));
     }
-    done();
+    // Behind the cancelled timer's handler: whoever is told may let go of the recording.
+    boost::asio::post(disk_, done);
   });
 }
 
@@ -115,7 +124,8 @@ void Recorder::give_up(const std::string& why) {
   if (failed_.exchange(true)) return;
   log_->error("RECORDING ENDED: cannot write {}: {}; the game goes on, what follows is not recorded",
               file_.string(), why);
-  if (on_failure_) on_failure_(why);
+  if (announce_)
+    announce_({std::string(protocol::code::kRecordingEnded), "the game is no longer recorded: " + why});
 }
 
 }  // namespace woodlouse::server

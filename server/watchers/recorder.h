@@ -15,52 +15,44 @@
 #include <fstream>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "server/room/tick_watcher.h"
 #include "shared/core/error.h"
 #include "shared/match/match.h"
 #include "shared/replay/writer.h"
 
 namespace woodlouse::server {
 
-/// How long before its step an input came; negative: after the step it asked for.
-struct InputMargin {
-  match::PlayerId player = 0;
-  std::uint32_t seq = 0;
-  std::int64_t microseconds = 0;
-};
-
-/// One recording. The room's strand calls it; it outlives the disk's thread. Everything but open() returns at
-/// once.
-class Recorder {
+/// One recording. Everything but open() returns at once.
+class Recorder final : public TickWatcher {
  public:
   static constexpr std::size_t kMaxQueued = 1200;  ///< jobs waiting for the disk: 20 s of steps at 60 Hz
   /// Half of what a killed server may lose, so that a busy machine keeps the promise too.
   static constexpr std::chrono::milliseconds kFlushEvery{500};
 
-  /// Creates the file, over one that is there; named .zst it is compressed. disk: a pool of one thread, so
-  /// that lines keep their order.
+  /// Creates the file, over one that is there; named .zst it is compressed. header: of the game that it will
+  /// watch. disk: a pool of one thread, so that lines keep their order; it outlives the recording.
   static core::Expected<std::unique_ptr<Recorder>> open(const std::filesystem::path& file,
-                                                        boost::asio::thread_pool& disk,
+                                                        replay::Header header, boost::asio::thread_pool& disk,
                                                         std::shared_ptr<spdlog::logger> log);
 
-  /// Who is told why, once, on some thread, when the recording ends before its time. Before begin().
-  void on_failure(std::function<void(const std::string& why)> failed) { on_failure_ = std::move(failed); }
-
-  /// First of all, once. `first`: the match as it stands; nothing is queued in it.
-  void begin(const replay::Header& header, match::MatchState first);
-  /// Before the step that applies the join; of those in the first state: before begin().
-  void player(match::PlayerId player, const std::string& name, protocol::Role role);
-  void chat(std::uint64_t tick, match::PlayerId player, const std::string& name, const std::string& text);
-  /// After the step. `match`: as the step left it, nothing queued since; copied where a keyframe is due.
-  void step(const match::StepRecord& record, std::vector<InputMargin> margins, const match::Match& match);
-  /// Last of all, once; `done` is called on the disk's thread when everything is in the file.
-  void finish(const std::string& reason, std::function<void()> done);
+  /// announce: told why, once, when the recording ends before its time.
+  void begin(const match::Match& game, Announce announce) override;
+  void player(match::PlayerId player, const std::string& name, protocol::Role role) override;
+  void chat(std::uint64_t tick, match::PlayerId player, const std::string& name,
+            const std::string& text) override;
+  /// The game is copied where a keyframe is due.
+  void step(const match::StepRecord& record, std::span<const InputMargin> margins,
+            const match::Match& game) override;
+  /// `done` is called on the disk's thread when everything is in the file.
+  void finish(const std::string& reason, std::function<void()> done) override;
 
  private:
-  Recorder(std::filesystem::path file, std::ofstream out, boost::asio::thread_pool& disk,
-           std::shared_ptr<spdlog::logger> log);
+  Recorder(std::filesystem::path file, std::ofstream out, replay::Header header,
+           boost::asio::thread_pool& disk, std::shared_ptr<spdlog::logger> log);
 
   using Job = std::function<void(std::string&)>;
   void enqueue(Job job);
@@ -71,7 +63,8 @@ class Recorder {
   std::filesystem::path file_;
   boost::asio::thread_pool& disk_;
   std::shared_ptr<spdlog::logger> log_;
-  std::function<void(const std::string&)> on_failure_;
+  replay::Header header_;
+  Announce announce_;
   std::atomic<std::size_t> queued_{0};
   std::atomic<bool> failed_{false};
   std::uint64_t keyframe_ticks_ = 0;

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <utility>
 
-#include "server/room/version.h"
 #include "shared/core/joined.h"
 #include "shared/replay/writer.h"
 
@@ -15,19 +14,19 @@ namespace woodlouse::server {
 
 using core::joined;
 
-Shadow::Shadow(std::string room, std::shared_ptr<const map::Map> map, std::filesystem::path dump,
-               boost::asio::thread_pool& pool, std::shared_ptr<spdlog::logger> log)
+Shadow::Shadow(std::string room, std::shared_ptr<const map::Map> map, replay::Header header,
+               std::filesystem::path dump, boost::asio::thread_pool& pool,
+               std::shared_ptr<spdlog::logger> log)
     : room_(std::move(room)),
       map_(std::move(map)),
       dump_(std::move(dump)),
       strand_(boost::asio::make_strand(pool.get_executor())),
-      log_(std::move(log)) {}
+      log_(std::move(log)),
+      header_(std::move(header)) {}
 
-void Shadow::begin(const match::Match& game, const std::string& map_file) {
+void Shadow::begin(const match::Match& game, Announce) {
   // Only values go along: the game itself goes on meanwhile.
-  boost::asio::post(strand_, [this, header = replay::make_header(game, kServerName, map_file),
-                              state = game.state()]() mutable {
-    header_ = std::move(header);
+  boost::asio::post(strand_, [this, state = game.state()]() mutable {
     if (const auto followed = follow(std::move(state)); !followed) end(followed.error().text());
   });
 }
@@ -40,7 +39,7 @@ core::Expected<void> Shadow::follow(match::MatchState game) {
   return {};
 }
 
-void Shadow::step(const match::StepRecord& record, const match::Match& game) {
+void Shadow::step(const match::StepRecord& record, std::span<const InputMargin>, const match::Match& game) {
   if (ended_) return;
   if (queued_ >= kMaxQueued) return end(joined({"it fell ", std::to_string(kMaxQueued), " steps behind"}));
   ++queued_;
@@ -55,12 +54,12 @@ void Shadow::compare(const match::StepRecord& record, match::MatchState game) {
   line.step = record;
   const auto difference = rerun_->step(line, "the game's step");
   if (!difference) return end(difference.error().text());
-  ++metrics_.ticks;
+  ++ticks_;
   if (!*difference) {
     before_ = std::move(game);
     return;
   }
-  if (++metrics_.differences == 1) tell(record, game, (*difference)->what);
+  if (++differences_ == 1) tell(record, game, (*difference)->what);
   // From the game's state on, so that the next difference is one of its own.
   if (const auto followed = follow(std::move(game)); !followed) end(followed.error().text());
 }
@@ -103,13 +102,12 @@ core::Expected<std::string> Shadow::dump_side(const char* side, const match::Ste
   return file;
 }
 
-void Shadow::finish(std::function<void()> done) {
+void Shadow::finish(const std::string&, std::function<void()> done) {
   finish_by_ = Clock::now() + kFinishWithin;
-  boost::asio::post(strand_, [this, done = std::move(done)] {
-    metrics_.ended = ended_;
-    done();
-  });
+  boost::asio::post(strand_, std::move(done));
 }
+
+void Shadow::add_figures(RoomFigures& figures) const { figures.shadow = {ticks_, differences_, ended_}; }
 
 void Shadow::end(const std::string& why) {
   if (ended_.exchange(true)) return;

@@ -14,37 +14,35 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "server/room/clock.h"
-#include "server/room/figures.h"
+#include "server/room/tick_watcher.h"
 #include "shared/core/error.h"
 #include "shared/match/match.h"
 #include "shared/replay/rerun.h"
 
 namespace woodlouse::server {
 
-/// One room's. Its strand calls it; it outlives what it posted to the pool. Everything returns at once.
-class Shadow {
+/// It outlives what it posted to the pool.
+class Shadow final : public TickWatcher {
  public:
   static constexpr std::size_t kMaxQueued = 300;  ///< steps waiting: 5 s at 60 Hz
   /// How long finish() goes on with steps that wait; what is left then is not compared.
   static constexpr std::chrono::milliseconds kFinishWithin{300};
 
-  /// dump: of a difference at tick 812 the game's side is written to DUMP.812.game.ndjson, its shadow's to
-  /// DUMP.812.shadow.ndjson.
-  Shadow(std::string room, std::shared_ptr<const map::Map> map, std::filesystem::path dump,
-         boost::asio::thread_pool& pool, std::shared_ptr<spdlog::logger> log);
+  /// header: of the game that it will watch. dump: of a difference at tick 812 the game's side is written to
+  /// DUMP.812.game.ndjson, its shadow's to DUMP.812.shadow.ndjson.
+  Shadow(std::string room, std::shared_ptr<const map::Map> map, replay::Header header,
+         std::filesystem::path dump, boost::asio::thread_pool& pool, std::shared_ptr<spdlog::logger> log);
 
-  /// First of all, once. `game`: as it stands; nothing is queued in it. map_file: as for a recording.
-  void begin(const match::Match& game, const std::string& map_file);
-  /// After the step. `game`: as the step left it, nothing queued since.
-  void step(const match::StepRecord& record, const match::Match& game);
-  /// Last of all, once; `done` is called on the shadow's thread.
-  void finish(std::function<void()> done);
-
-  /// REQUIRES that finish() is done.
-  [[nodiscard]] const ShadowMetrics& metrics() const { return metrics_; }
+  void begin(const match::Match& game, Announce announce) override;
+  void step(const match::StepRecord& record, std::span<const InputMargin> margins,
+            const match::Match& game) override;
+  /// `done` is called on the shadow's thread.
+  void finish(const std::string& reason, std::function<void()> done) override;
+  void add_figures(RoomFigures& figures) const override;
 
  private:
   void compare(const match::StepRecord& record, match::MatchState game);
@@ -61,12 +59,13 @@ class Shadow {
   std::shared_ptr<spdlog::logger> log_;
   std::atomic<std::size_t> queued_{0};
   std::atomic<bool> ended_{false};
+  std::atomic<std::uint64_t> ticks_{0};
+  std::atomic<std::uint64_t> differences_{0};
   std::atomic<Time> finish_by_{Time::max()};
   // The strand's:
   replay::Header header_;
   std::unique_ptr<replay::Rerun> rerun_;
   match::MatchState before_;  ///< the game's, of the tick where rerun_ stands
-  ShadowMetrics metrics_;
 };
 
 }  // namespace woodlouse::server

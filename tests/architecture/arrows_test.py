@@ -22,7 +22,7 @@ ARROWS = {
 }
 SHARED = set(ARROWS)
 ARROWS |= {
-    "server/room": SHARED | {"server/watchers"},
+    "server/room": SHARED,
     "server/watchers": SHARED | {"server/room"},
     "server/net": SHARED | {"server/room"},
     "server/commands": SHARED | {"server/room"},

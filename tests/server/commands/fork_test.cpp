@@ -57,10 +57,10 @@ class Played {
     write();
   }
   [[nodiscard]] std::string failure_at(std::uint64_t tick) const {
-    const auto opening = open_fork({file, tick});
-    REQUIRE_FALSE(opening);
-    CHECK_FALSE(opening.error().hint.empty());
-    return opening.error().text();
+    const auto start = open_fork({file, tick});
+    REQUIRE_FALSE(start);
+    CHECK_FALSE(start.error().hint.empty());
+    return start.error().text();
   }
 
   fs::path file =
@@ -78,16 +78,16 @@ TEST_CASE(
     "a fork has the state of its tick to the last bit, the recording's settings, and names its parent") {
   const Played played;
   for (const std::uint64_t tick : {0u, 1u, 249u, 250u, 251u, 700u}) {
-    const auto opening = open_fork({played.file, tick});
-    REQUIRE(opening);
-    const match::MatchState state = opening->match->state();
+    const auto start = open_fork({played.file, tick});
+    REQUIRE(start);
+    const match::MatchState state = start->match->state();
     CHECK(state.tick == tick);
     CHECK(state.hash == played.states[tick].hash);
     CHECK(state.generator == played.states[tick].generator);
     CHECK(state.lice.size() == played.states[tick].lice.size());
-    CHECK(opening->match->settings().tick_hz == 50);
-    CHECK(opening->match->settings().seed == 99);
-    CHECK(opening->parent == replay::Parent{played.file.string(), tick, played.states[tick].hash});
+    CHECK(start->match->settings().tick_hz == 50);
+    CHECK(start->match->settings().seed == 99);
+    CHECK(start->parent == replay::Parent{played.file.string(), tick, played.states[tick].hash});
   }
 }
 
@@ -95,13 +95,13 @@ TEST_CASE(
     "the lice of a fork have the names of those who played them, cleaned, and go on with their count of "
     "inputs") {
   const Played played;
-  const auto opening = open_fork({played.file, 400});
-  REQUIRE(opening);
-  REQUIRE(opening->orphans.size() == 1);  // nobody named the other one
-  CHECK(opening->orphans[0].louse == 1);
-  CHECK(opening->orphans[0].name == "mara");
-  CHECK(opening->orphans[0].first_seq == 394);
-  CHECK(open_fork({played.file, 0})->orphans.empty());
+  const auto start = open_fork({played.file, 400});
+  REQUIRE(start);
+  REQUIRE(start->unclaimed.size() == 1);  // nobody named the other one
+  CHECK(start->unclaimed[0].louse == 1);
+  CHECK(start->unclaimed[0].name == "mara");
+  CHECK(start->unclaimed[0].first_seq == 394);
+  CHECK(open_fork({played.file, 0})->unclaimed.empty());
 }
 
 TEST_CASE("a map that a recording only names is named on by its fork, where it was found") {
@@ -112,11 +112,11 @@ TEST_CASE("a map that a recording only names is named on by its fork, where it w
 
 TEST_CASE("a fork that nobody joins goes on as the recording does while that has no inputs") {
   const Played played;
-  const auto opening = open_fork({played.file, 404});
-  REQUIRE(opening);
-  while (opening->match->tick() < 413) {
-    opening->match->advance();
-    CHECK(opening->match->hash() == played.states[opening->match->tick()].hash);
+  const auto start = open_fork({played.file, 404});
+  REQUIRE(start);
+  while (start->match->tick() < 413) {
+    start->match->advance();
+    CHECK(start->match->hash() == played.states[start->match->tick()].hash);
   }
 }
 

@@ -16,7 +16,7 @@ const RowLayout kExact{protocol::default_columns(), Format::kExact};
 
 TEST_CASE("clients of one layout share one frame a tick") {
   test::Scenery scenery(2);
-  FrameChannels channels;
+  Channels channels;
   const auto a = channels.acquire(kPlain);
   const auto b = channels.acquire(kPlain);
   const auto c = channels.acquire(kExact);
@@ -29,7 +29,7 @@ TEST_CASE("clients of one layout share one frame a tick") {
 
 TEST_CASE("a newcomer gets the last key and the last delta on it, without encoding them again") {
   test::Scenery scenery(2);
-  FrameChannels channels;
+  Channels channels;
   const ChannelId id = channels.acquire(kPlain).value();
   CHECK(channels.newest(id, scenery.scene()).size() == 1);
   scenery.change();
@@ -44,16 +44,16 @@ TEST_CASE("a newcomer gets the last key and the last delta on it, without encodi
 
 TEST_CASE("a layout without a key gets one where others get a delta") {
   test::Scenery scenery(2);
-  FrameChannels channels;
+  Channels channels;
   channels.acquire(kPlain);
   CHECK(channels.encode(scenery.scene(), FrameKind::kDelta)[0].frame.kind == FrameKind::kKey);
   CHECK(channels.encode(scenery.scene(), FrameKind::kDelta)[0].frame.kind == FrameKind::kDelta);
 }
 
 TEST_CASE("layouts are bounded, and one that nobody uses any more makes room") {
-  FrameChannels channels;
+  Channels channels;
   std::vector<ChannelId> ids;
-  for (std::size_t i = 0; i < FrameChannels::kMaxLayouts; ++i) {
+  for (std::size_t i = 0; i < Channels::kMaxLayouts; ++i) {
     RowLayout layout{{Column::kId}, i % 2 ? Format::kExact : Format::kQuantized};
     for (std::size_t n = 0; n < i / 2; ++n) layout.fields.push_back(static_cast<Column>(1 + n));
     ids.push_back(channels.acquire(layout).value());

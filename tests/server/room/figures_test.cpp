@@ -41,7 +41,7 @@ TEST_CASE("an empty histogram says zero, an absurd value lands in the last bucke
 }
 
 TEST_CASE("the summary names every figure with its unit") {
-  RoomMetrics metrics;
+  RoomFigures metrics;
   metrics.ticks = 3600;
   metrics.lateness.add(microseconds(250));
   metrics.clock_moves = 2;
@@ -49,15 +49,15 @@ TEST_CASE("the summary names every figure with its unit") {
   const std::string text = summary("volcano", metrics);
   CHECK_THAT(text, Catch::StartsWith("volcano: ticks 3600, lateness p50 0.250 ms p99 0.250 ms max 0.250 ms"));
   CHECK_THAT(text, Catch::EndsWith("clock moves 2, frames encoded 1200"));
-  metrics.ground = GroundMetrics{40, 412, 409, 372, 1};
+  metrics.ground = GroundFigures{40, 412, 409, 372, 1};
   CHECK_THAT(
       summary("alps", metrics),
       Catch::EndsWith("frames encoded 1200, tiles built 412 (409 ahead), thrown out 372, read failures 1"));
   metrics.ground.reset();
-  metrics.shadow = ShadowMetrics{3600, 0, false};
+  metrics.shadow = ShadowFigures{3600, 0, false};
   CHECK_THAT(summary("volcano", metrics),
              Catch::EndsWith("frames encoded 1200, 3600 ticks shadowed, 0 differences"));
-  metrics.shadow = ShadowMetrics{812, 1, true};
+  metrics.shadow = ShadowFigures{812, 1, true};
   CHECK_THAT(summary("volcano", metrics),
              Catch::EndsWith(", 812 ticks shadowed until it was ended, 1 differences"));
 }

@@ -39,8 +39,8 @@ class Guest final : public Subscriber {
 
 /// A room whose timer has not begun: what it does between two ticks.
 struct House {
-  explicit House(RoomSettings settings, Opening opening = open())
-      : room(ticks, io, std::move(settings), std::move(opening), {}, log) {}
+  explicit House(RoomSettings settings, Start start = open())
+      : room(Room::make(ticks, io, std::move(settings), std::move(start), {}, log)), door(room->door()) {}
 
   static std::shared_ptr<const map::Map> load() {
     auto map = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/volcano.json");
@@ -48,7 +48,7 @@ struct House {
     return *map;
   }
 
-  static Opening open() {
+  static Start open() {
     const auto map = load();
     return {
         map, std::make_unique<match::Match>(map, match::MatchSettings{60, 0}), "maps/volcano.json", {}, {}};
@@ -58,7 +58,7 @@ struct House {
     auto guest = std::make_shared<Guest>();
     if (join.fields.empty()) join.fields = protocol::default_columns();
     if (join.name.empty()) join.name = "guest" + std::to_string(session);
-    room.join(session, guest, join);
+    door->join(session, guest, join);
     settle();
     return guest;
   }
@@ -75,7 +75,8 @@ struct House {
   boost::asio::io_context ticks{1}, io{1};
   std::shared_ptr<spdlog::logger> log =
       std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::null_sink_mt>());
-  Room room;
+  std::shared_ptr<Room> room;
+  std::shared_ptr<Door> door;
 };
 
 RoomSettings settings(std::uint32_t per_room) {
@@ -103,7 +104,7 @@ TEST_CASE("a guest is welcomed with who is there, then shown a key, then hears o
   REQUIRE(spectator->welcomes[0].players.size() == 1);
   CHECK(spectator->welcomes[0].players[0].name == "guest1");
   CHECK(spectator->lines.size() == 1);
-  const protocol::RoomEntry census = house.room.census();
+  const protocol::RoomEntry census = house.room->census();
   CHECK(census.players == 1);
   CHECK(census.spectators == 1);
 }
@@ -117,7 +118,7 @@ TEST_CASE("a full room refuses, and takes again when one has left") {
   CHECK(third->refusals[0].code == "room_full");
   CHECK_FALSE(third->refusals[0].fatal);
   CHECK(third->welcomes.empty());
-  house.room.leave(1);
+  house.door->leave(1);
   CHECK(house.join(4)->welcomes.size() == 1);
 }
 
@@ -126,7 +127,7 @@ TEST_CASE("too many different row layouts are refused, the ones in use are not")
   protocol::Join join;
   join.fields = {protocol::Column::kId};
   std::vector<std::shared_ptr<Guest>> guests;
-  for (SessionId session = 1; session <= FrameChannels::kMaxLayouts + 1; ++session) {
+  for (SessionId session = 1; session <= Channels::kMaxLayouts + 1; ++session) {
     if (session % 2 == 0) join.fields.push_back(static_cast<protocol::Column>(session / 2));
     join.format = session % 2 == 0 ? protocol::Format::kExact : protocol::Format::kQuantized;
     guests.push_back(house.join(session, join));
@@ -153,17 +154,17 @@ TEST_CASE("what a session says after it left, or after it was refused, changes n
   House house(settings(1));
   house.join(1);
   const auto refused = house.join(2);
-  house.room.submit(2, protocol::Chat{"let me in"}, {});
-  house.room.submit(2, protocol::Input{}, {});
-  house.room.leave(2);
-  house.room.leave(1);
-  house.room.leave(1);
-  house.room.submit(1, protocol::Chat{"still here"}, {});
+  house.door->submit(2, protocol::Chat{"let me in"}, {});
+  house.door->submit(2, protocol::Input{}, {});
+  house.door->leave(2);
+  house.door->leave(1);
+  house.door->leave(1);
+  house.door->submit(1, protocol::Chat{"still here"}, {});
   house.settle();
   CHECK(refused->answers.empty());
   const auto next = house.join(3);
   CHECK(next->lines.size() == 1);
-  CHECK(house.room.census().players == 1);
+  CHECK(house.room->census().players == 1);
 }
 
 TEST_CASE("more chat than the broadcaster hands out is refused with the time to wait, no event is lost") {
@@ -172,7 +173,7 @@ TEST_CASE("more chat than the broadcaster hands out is refused with the time to 
   const std::size_t before = mara->lines.size();
   // The room works, the broadcaster does not get to run: its backlog grows.
   const std::size_t said = 2 * Broadcaster::kMaxBacklog;
-  for (std::size_t i = 0; i < said; ++i) house.room.submit(1, protocol::Chat{"spam"}, {});
+  for (std::size_t i = 0; i < said; ++i) house.door->submit(1, protocol::Chat{"spam"}, {});
   house.ticks.run();
   house.settle();
   const std::size_t heard = mara->lines.size() - before;
@@ -186,7 +187,7 @@ TEST_CASE("a room that stops says bye to everyone and takes nobody more") {
   House house(settings(8));
   const auto mara = house.join(1);
   bool stopped = false;
-  house.room.stop({"shutdown", "the server stops", false}, "test", [&stopped] { stopped = true; });
+  house.room->stop({"shutdown", "the server stops", false}, "test", [&stopped] { stopped = true; });
   house.settle();
   CHECK(stopped);
   REQUIRE(mara->byes.size() == 1);
@@ -197,14 +198,15 @@ TEST_CASE("a room that stops says bye to everyone and takes nobody more") {
 namespace {
 
 /// A game that goes on after two players pushed: mara by her input 17, the other one, a bot, by none.
-Opening went_on() {
-  Opening opening = House::open();
-  const match::PlayerId mara = opening.match->join();
-  const match::PlayerId rolly = opening.match->join();
-  opening.match->file({mara, 17, {state::ThrustKind::kAlongHeading, {0.5, 0.0}}, state::kHeld, 0});
-  opening.match->advance();
-  opening.orphans = {{mara, "mara", protocol::Role::kPlayer, 18}, {rolly, "Rolly", protocol::Role::kBot, 0}};
-  return opening;
+Start went_on() {
+  Start start = House::open();
+  const match::PlayerId mara = start.match->join();
+  const match::PlayerId rolly = start.match->join();
+  start.match->file({mara, 17, {state::ThrustKind::kAlongHeading, {0.5, 0.0}}, state::kHeld, 0});
+  start.match->advance();
+  start.unclaimed.push_back({mara, "mara", protocol::Role::kPlayer, 18, Nobody{}});
+  start.unclaimed.push_back({rolly, "Rolly", protocol::Role::kBot, 0, Nobody{}});
+  return start;
 }
 
 protocol::Join named(const std::string& name, protocol::Role role = protocol::Role::kPlayer) {
@@ -242,14 +244,14 @@ TEST_CASE("whoever took a louse over counts its inputs from the start and is ans
   protocol::Input input;
   input.seq = 0;
   input.thrust.value = {1.0, 0.0};
-  house.room.submit(1, input, Clock::now());
+  house.door->submit(1, input, Clock::now());
   input.seq = 0;
-  house.room.submit(1, input, Clock::now());
+  house.door->submit(1, input, Clock::now());
   house.settle();
   REQUIRE(mara->answers.size() == 2);  // of the second one: an error and an ack, dropped
   CHECK(std::get<protocol::ErrorMessage>(mara->answers[0]).code == "stale_seq");
   CHECK(std::get<protocol::Ack>(mara->answers[1]).dropped);
-  house.room.start([] {});
+  house.room->start([] {});
   for (int turn = 0; turn < 1000 && mara->answers.size() < 3; ++turn) house.ticks.run_one();
   REQUIRE(mara->answers.size() == 3);
   const auto& ack = std::get<protocol::Ack>(mara->answers[2]);
@@ -261,12 +263,12 @@ TEST_CASE("whoever took a louse over counts its inputs from the start and is ans
 
 TEST_CASE("the house's bots take over the lice of bots of their name") {
   const std::string name = HouseBot(0, 0).name();
-  Opening opening = went_on();
-  opening.orphans[1].name = name;
+  Start start = went_on();
+  start.unclaimed[1].name = name;
   RoomSettings with_bots = settings(8);
   with_bots.bots = 2;
-  House house(with_bots, std::move(opening));
-  house.room.start([] {});
+  House house(with_bots, std::move(start));
+  house.room->start([] {});
   for (int turn = 0; turn < 30; ++turn) house.ticks.run_one();
   house.settle();
   const auto eve = house.join(1, named("eve", protocol::Role::kSpectator));

@@ -1,5 +1,6 @@
 #include "server/watchers/ground_ahead.h"
 
+#include <spdlog/sinks/null_sink.h>
 #include <spdlog/sinks/ostream_sink.h>
 #include <boost/asio/io_context.hpp>
 #include <catch2/catch.hpp>
@@ -17,6 +18,10 @@ using namespace woodlouse::server;
 
 namespace {
 
+std::shared_ptr<spdlog::logger> quiet() {
+  return std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::null_sink_mt>());
+}
+
 std::shared_ptr<const map::Map> load(const tests::BigMapFiles& files, const std::string& storage) {
   auto map = map::load_map(files.map(",\"storage\":\"" + storage + "\""));
   if (!map) FAIL(map.error().text());
@@ -32,14 +37,14 @@ terrain::TileStore& tiles_of(const map::Map& map) {
 TEST_CASE("a map in memory as a whole has nothing to look ahead for") {
   const tests::BigMapFiles files("ahead_whole");
   boost::asio::thread_pool worker(1);
-  CHECK(GroundAhead::make(*load(files, "whole"), worker) == nullptr);
+  CHECK(GroundAhead::make("alps", *load(files, "whole"), "hills.flt", worker, quiet()) == nullptr);
 }
 
 TEST_CASE("the spawn points' tiles are there before anybody is") {
   const tests::BigMapFiles files("ahead_spawns");
   const auto map = load(files, "tiles");
   boost::asio::thread_pool worker(1);
-  const auto ahead = GroundAhead::make(*map, worker);
+  const auto ahead = GroundAhead::make("alps", *map, "hills.flt", worker, quiet());
   worker.join();
   const std::size_t live = tiles_of(*map).counters().live;
   CHECK(live >= 4);
@@ -47,7 +52,7 @@ TEST_CASE("the spawn points' tiles are there before anybody is") {
     static_cast<void>(map->terrain->sample(spawn.position.x, spawn.position.y));
   }
   CHECK(tiles_of(*map).counters().live == live);
-  CHECK(ahead->metrics().built == ahead->metrics().ahead);
+  CHECK(ahead->figures().built == ahead->figures().ahead);
 }
 
 TEST_CASE("tiles that a louse may reach are built before it gets there, those of resting ones are not") {
@@ -55,10 +60,10 @@ TEST_CASE("tiles that a louse may reach are built before it gets there, those of
   const auto map = load(files, "tiles");
   // A worker of their own for the spawns: what is looked at here is the louse's way.
   boost::asio::thread_pool spawns(1), worker(1);
-  const auto first = GroundAhead::make(*map, spawns);
+  const auto first = GroundAhead::make("alps", *map, "hills.flt", spawns, quiet());
   spawns.join();
   const std::size_t before = tiles_of(*map).counters().live;
-  const auto ahead = GroundAhead::make(*map, worker);
+  const auto ahead = GroundAhead::make("alps", *map, "hills.flt", worker, quiet());
   state::Louse runner;
   runner.id = 1;
   runner.position = {400.0, 0.0};  // far from the spawns, 3 m before a tile's line
@@ -69,7 +74,7 @@ TEST_CASE("tiles that a louse may reach are built before it gets there, those of
   sleeper.phase = state::Phase::kResting;
   std::vector<state::Louse> lice;
   for (std::size_t k = 0; k < GroundAhead::kTurns; ++k) lice.push_back(k == 2 ? runner : sleeper);
-  while (ahead->metrics().live == before) ahead->look(lice);  // a look is left out while a batch is at work
+  while (ahead->figures().live == before) ahead->look(lice);  // a look is left out while a batch is at work
   worker.join();
   const std::uint64_t built = tiles_of(*map).counters().built;
   static_cast<void>(map->terrain->sample(400.0, 0.0));
@@ -93,17 +98,16 @@ TEST_CASE("a room whose map can't be read any more says so once, loudly, counts 
   settings.state_hz = 20;
   settings.bots = 3;
   settings.tick_limit = 2500;
-  Opening opening{
-      map, std::make_unique<match::Match>(map, match::MatchSettings{1000, 0}), "hills.flt", {}, {}};
-  RoomStaff staff;
-  staff.ahead = GroundAhead::make(*map, worker);
-  Room room(ticks, io, settings, std::move(opening), std::move(staff), log);
-  room.start([&] { room.stop({}, "done", [&] { ticks.stop(); }); });
+  Start start{map, std::make_unique<match::Match>(map, match::MatchSettings{1000, 0}), "hills.flt", {}, {}};
+  Watchers watchers;
+  watchers.push_back(GroundAhead::make("alps", *map, "hills.flt", worker, log));
+  const auto room = Room::make(ticks, io, settings, std::move(start), std::move(watchers), log);
+  room->start([&] { room->stop({}, "done", [&] { ticks.stop(); }); });
   ticks.run_for(std::chrono::seconds(60));
   worker.join();
-  CHECK(room.metrics().ticks == 2500);
-  REQUIRE(room.metrics().ground);
-  CHECK(room.metrics().ground->read_failures > 0);
+  CHECK(room->figures()->ticks == 2500);
+  REQUIRE(room->figures()->ground);
+  CHECK(room->figures()->ground->read_failures > 0);
   const std::string text = lines.str();
   const std::size_t told = text.find("can't be read any more");
   REQUIRE(told != std::string::npos);

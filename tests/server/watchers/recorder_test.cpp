@@ -26,12 +26,20 @@ struct Log {
       std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(text));
 };
 
-/// Plays a short game into a recording, as a room does.
-void play(Recorder& recorder, boost::asio::thread_pool& disk, int ticks) {
+std::unique_ptr<match::Match> new_match() {
   auto map = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/volcano.json");
   REQUIRE(map);
-  match::Match match(*map, {60, 99});
-  recorder.begin(replay::make_header(match, "test", "maps/volcano.json"), match.state());
+  return std::make_unique<match::Match>(*map, match::MatchSettings{60, 99});
+}
+
+replay::Header header() { return replay::make_header(*new_match(), "test", "maps/volcano.json"); }
+
+/// Plays a short game into a recording, as a room does. What it announces is kept.
+std::vector<protocol::Notice> play(Recorder& recorder, boost::asio::thread_pool& disk, int ticks) {
+  std::vector<protocol::Notice> announced;
+  const auto game = new_match();
+  match::Match& match = *game;
+  recorder.begin(match, [&announced](const protocol::Notice& notice) { announced.push_back(notice); });
   const match::PlayerId player = match.join();
   recorder.player(player, "mara", protocol::Role::kPlayer);
   for (int tick = 0; tick < ticks; ++tick) {
@@ -39,11 +47,13 @@ void play(Recorder& recorder, boost::asio::thread_pool& disk, int ticks) {
       match.file(
           {player, static_cast<std::uint32_t>(tick), {state::ThrustKind::kAlongHeading, {0.5, 0.0}}, 5, 0});
     const match::StepRecord& step = match.advance();
-    recorder.step(step, {{player, static_cast<std::uint32_t>(tick), 1000}}, match);
+    const InputMargin margin{player, static_cast<std::uint32_t>(tick), 1000};
+    recorder.step(step, {&margin, 1}, match);
   }
   recorder.chat(match.tick(), player, "mara", "over \"and\" out");
   recorder.finish("test over", [] {});
   disk.join();
+  return announced;
 }
 
 }  // namespace
@@ -54,7 +64,7 @@ TEST_CASE("a recorded game with joins, inputs, keyframes and chat verifies") {
   Log log;
   boost::asio::thread_pool disk(1);
   {
-    auto recorder = Recorder::open(file, disk, log.logger);
+    auto recorder = Recorder::open(file, header(), disk, log.logger);
     REQUIRE(recorder);
     play(**recorder, disk, 700);
   }
@@ -74,7 +84,7 @@ TEST_CASE("a recording named .zst is packed and verifies") {
   Log log;
   boost::asio::thread_pool disk(1);
   {
-    auto recorder = Recorder::open(file, disk, log.logger);
+    auto recorder = Recorder::open(file, header(), disk, log.logger);
     REQUIRE(recorder);
     play(**recorder, disk, 700);
   }
@@ -88,12 +98,12 @@ TEST_CASE("a recording named .zst is packed and verifies") {
 TEST_CASE("a full disk ends the recording with one log line, a word to who asked, and nothing else") {
   Log log;
   boost::asio::thread_pool disk(1);
-  auto recorder = Recorder::open("/dev/full", disk, log.logger);
+  auto recorder = Recorder::open("/dev/full", header(), disk, log.logger);
   REQUIRE(recorder);
-  std::vector<std::string> told;
-  (*recorder)->on_failure([&told](const std::string& why) { told.push_back(why); });
-  play(**recorder, disk, 700);
-  CHECK(told == std::vector<std::string>{"No space left on device"});
+  const std::vector<protocol::Notice> told = play(**recorder, disk, 700);
+  REQUIRE(told.size() == 1);
+  CHECK(told[0] ==
+        protocol::Notice{"recording_ended", "the game is no longer recorded: No space left on device"});
   const std::string text = log.text.str();
   CHECK_THAT(text, Catch::Contains("RECORDING ENDED") && Catch::Contains("No space left on device"));
   CHECK(std::count(text.begin(), text.end(), '\n') == 1);
@@ -102,7 +112,7 @@ TEST_CASE("a full disk ends the recording with one log line, a word to who asked
 TEST_CASE("a recording that cannot be created is told with the reason") {
   Log log;
   boost::asio::thread_pool disk(1);
-  const auto recorder = Recorder::open("/no/such/folder/game.ndjson", disk, log.logger);
+  const auto recorder = Recorder::open("/no/such/folder/game.ndjson", header(), disk, log.logger);
   REQUIRE_FALSE(recorder);
   CHECK_THAT(recorder.error().text(),
              Catch::Contains("/no/such/folder/game.ndjson") && Catch::Contains("No such file"));

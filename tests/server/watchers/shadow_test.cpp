@@ -31,7 +31,7 @@ class Stage {
     fs::create_directory(folder_);
     for (int player = 0; player < 2; ++player) game.join();
     game.advance();
-    shadow.begin(game, "maps/volcano.json");
+    shadow.begin(game, {});
   }
   ~Stage() { fs::remove_all(folder_); }
   Stage(const Stage&) = delete;
@@ -44,12 +44,15 @@ class Stage {
     return game.advance();
   }
   void step(int times) {
-    for (int k = 0; k < times; ++k) shadow.step(step(), game);
+    for (int k = 0; k < times; ++k) shadow.step(step(), {}, game);
   }
-  const ShadowMetrics& finish() {
-    shadow.finish([] {});
+  ShadowFigures finish() {
+    shadow.finish("test over", [] {});
     pool.join();
-    return shadow.metrics();
+    RoomFigures figures;
+    shadow.add_figures(figures);
+    REQUIRE(figures.shadow);
+    return *figures.shadow;
   }
   [[nodiscard]] fs::path dump(const std::string& side, std::uint64_t tick) const {
     return folder_ / ("dump." + std::to_string(tick) + "." + side + ".ndjson");
@@ -74,7 +77,11 @@ class Stage {
   boost::asio::thread_pool pool{1};
   match::Match game{map_, {60, 7}};
   Shadow shadow{
-      "volcano", map_, folder_ / "dump", pool,
+      "volcano",
+      map_,
+      replay::make_header(game, "test", "maps/volcano.json"),
+      folder_ / "dump",
+      pool,
       std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(log))};
 };
 
@@ -87,11 +94,11 @@ TEST_CASE("a game with joins, leaves, respawns and inputs filed ahead has a shad
   stage.game.respawn(1);
   stage.game.file({2, 1000, {state::ThrustKind::kAlongHeading, {1.0, 0.0}}, 7, stage.game.tick() + 40});
   stage.game.leave(1);
-  for (int k = 0; k < 100; ++k) stage.shadow.step(stage.game.advance(), stage.game);
-  const ShadowMetrics& metrics = stage.finish();
-  CHECK(metrics.ticks == 120);
-  CHECK(metrics.differences == 0);
-  CHECK_FALSE(metrics.ended);
+  for (int k = 0; k < 100; ++k) stage.shadow.step(stage.game.advance(), {}, stage.game);
+  const ShadowFigures figures = stage.finish();
+  CHECK(figures.ticks == 120);
+  CHECK(figures.differences == 0);
+  CHECK_FALSE(figures.ended);
   CHECK(stage.log.str().empty());
 }
 
@@ -101,12 +108,12 @@ TEST_CASE(
   stage.step(10);
   match::StepRecord altered = stage.step();
   altered.inputs.at(1).thrust.x = 0.25;
-  stage.shadow.step(altered, stage.game);
+  stage.shadow.step(altered, {}, stage.game);
   stage.step(50);
-  const ShadowMetrics& metrics = stage.finish();
-  CHECK(metrics.ticks == 61);
-  CHECK(metrics.differences == 1);
-  CHECK_FALSE(metrics.ended);
+  const ShadowFigures figures = stage.finish();
+  CHECK(figures.ticks == 61);
+  CHECK(figures.differences == 1);
+  CHECK_FALSE(figures.ended);
   const std::string text = stage.log.str();
   CHECK(std::count(text.begin(), text.end(), '\n') == 1);
   CHECK_THAT(text, Catch::Contains("SHADOW DIFFERS: room volcano: tick 12: hash ") &&
@@ -125,11 +132,11 @@ TEST_CASE("each difference is counted, only the first is told") {
     stage.step(3);
     match::StepRecord altered = stage.step();
     altered.hash ^= 1;
-    stage.shadow.step(altered, stage.game);
+    stage.shadow.step(altered, {}, stage.game);
   }
-  const ShadowMetrics& metrics = stage.finish();
-  CHECK(metrics.ticks == 20);
-  CHECK(metrics.differences == 5);
+  const ShadowFigures figures = stage.finish();
+  CHECK(figures.ticks == 20);
+  CHECK(figures.differences == 5);
   const std::string text = stage.log.str();
   CHECK(std::count(text.begin(), text.end(), '\n') == 1);
 }
@@ -140,9 +147,9 @@ TEST_CASE("a shadow that falls behind is ended with one log line") {
   boost::asio::post(stage.pool, [&hold] { hold.get_future().wait(); });
   stage.step(static_cast<int>(Shadow::kMaxQueued) + 50);
   hold.set_value();
-  const ShadowMetrics& metrics = stage.finish();
-  CHECK(metrics.ended);
-  CHECK(metrics.differences == 0);
+  const ShadowFigures figures = stage.finish();
+  CHECK(figures.ended);
+  CHECK(figures.differences == 0);
   const std::string text = stage.log.str();
   CHECK_THAT(text, Catch::Contains("SHADOW ENDED: room volcano: it fell 300 steps behind"));
   CHECK(std::count(text.begin(), text.end(), '\n') == 1);
@@ -153,7 +160,7 @@ TEST_CASE("a dump that can't be written is told in the same line, and the shadow
   fs::remove_all(stage.dump("game", 1).parent_path());
   match::StepRecord altered = stage.step();
   altered.hash ^= 1;
-  stage.shadow.step(altered, stage.game);
+  stage.shadow.step(altered, {}, stage.game);
   stage.step(5);
   CHECK(stage.finish().ticks == 6);
   CHECK_THAT(stage.log.str(), Catch::Contains("can't be written: No such file"));

@@ -1,0 +1,17 @@
+#include "server/room/events.h"
+
+#include <memory>
+#include <utility>
+
+#include "shared/protocol/codec.h"
+
+namespace woodlouse::server {
+
+NumberedLine Events::make(std::uint64_t tick, protocol::EventKind kind, const Seat& seat,
+                          const std::string& text) {
+  const std::uint64_t number = next_++;
+  protocol::Event event{number, tick, kind, seat.louse, seat.name, seat.role, text};
+  return {number, std::make_shared<const std::string>(protocol::encode(std::move(event)))};
+}
+
+}  // namespace woodlouse::server

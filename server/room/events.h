@@ -1,0 +1,44 @@
+// A room's events: what they say and how they are numbered, in one place.
+// Pure. The room's strand owns it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "server/room/frame.h"
+#include "server/room/seats.h"
+#include "shared/protocol/messages.h"
+
+namespace woodlouse::server {
+
+struct NumberedLine {
+  std::uint64_t number = 0;  ///< of the room's events, from 1, without holes
+  Line line;
+};
+
+class Events {
+ public:
+  NumberedLine joined(std::uint64_t tick, const Seat& seat) {
+    return make(tick, protocol::EventKind::kJoined, seat);
+  }
+  NumberedLine left(std::uint64_t tick, const Seat& seat) {
+    return make(tick, protocol::EventKind::kLeft, seat);
+  }
+  NumberedLine respawned(std::uint64_t tick, const Seat& seat) {
+    return make(tick, protocol::EventKind::kRespawned, seat);
+  }
+  NumberedLine chat(std::uint64_t tick, const Seat& seat, const std::string& text) {
+    return make(tick, protocol::EventKind::kChat, seat, text);
+  }
+
+  /// Of the event made next.
+  [[nodiscard]] std::uint64_t next() const { return next_; }
+
+ private:
+  NumberedLine make(std::uint64_t tick, protocol::EventKind kind, const Seat& seat,
+                    const std::string& text = {});
+
+  std::uint64_t next_ = 1;
+};
+
+}  // namespace woodlouse::server

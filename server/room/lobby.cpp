@@ -1,0 +1,61 @@
+#include "server/room/lobby.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace woodlouse::server {
+namespace {
+
+auto find_in(auto& rooms, std::string_view name) {
+  return std::find_if(rooms.begin(), rooms.end(), [name](const auto& room) { return room->name() == name; });
+}
+
+}  // namespace
+
+bool Lobby::open(std::shared_ptr<Room> room) {
+  assert(room != nullptr && !room->name().empty());
+  const std::lock_guard lock(mutex_);
+  if (find_in(rooms_, room->name()) != rooms_.end()) return false;
+  rooms_.push_back(std::move(room));
+  return true;
+}
+
+bool Lobby::close(std::string_view name, const protocol::Bye& bye, const std::string& reason,
+                  std::function<void()> closed) {
+  std::shared_ptr<Room> room;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = find_in(rooms_, name);
+    if (found == rooms_.end()) return false;
+    room = std::move(*found);
+    rooms_.erase(found);
+  }
+  room->stop(bye, reason, std::move(closed));
+  return true;
+}
+
+std::shared_ptr<Door> Lobby::find(std::string_view name) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = name.empty() ? rooms_.begin() : find_in(rooms_, name);
+  return found == rooms_.end() ? nullptr : (*found)->door();
+}
+
+std::vector<std::string> Lobby::names() const {
+  std::vector<std::string> names;
+  for (const auto& room : rooms()) names.push_back(room->name());
+  return names;
+}
+
+protocol::Rooms Lobby::list() const {
+  protocol::Rooms list;
+  for (const auto& room : rooms()) list.rooms.push_back(room->census());
+  return list;
+}
+
+std::vector<std::shared_ptr<Room>> Lobby::rooms() const {
+  const std::lock_guard lock(mutex_);
+  return rooms_;
+}
+
+}  // namespace woodlouse::server

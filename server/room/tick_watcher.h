@@ -1,0 +1,52 @@
+// Who works beside a room's game and sees every tick of it: a recording, a second run that compares, tiles
+// built ahead. It learns all that a re-run needs, and changes nothing.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+
+#include "server/room/figures.h"
+#include "shared/match/match.h"
+#include "shared/protocol/messages.h"
+
+namespace woodlouse::server {
+
+/// How long before its step an input came; negative: after the step it asked for.
+struct InputMargin {
+  match::PlayerId player = 0;
+  std::uint32_t seq = 0;
+  std::int64_t microseconds = 0;
+};
+
+/// The room's strand calls it, in this order: player() for who is there already, begin(), then player(),
+/// chat() and step() as they happen, finish(). Every call returns at once.
+class TickWatcher {
+ public:
+  /// Tells every session of the room; any thread.
+  using Announce = std::function<void(const protocol::Notice&)>;
+
+  TickWatcher() = default;
+  TickWatcher(const TickWatcher&) = delete;
+  TickWatcher& operator=(const TickWatcher&) = delete;
+  virtual ~TickWatcher() = default;
+
+  /// Once. `game`: as it stands; nothing is queued in it.
+  virtual void begin(const match::Match& game, Announce announce) = 0;
+  /// Before the step that applies the join.
+  virtual void player(match::PlayerId /*player*/, const std::string& /*name*/, protocol::Role /*role*/) {}
+  virtual void chat(std::uint64_t /*tick*/, match::PlayerId /*player*/, const std::string& /*name*/,
+                    const std::string& /*text*/) {}
+  /// After the step. `game`: as the step left it, nothing queued since. margins: of the step's inputs that
+  /// came from sessions.
+  virtual void step(const match::StepRecord& record, std::span<const InputMargin> margins,
+                    const match::Match& game) = 0;
+  /// Last of all, once; `done` is called when its work is done, on some thread. It outlives that call.
+  virtual void finish(const std::string& reason, std::function<void()> done) = 0;
+
+  /// Adds its own figures to the room's.
+  virtual void add_figures(RoomFigures& /*figures*/) const {}
+};
+
+}  // namespace woodlouse::server

@@ -1,0 +1,198 @@
+#include "server/room/lobby.h"
+
+#include <catch2/catch.hpp>
+
+#include <spdlog/sinks/null_sink.h>
+
+#include <boost/asio/executor_work_guard.hpp>
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+#include "shared/map/map_file.h"
+
+using namespace woodlouse;
+using namespace woodlouse::server;
+
+namespace {
+
+class Guest final : public Subscriber {
+ public:
+  void deliver(Line) override {}
+  void answer(protocol::ServerMessage) override {}
+  void show(const Frame&) override {}
+  void show_again(const Frame&) override {}
+  void deliver_map(Line) override {}
+  void refuse_join(protocol::ErrorMessage error) override { refusals.push_back(std::move(error)); }
+  void welcome(protocol::Welcome message, std::uint32_t) override { welcomes.push_back(std::move(message)); }
+  void end(protocol::Bye bye) override { byes.push_back(std::move(bye)); }
+
+  std::vector<protocol::ErrorMessage> refusals;
+  std::vector<protocol::Welcome> welcomes;
+  std::vector<protocol::Bye> byes;
+};
+
+/// A server's lobby without a port.
+struct House {
+  std::shared_ptr<Room> make(const std::string& name) {
+    static const auto map = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/volcano.json");
+    REQUIRE(map);
+    RoomSettings settings;
+    settings.name = name;
+    Start start{
+        *map, std::make_unique<match::Match>(*map, match::MatchSettings{60, 0}), "volcano.json", {}, {}};
+    return Room::make(ticks, io, std::move(settings), std::move(start), {}, log);
+  }
+  std::shared_ptr<Guest> join(Door& door, SessionId session) {
+    auto guest = std::make_shared<Guest>();
+    protocol::Join join;
+    join.name = "guest";
+    join.fields = protocol::default_columns();
+    door.join(session, guest, join);
+    settle();
+    return guest;
+  }
+  void settle() {
+    while (ticks.poll() + io.poll() > 0) {
+      ticks.restart();
+      io.restart();
+    }
+    ticks.restart();
+    io.restart();
+  }
+
+  boost::asio::io_context io{1};
+  boost::asio::io_context ticks{1};
+  std::shared_ptr<spdlog::logger> log =
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::null_sink_mt>());
+  Lobby lobby;
+};
+
+}  // namespace
+
+TEST_CASE("rooms are found by name, the first one without, in the order they were opened") {
+  House house;
+  CHECK(house.lobby.find("") == nullptr);
+  REQUIRE(house.lobby.open(house.make("hills")));
+  REQUIRE(house.lobby.open(house.make("arena")));
+  CHECK_FALSE(house.lobby.open(house.make("hills")));
+  CHECK(house.lobby.names() == std::vector<std::string>{"hills", "arena"});
+  CHECK(house.lobby.find("")->name() == "hills");
+  CHECK(house.lobby.find("arena")->name() == "arena");
+  CHECK(house.lobby.find("moon") == nullptr);
+  house.join(*house.lobby.find("arena"), 1);
+  const protocol::Rooms list = house.lobby.list();
+  REQUIRE(list.rooms.size() == 2);
+  CHECK(list.rooms[0].players == 0);
+  CHECK(list.rooms[1].players == 1);
+  CHECK(list.rooms[1].map == "volcano");
+}
+
+TEST_CASE("a room that closes says bye to its members, and the doors that are held refuse") {
+  House house;
+  REQUIRE(house.lobby.open(house.make("hills")));
+  REQUIRE(house.lobby.open(house.make("arena")));
+  const auto door = house.lobby.find("hills");
+  const auto inside = house.join(*door, 1);
+  const auto elsewhere = house.join(*house.lobby.find("arena"), 2);
+  bool closed = false;
+  REQUIRE(
+      house.lobby.close("hills", {"shutdown", "the room closes", false}, "closed", [&] { closed = true; }));
+  CHECK(house.lobby.find("hills") == nullptr);
+  CHECK(house.lobby.names() == std::vector<std::string>{"arena"});
+  house.settle();
+  CHECK(closed);
+  REQUIRE(inside->byes.size() == 1);
+  CHECK(inside->byes[0].text == "the room closes");
+  CHECK(elsewhere->byes.empty());
+
+  const auto late = house.join(*door, 3);
+  REQUIRE(late->refusals.size() == 1);
+  CHECK(late->refusals[0].code == "shutdown");
+  CHECK_FALSE(late->refusals[0].fatal);
+  door->submit(1, protocol::Chat{"anybody?"}, {});
+  door->leave(1);
+  CHECK(door->census().players == 0);
+  CHECK_FALSE(house.lobby.close("hills", {}, "closed", [] {}));
+}
+
+TEST_CASE("a closed room leaves memory though its door is held") {
+  House house;
+  std::weak_ptr<Room> room;
+  {
+    const auto made = house.make("hills");
+    room = made;
+    REQUIRE(house.lobby.open(made));
+    made->start([] {});
+  }
+  const auto door = house.lobby.find("hills");
+  const auto guest = house.join(*door, 1);
+  REQUIRE_FALSE(room.expired());
+  REQUIRE(house.lobby.close("hills", {}, "closed", [] {}));
+  house.settle();
+  CHECK(room.expired());
+  CHECK(guest.use_count() == 1);
+}
+
+TEST_CASE("a room may close before it started, and a name may be opened again") {
+  House house;
+  for (int round = 0; round < 3; ++round) {
+    REQUIRE(house.lobby.open(house.make("hills")));
+    const auto guest = house.join(*house.lobby.find("hills"), 1);
+    CHECK(guest->welcomes.size() == 1);
+    bool closed = false;
+    REQUIRE(house.lobby.close("hills", {}, "closed", [&] { closed = true; }));
+    house.settle();
+    CHECK(closed);
+  }
+}
+
+TEST_CASE("rooms open and close while others look, join and leave") {
+  House house;
+  REQUIRE(house.lobby.open(house.make("steady")));
+  auto work_ticks = boost::asio::make_work_guard(house.ticks);
+  auto work_io = boost::asio::make_work_guard(house.io);
+  std::thread ticking([&] { house.ticks.run(); });
+  std::thread sending([&] { house.io.run(); });
+  std::atomic<bool> over{false};
+  std::atomic<int> visits{0};
+  std::vector<std::thread> visitors;
+  for (SessionId first = 1; first <= 2; ++first) {
+    visitors.emplace_back([&, first] {
+      for (SessionId session = first; !over; session += 2) {
+        for (const std::string& name : house.lobby.names()) {
+          if (const auto door = house.lobby.find(name)) {
+            auto guest = std::make_shared<Guest>();
+            protocol::Join join;
+            join.name = "guest";
+            join.fields = protocol::default_columns();
+            door->join(session, guest, join);
+            door->leave(session);
+            ++visits;
+          }
+        }
+        static_cast<void>(house.lobby.list());
+        std::this_thread::yield();
+      }
+    });
+  }
+  std::atomic<int> closed{0};
+  int opened = 0;
+  for (; opened < 50 || visits < 200; ++opened) {
+    auto room = house.make("guest room");
+    room->start([] {});
+    REQUIRE(house.lobby.open(std::move(room)));
+    std::this_thread::yield();
+    REQUIRE(house.lobby.close("guest room", {}, "closed", [&] { ++closed; }));
+  }
+  over = true;
+  for (std::thread& visitor : visitors) visitor.join();
+  REQUIRE(house.lobby.close("steady", {}, "closed", [&] { ++closed; }));
+  while (closed < opened + 1) std::this_thread::yield();
+  work_ticks.reset();
+  work_io.reset();
+  ticking.join();
+  sending.join();
+  CHECK(house.lobby.names().empty());
+}
