@@ -42,7 +42,7 @@ template <typename T>
           start.velocity + sixth * (a1 + T(2.0) * (a2 + a3) + a4)};
 }
 
-/// The step at one go; batch_kernel.h makes it in stages. sample(Pair<T>) gives the surface,
+/// The step at one go; lanes/kernel.h makes it in stages. sample(Pair<T>) gives the surface,
 /// accelerate(sample, velocity) the acceleration; a1 is that of the start.
 template <typename T, typename Sample, typename Accelerate>
 [[gnu::always_inline]] inline BasicMotion<T> nystrom4(const BasicMotion<T>& start, core::Pair<T> a1, T h,

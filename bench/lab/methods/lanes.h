@@ -1,4 +1,4 @@
-// The spline's batched evaluation as the batched step does it (physics/batch_kernel.h), by itself, to be
+// The spline's batched evaluation as the batched step does it (physics/lanes/kernel.h), by itself, to be
 // timed.
 #pragma once
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "bench/lab/methods/lanes.h"
-#include "shared/physics/batch_kernel.h"
+#include "shared/physics/lanes/kernel.h"
 
 namespace woodlouse::lab {
 

@@ -19,7 +19,7 @@
 
 #include "shared/physics/batch.h"
 #include "shared/physics/energy_projection.h"
-#include "shared/physics/lane_grounds.h"
+#include "shared/physics/lanes/grounds.h"
 #include "shared/physics/nystrom.h"
 #include "shared/physics/surface_motion.h"
 
@@ -55,7 +55,7 @@ struct LaneFields {
   }
 };
 
-/// L: the lanes; F: the Forces the map has; G: its ground (lane_grounds.h).
+/// L: the lanes; F: the Forces the map has; G: its ground (grounds.h).
 template <typename L, typename F, typename G>
 class LaneStepper {
  public:

@@ -1,5 +1,5 @@
 // The grounds of a batched step over a lane type L: where lanes are on them, and the sample there. Under the
-// rules of batch_kernel.h.
+// rules of kernel.h.
 #pragma once
 
 #include "shared/physics/batch.h"
