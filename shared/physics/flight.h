@@ -16,7 +16,9 @@
 
 #include "shared/physics/nystrom.h"
 #include "shared/physics/rim.h"
+#include "shared/physics/step_counters.h"
 #include "shared/physics/surface_motion.h"
+#include "shared/state/louse.h"
 #include "shared/state/parameters.h"
 #include "shared/terrain/surface.h"
 
@@ -56,6 +58,9 @@ class Flyer {
         parameters_(parameters),
         rim_(rim),
         longest_(std::isfinite(surface.cell()) ? tick : tick / 32.0) {}
+
+  [[nodiscard]] const S& surface() const { return surface_; }
+  [[nodiscard]] const Rim& rim() const { return rim_; }
 
   struct Piece {
     double time = 0.0;     ///< [s], > 0
@@ -125,5 +130,40 @@ class Flyer {
   const Rim& rim_;
   double longest_;
 };
+
+/// A louse leaves the ground at `end`.
+template <terrain::Surface S>
+[[gnu::always_inline]] inline void begin_flight(const S& surface, const Motion& end, state::Louse& louse,
+                                                StepCounters& counters) {
+  const Flight flight = taken_off(surface.sample(end.position.x, end.position.y), end);
+  louse.phase = state::Phase::kFlying;
+  louse.flight_z = flight.height;
+  louse.flight_vz = flight.climb;
+  ++counters.flights;
+}
+
+/// One piece of a louse's flight, landing or seam included; the time it took [s], at most `remaining`. at:
+/// its motion over the map.
+template <terrain::Surface S>
+[[gnu::always_inline]] inline double fly_on(const Flyer<S>& flyer, state::Louse& louse, Motion& at,
+                                            double remaining, StepCounters& counters) {
+  Flight flight{at, louse.flight_z, louse.flight_vz};
+  const double speed = std::sqrt(dot(at.velocity, at.velocity) + louse.flight_vz * louse.flight_vz);
+  const auto piece = flyer.fly(flight, remaining);
+  ++counters.sub_steps;
+  if (piece.bounced) ++counters.bounces;
+  louse.distance += piece.time * speed;
+  at = flight.over;
+  if (flyer.rim().wraps()) flyer.rim().carry_home(at.position);
+  louse.flight_z = flight.height;
+  louse.flight_vz = flight.climb;
+  if (piece.landed) {
+    at.position = flyer.rim().inside(at.position);
+    at.velocity = landed_velocity(flyer.surface().sample(at.position.x, at.position.y), flight);
+    louse.phase = state::Phase::kMoving;
+    louse.flight_z = louse.flight_vz = 0.0;
+  }
+  return piece.time < remaining ? piece.time : remaining;
+}
 
 }  // namespace woodlouse::physics

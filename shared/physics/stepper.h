@@ -1,12 +1,9 @@
 // One louse through one tick: an integrator's steps (integrators.h, precise.h) with the sub-step rules
-// (sub_step_rules.h), the friction stop and the walls (rim.h, walls.h). ground.h: what acts on the louse.
+// (sub_step_rules.h), the friction stop (halt.h) and the walls (rim.h, walls.h). ground.h: what acts on the
+// louse.
 //
 // A sub-step is halved at most to 1/256 of the tick; one that wanted to be shorter still is counted, and its
 // energy bounded.
-//
-// Stop: where friction can hold at v = 0 (the stick test) and |v| + h at <= 0, or v is too small for the
-// shortest sub-step to resolve its direction, the louse halts after |v|/(-at). Where it can't hold, it slows,
-// turns and goes on; only when v and a are exactly opposite is v = 0 passed, by splitting the sub-step there.
 //
 // Flight: on a unilateral map the moment at which the normal force ends is located within the sub-step; from
 // there the louse flies (flight.h).
@@ -20,9 +17,11 @@
 
 #include <cmath>
 
+#include "shared/physics/bounded_energy.h"
 #include "shared/physics/energy_projection.h"
 #include "shared/physics/flight.h"
 #include "shared/physics/ground.h"
+#include "shared/physics/halt.h"
 #include "shared/physics/integrators.h"
 #include "shared/physics/rim.h"
 #include "shared/physics/sub_step_rules.h"
@@ -46,102 +45,25 @@ class Stepper {
         ground_(surface, parameters),
         rim_(walls, parameters.edges),
         tick_(tick),
-        shortest_(tick / SubStepRules::kMaxSubSteps),
         rules_(parameters, (kKeepsEnergy ? 0.5 : 1.0) * surface.cell(), tick),
         unilateral_(E::kExact && kCurved && parameters.contact == state::SurfaceContact::kUnilateral) {}
 
   [[nodiscard]] const SubStepRules& rules() const { return rules_; }
 
   /// Moves the louse through one tick. Its thrust is not counted down here.
-  void advance(state::Louse& louse, StepCounters& counters) const {
+  [[gnu::always_inline]] inline void advance(state::Louse& louse, StepCounters& counters) const {
     ++counters.louse_steps;
-    finish(louse, tick_, 0, counters);
+    run(louse, tick_, 0, counters);
   }
 
   /// The rest of a tick, of which `remaining` [s] is left after `pieces` sub-steps in lanes (batch.h).
   void finish(state::Louse& louse, double remaining, int pieces, StepCounters& counters) const {
-    const Drive drive = drive_of(louse);
-    const bool turns_with_v = kRules && (F::friction || (F::thrust && drive.along != 0.0));
-    I integrator;
-    Motion at{louse.position, louse.velocity};
-    int bounces = 0;
-
-    for (int piece = pieces; remaining > 0.0; ++piece) {
-      if (piece == kMaxPieces) {
-        ++counters.capped;
-        break;
-      }
-      if (louse.phase == state::Phase::kFlying) {
-        remaining -= fly(louse, at, remaining, counters);
-        continue;
-      }
-      Start start = begin(at, drive, bounces, counters);
-      at = start.at;
-      if (kRules && start.speed2 == 0.0 && !set_off(start, louse.heading, drive)) {
-        louse.phase = state::Phase::kResting;
-        break;
-      }
-      const double speed = std::sqrt(start.speed2);
-      double h = remaining;
-      while (kRules && h > shortest_ && is_too_long(start, h)) h *= 0.5;
-      const bool capped = kRules && h <= shortest_ && is_too_long(start, h);
-      ++counters.sub_steps;
-
-      if (turns_with_v && start.speed2 > 0.0 && turns_too_far(start, drive, h)) {
-        const double rate = speed_rate(start, speed);
-        const bool resolved = limit_turn(start, drive, rate, h);
-        const Halt halt = halts(start, speed, rate, h, resolved, louse.heading, drive);
-        if (halt != Halt::kNo) {
-          const double time = speed < -rate * remaining ? -speed / rate : remaining;
-          louse.distance += 0.5 * time * speed;
-          louse.heading = direction(at.velocity);
-          at = {rim_.stopped(at.position + (0.5 * time) * at.velocity), {}};
-          remaining -= time;
-          integrator = I{};
-          if (halt == Halt::kTurnsBack) continue;
-          louse.phase = state::Phase::kResting;
-          ++counters.stops;
-          break;
-        }
-      }
-
-      const Field field{ground_, start, drive};
-      StepResult step = integrator.step(start, field, h);
-      h = h == step.used ? h : step.used;
-      Motion& end = step.end;
-      if (capped) {
-        ++counters.capped;
-        end = energy_bounded(start, drive, h, end);
-      }
-      const bool hits = !rim_.lets_pass(end.position);
-      if (hits) {
-        h = rim_.reach(h, end, [&](double t) { return integrator.step(start, field, t).end; });
-        if (capped) end = energy_bounded(start, drive, h, end);
-      }
-      if constexpr (kKeepsEnergy) {
-        if (!capped && !start.contact.any()) end = energy_kept(start, drive, h, end, hits);
-      }
-      const bool flies = unilateral_ && takes_off(start, field, integrator, h, end);
-      if (flies) {
-        const Flight flight = taken_off(surface_.sample(end.position.x, end.position.y), end);
-        louse.phase = state::Phase::kFlying;
-        louse.flight_z = flight.height;
-        louse.flight_vz = flight.climb;
-        ++counters.flights;
-      }
-      if constexpr (requires { integrator.accept(hits); }) integrator.accept(hits || capped || flies);
-      louse.distance += h * speed;
-      remaining = h == remaining ? 0.0 : remaining - h;
-      at = end;
-      if (rim_.wraps()) carry_home(at, integrator);
-    }
-    louse.position = at.position;
-    louse.velocity = at.velocity;
-    if (dot(at.velocity, at.velocity) > 0.0) louse.heading = direction(at.velocity);
+    run(louse, remaining, pieces, counters);
   }
 
-  /// Whether friction, brake and walls hold this louse where it is. False while it moves.
+  /// Whether friction, brake and walls hold this louse where it is. False while it moves, and of bare steps.
   [[nodiscard]] bool holds(const state::Louse& louse) const {
+    if constexpr (!kRules) return false;
     if (louse.phase == state::Phase::kFlying || louse.velocity != core::Vec2{}) return false;
     const Drive drive = drive_of(louse);
     Start start;
@@ -163,7 +85,140 @@ class Stepper {
   static constexpr int kMaxBounces = 8;
   static constexpr int kMaxPieces = 1024;  // sub-steps, impacts and stops of one tick, whatever happens
 
-  enum class Halt { kNo, kRests, kTurnsBack };
+  /// A louse on its way through what is left of the tick: the locals of run(), so that each that can be
+  /// stays in a register.
+  struct Way {
+    state::Louse& louse;
+    StepCounters& counters;
+    const Drive& drive;
+    Motion& at;
+    double& remaining;  ///< [s]
+    int& bounces;       ///< so far, in this tick
+    I& integrator;
+  };
+
+  /// A sub-step on the ground.
+  struct SubStep {
+    double h;      ///< [s]
+    double speed;  ///< |v|3 at its start [m/s]
+    bool capped;   ///< it wanted to be shorter
+  };
+
+  /// See finish(). Inlined where lice are stepped one after the other.
+  [[gnu::always_inline]] inline void run(state::Louse& louse, double remaining, int pieces,
+                                         StepCounters& counters) const {
+    const Drive drive = drive_of(louse);
+    Motion at{louse.position, louse.velocity};
+    int bounces = 0;
+    I integrator;
+    const Way way{louse, counters, drive, at, remaining, bounces, integrator};
+    for (int piece = pieces; remaining > 0.0; ++piece) {
+      if (piece == kMaxPieces) {
+        ++counters.capped;
+        break;
+      }
+      if (louse.phase == state::Phase::kFlying) {
+        const Flyer<S> flyer(surface_, parameters_, rim_, tick_);
+        remaining -= fly_on(flyer, louse, at, remaining, counters);
+      } else if (!slide(way)) {
+        break;
+      }
+    }
+    louse.position = at.position;
+    louse.velocity = at.velocity;
+    if (dot(at.velocity, at.velocity) > 0.0) louse.heading = direction(at.velocity);
+  }
+
+  /// One sub-step on the ground, or up to a halt. False: the louse has come to rest.
+  [[gnu::always_inline]] inline bool slide(const Way& way) const {
+    Start start = begin(way.at, way.drive, way.bounces, way.counters);
+    way.at = start.at;
+    if (kRules && start.speed2 == 0.0 && !set_off(ground_, start, way.louse.heading, way.drive)) {
+      way.louse.phase = state::Phase::kResting;
+      return false;
+    }
+    SubStep step = choose(start, way.remaining);
+    ++way.counters.sub_steps;
+    if (turns_with_v(way.drive) && start.speed2 > 0.0 && turns_too_far(rules_, start, way.drive, step.h)) {
+      const Turning turning = limit_turn(rules_, start, way.drive, step.speed, step.h);
+      step.h = turning.h;
+      const Halt halt = halts(ground_, start, turning, way.louse.heading, way.drive);
+      if (halt != Halt::kNo) return come_to_halt(way, turning, halt);
+    }
+    integrate(Field{ground_, start, way.drive}, way, step);
+    return true;
+  }
+
+  /// A force turns with v, and a sub-step may be too long for it.
+  [[nodiscard, gnu::always_inline]] static inline bool turns_with_v(const Drive& drive) {
+    return kRules && (F::friction || (F::thrust && drive.along != 0.0));
+  }
+
+  /// The longest of remaining, its half, its quarter ... that the rules allow.
+  [[nodiscard, gnu::always_inline]] inline SubStep choose(const Start& start, double remaining) const {
+    double h = remaining;
+    while (kRules && h > rules_.shortest() && is_too_long(start, h)) h *= 0.5;
+    const bool capped = kRules && h <= rules_.shortest() && is_too_long(start, h);
+    return {h, std::sqrt(start.speed2), capped};
+  }
+
+  /// Slows the louse down to v = 0, as far as the tick lasts. False: it rests there.
+  [[gnu::always_inline]] inline bool come_to_halt(const Way& way, const Turning& turning, Halt halt) const {
+    const auto [speed, rate, h, resolved] = turning;
+    const double time = speed < -rate * way.remaining ? -speed / rate : way.remaining;
+    way.louse.distance += 0.5 * time * speed;
+    way.louse.heading = direction(way.at.velocity);
+    way.at = {rim_.stopped(way.at.position + (0.5 * time) * way.at.velocity), {}};
+    way.remaining -= time;
+    way.integrator = I{};
+    if (halt == Halt::kTurnsBack) return true;
+    way.louse.phase = state::Phase::kResting;
+    ++way.counters.stops;
+    return false;
+  }
+
+  /// The integrator's step, up to where it meets a wall or takes off.
+  [[gnu::always_inline]] inline void integrate(const Field& field, const Way& way, SubStep step) const {
+    StepResult result = way.integrator.step(field.start, field, step.h);
+    step.h = step.h == result.used ? step.h : result.used;
+    Motion& end = result.end;
+    const bool hits = put_right(field, way, step, end);
+    const bool flies = unilateral_ && takes_off(field, way.integrator, step.h, end);
+    if (flies) begin_flight(surface_, end, way.louse, way.counters);
+    if constexpr (requires { way.integrator.accept(hits); }) {
+      way.integrator.accept(hits || step.capped || flies);
+    }
+    way.louse.distance += step.h * step.speed;
+    way.remaining = step.h == way.remaining ? 0.0 : way.remaining - step.h;
+    way.at = end;
+    if (rim_.wraps()) carry_home(way.at, way.integrator);
+  }
+
+  /// The end within the walls and with no more energy than it may have; whether a wall is met, where step.h
+  /// then ends.
+  [[gnu::always_inline]] inline bool put_right(const Field& field, const Way& way, SubStep& step,
+                                               Motion& end) const {
+    const Start& start = field.start;
+    if (step.capped) {
+      ++way.counters.capped;
+      end = bounded(start, way.drive, step.h, end);
+    }
+    const bool hits = !rim_.lets_pass(end.position);
+    if (hits) {
+      step.h = rim_.reach(step.h, end, [&](double t) { return way.integrator.step(start, field, t).end; });
+      if (step.capped) end = bounded(start, way.drive, step.h, end);
+    }
+    if constexpr (kKeepsEnergy) {
+      if (!step.capped && !start.contact.any()) end = energy_kept(start, way.drive, step.h, end, hits);
+    }
+    return hits;
+  }
+
+  /// Over a seam, a louse goes on at the opposite rim.
+  void carry_home(Motion& at, I& integrator) const {
+    const Turns turns = rim_.carry_home(at.position);
+    if constexpr (requires { integrator.carried(surface_, turns); }) integrator.carried(surface_, turns);
+  }
 
   [[nodiscard]] Drive drive_of(const state::Louse& louse) const {
     return F::thrust ? physics::drive_of(louse, parameters_.thrust_max) : Drive{};
@@ -221,19 +276,6 @@ class Stepper {
     start.contact = leans;
   }
 
-  [[nodiscard]] static bool is_held(const Start& start, const RestingBalance& b) {
-    return squared_length_in_space(start.sample, b.pull) <= b.hold * b.hold;
-  }
-
-  /// At v = 0: the acceleration out of rest, friction opposing the motion about to begin. False: it is held.
-  bool set_off(Start& start, core::Vec2 heading, const Drive& drive) const {
-    const RestingBalance b = ground_.balance(start, heading, drive);
-    if (is_held(start, b)) return false;
-    const double pull = std::sqrt(squared_length_in_space(start.sample, b.pull));
-    start.acceleration = (1.0 - b.hold / pull) * b.pull;
-    return true;
-  }
-
   [[nodiscard]] bool is_too_long(const Start& start, double h) const {
     if constexpr (F::central) {
       if (SubStepRules::swings_too_far(central_pull(start.at.position, parameters_.central_gravity), h))
@@ -242,46 +284,9 @@ class Stepper {
     return rules_.too_long(start.sample, start.speed2, h);
   }
 
-  [[nodiscard]] bool turns_too_far(const Start& start, const Drive& drive, double h) const {
-    const double a2 = squared_length_in_space(start.sample, start.acceleration);
-    return SubStepRules::turns_too_far(a2 + rules_.stiffness2(drive.along), start.speed2, h);
-  }
-
-  /// d|v|3/dt at the start; REQUIRES speed > 0.
-  [[nodiscard]] static double speed_rate(const Start& start, double speed) {
-    const auto& s = start.sample;
-    const core::Vec2 v = start.at.velocity;
-    const core::Vec2 a = start.acceleration;
-    const double vz = s.zx * v.x + s.zy * v.y;
-    return (dot(v, a) + vz * (s.zx * a.x + s.zy * a.y + curvature_along(s, v))) / speed;
-  }
-
-  /// Halves h until v's direction can be trusted, or the shortest sub-step is reached (false); speeding up,
-  /// only what acts across v swings it.
-  [[nodiscard]] bool limit_turn(const Start& start, const Drive& drive, double rate, double& h) const {
-    double a2 = squared_length_in_space(start.sample, start.acceleration) + rules_.stiffness2(drive.along);
-    if (rate > 0.0) a2 -= rate * rate;
-    while (h > shortest_ && SubStepRules::turns_too_far(a2, start.speed2, h)) h *= 0.5;
-    return !SubStepRules::turns_too_far(a2, start.speed2, h);
-  }
-
-  /// resolved: as limit_turn says. A louse that is slower than that, and can be held, is at its end; a fast
-  /// one whose friction turns with the ground's curvature is not, and friction that holds at v = 0 tells it
-  /// apart: by itself it makes |a| at most twice itself.
-  [[nodiscard]] Halt halts(const Start& start, double speed, double rate, double h, bool resolved,
-                           core::Vec2 heading, const Drive& drive) const {
-    const bool stops = !(speed + h * rate > 0.0);
-    if (!stops && resolved) return Halt::kNo;
-    const RestingBalance balance = ground_.balance(start, heading, drive);
-    if (!stops && speed > 20.0 * h * balance.hold) return Halt::kNo;
-    if (is_held(start, balance)) return Halt::kRests;
-    if (!stops) return Halt::kNo;
-    const double a2 = squared_length_in_space(start.sample, start.acceleration);
-    return a2 - rate * rate <= 1e-12 * a2 ? Halt::kTurnsBack : Halt::kNo;
-  }
-
   /// Whether the normal force ends within the sub-step; then h and end become those of that moment.
-  bool takes_off(const Start& start, const Field& field, I& integrator, double& h, Motion& end) const {
+  bool takes_off(const Field& field, I& integrator, double& h, Motion& end) const {
+    const Start& start = field.start;
     const auto load = [&](const Motion& m) {
       return lift(surface_.sample(m.position.x, m.position.y), m.velocity, parameters_);
     };
@@ -298,61 +303,19 @@ class Stepper {
     return true;
   }
 
-  /// Over a seam, a louse goes on at the opposite rim.
-  void carry_home(Motion& at, I& integrator) const {
-    const Turns turns = rim_.carry_home(at.position);
-    if constexpr (requires { integrator.carried(surface_, turns); }) integrator.carried(surface_, turns);
-  }
-
-  /// One piece of a flight; the time it took.
-  double fly(state::Louse& louse, Motion& at, double remaining, StepCounters& counters) const {
-    Flight flight{at, louse.flight_z, louse.flight_vz};
-    const double speed = std::sqrt(dot(at.velocity, at.velocity) + louse.flight_vz * louse.flight_vz);
-    const auto piece = Flyer<S>(surface_, parameters_, rim_, tick_).fly(flight, remaining);
-    ++counters.sub_steps;
-    if (piece.bounced) ++counters.bounces;
-    louse.distance += piece.time * speed;
-    at = flight.over;
-    if (rim_.wraps()) rim_.carry_home(at.position);
-    louse.flight_z = flight.height;
-    louse.flight_vz = flight.climb;
-    if (piece.landed) {
-      at.position = rim_.inside(at.position);
-      at.velocity = landed_velocity(surface_.sample(at.position.x, at.position.y), flight);
-      louse.phase = state::Phase::kMoving;
-      louse.flight_z = louse.flight_vz = 0.0;
-    }
-    return piece.time < remaining ? piece.time : remaining;
-  }
-
   /// The end, put right to the energy of the start; one at a wall stays there.
   [[nodiscard]] Motion energy_kept(const Start& start, const Drive& drive, double h, const Motion& end,
                                    bool at_wall) const {
-    if (at_wall) return energy_bounded(start, drive, h, end);
+    if (at_wall) return bounded(start, drive, h, end);
     const double energy0 = energy(start.sample, start.at.velocity, parameters_.gravity);
     const auto s = surface_.sample(end.position.x, end.position.y);
     const EnergyKept<double> kept = with_energy(energy0, s, end, h, parameters_.gravity);
-    return kept.near && rim_.lets_pass(kept.end.position) ? kept.end : energy_bounded(start, drive, h, end);
+    return kept.near && rim_.lets_pass(kept.end.position) ? kept.end : bounded(start, drive, h, end);
   }
 
-  /// For a sub-step longer than the rules ask, or far off: a finite end that has no energy from nothing, and
-  /// where energy is kept, all of it. Where there is none on its way, the louse turns back.
-  [[nodiscard]] Motion energy_bounded(const Start& start, const Drive& drive, double h,
-                                      const Motion& end) const {
-    const Motion back{start.at.position, -start.at.velocity};
-    if (!rim_.admits(end.position)) return back;  // also NaN
-    const core::Vec2 place = rim_.inside(end.position);
-    const double speed = std::sqrt(start.speed2);
-    const double push = drive.push + std::fabs(drive.along);
-    const double most =
-        0.5 * start.speed2 + parameters_.gravity * start.sample.z + push * (h * speed + 0.5 * h * h * push);
-    const auto s = surface_.sample(place.x, place.y);
-    const double kinetic = most - parameters_.gravity * s.z;
-    const double speed2 = squared_length_in_space(s, end.velocity);
-    if (!(kinetic >= 0.0) || !(speed2 < 1e300)) return back;
-    if (!kKeepsEnergy && 0.5 * speed2 <= kinetic) return end;
-    if (!(speed2 > kStandstill2)) return back;
-    return {end.position, std::sqrt(2.0 * kinetic / speed2) * end.velocity};
+  /// For a sub-step longer than the rules ask, or far off.
+  [[nodiscard]] Motion bounded(const Start& start, const Drive& drive, double h, const Motion& end) const {
+    return energy_bounded<kKeepsEnergy>(surface_, rim_, parameters_.gravity, start, drive, h, end);
   }
 
   const S& surface_;
@@ -360,7 +323,6 @@ class Stepper {
   Ground ground_;
   Rim rim_;
   double tick_;
-  double shortest_;
   SubStepRules rules_;
   bool unilateral_;
 };

@@ -17,14 +17,16 @@ namespace woodlouse::physics {
 
 class SubStepRules {
  public:
-  static constexpr double kMaxSubSteps = 256.0;  ///< of a tick
-
   /// way: the longest that a sub-step may lead, the side of the surface's smallest cell or a part of it [m].
   SubStepRules(const state::Parameters& p, double way, double tick)
-      : longest_(p.drag > 0.0 && kDecay / p.drag < tick ? kDecay / p.drag : tick),
+      : shortest_(tick / kMaxSubSteps),
+        longest_(p.drag > 0.0 && kDecay / p.drag < tick ? kDecay / p.drag : tick),
         inverse_way2_(1.0 / (way * way)),
         swing_factor_(p.gravity * p.gravity / (kSwing * kSwing * kSwing * kSwing)),
         grip_(p.friction * p.gravity) {}
+
+  /// No sub-step is halved further [s].
+  [[nodiscard, gnu::always_inline]] inline double shortest() const { return shortest_; }
 
   /// Whether curvature, speed, drag or the cells ask for less than h. speed2: |v|3^2.
   template <typename Sample, typename T>
@@ -58,12 +60,14 @@ class SubStepRules {
   }
 
  private:
+  static constexpr double kMaxSubSteps = 256.0;  // of a tick
   static constexpr double kBend = 0.15;
   static constexpr double kSwing = 0.20;
   static constexpr double kOrbit = 0.05;
   static constexpr double kDecay = 0.25;
   static constexpr double kTurn = 0.10;
 
+  double shortest_;
   double longest_;
   double inverse_way2_;
   double swing_factor_;

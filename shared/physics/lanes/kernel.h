@@ -60,7 +60,7 @@ template <typename L, typename F, typename G>
 class LaneStepper {
  public:
   explicit LaneStepper(const BatchContext& context)
-      : context_(context), ground_(context), shortest_(context.tick / SubStepRules::kMaxSubSteps) {}
+      : context_(context), ground_(context), shortest_(context.rules.shortest()) {}
 
   /// See BatchStep.
   void advance(state::Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists,
