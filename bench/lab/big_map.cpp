@@ -140,12 +140,11 @@ core::Expected<BigMapUsage> use_big_map(std::size_t knots, std::size_t lice_coun
   const auto begin = Clock::now();
   auto grid = map::FltGrid::open(file);
   if (!grid) return tl::unexpected(grid.error());
-  const terrain::AnySurface surface(std::in_place_type<terrain::TiledBSpline>, std::move(*grid));
+  const document::AnySurface surface(std::in_place_type<terrain::TiledBSpline>, std::move(*grid));
   const auto& spline = std::get<terrain::TiledBSpline>(surface);
   constexpr double kRate = 60.0;
-  const auto stepper =
-      physics::make_stepper(surface, physics::Equations::kSurface, physics::Integrator::kNystrom4,
-                            state::Parameters{}, spline.domain(), 1.0 / kRate);
+  const auto stepper = make_stepper(surface, Equations::kSurface, Integrator::kNystrom4, state::Parameters{},
+                                    spline.domain(), 1.0 / kRate);
   if (!stepper) return tl::unexpected(stepper.error());
   std::vector<state::Louse> lice = wanderers(lice_count, spline.domain());
   physics::StepCounters counters;

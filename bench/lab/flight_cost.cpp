@@ -87,12 +87,12 @@ struct Runner {
   std::function<physics::StepCounters()> run;
 };
 
-core::Expected<Runner> one_by_one(const Case& one, const terrain::AnySurface& ground) {
-  auto made = physics::make_stepper(ground, physics::Equations::kSurface, physics::Integrator::kNystrom4,
-                                    one.parameters, kNowhere, kTick);
+core::Expected<Runner> one_by_one(const Case& one, const document::AnySurface& ground) {
+  auto made =
+      make_stepper(ground, Equations::kSurface, Integrator::kNystrom4, one.parameters, kNowhere, kTick);
   if (!made) return tl::unexpected(made.error());
   return Runner{"one after the other",
-                [stepper = std::shared_ptr<const physics::LaboratoryStepper>(std::move(*made)), &one] {
+                [stepper = std::shared_ptr<const LaboratoryStepper>(std::move(*made)), &one] {
                   std::vector<state::Louse> lice = one.start;
                   physics::StepCounters counters;
                   for (int i = 0; i < kTicks; ++i) stepper->advance(lice, counters);
@@ -114,7 +114,7 @@ Runner room(const Case& one, const std::shared_ptr<const terrain::Terrain>& grou
 
 core::Expected<void> measure_flight_cost(const Output& output) {
   const terrain::BicubicSpline spline(terrain::sample_function(terrain::FunctionName::kHills, kScale, 10));
-  const terrain::AnySurface any(spline);
+  const document::AnySurface any(spline);
   const auto hills = std::make_shared<const terrain::Terrain>(spline);
   const auto flat = std::make_shared<const terrain::Terrain>(terrain::PlaneSurface(hills->domain(), 0.0, {}));
   const std::vector<Case> all = cases();

@@ -19,16 +19,16 @@
 namespace woodlouse::lab {
 namespace {
 
-using physics::Integrator;
-using SharedStepper = std::shared_ptr<const physics::LaboratoryStepper>;
+using SharedStepper = std::shared_ptr<const LaboratoryStepper>;
 
 constexpr double kSeconds =
     1.6;  // a whole number of ticks at every rate, a third of a second after the landings
 
-core::Expected<SharedStepper> jumping(const terrain::AnySurface& ground, Integrator integrator, double tick) {
+core::Expected<SharedStepper> jumping(const document::AnySurface& ground, Integrator integrator,
+                                      double tick) {
   state::Parameters p{SkiJump::kGravity, 0.0, 0.0, 0.0, 1.0};
   p.contact = state::SurfaceContact::kUnilateral;
-  auto stepper = physics::make_stepper(ground, physics::Equations::kSurface, integrator, p, kNowhere, tick);
+  auto stepper = make_stepper(ground, Equations::kSurface, integrator, p, kNowhere, tick);
   if (!stepper) return tl::unexpected(stepper.error());
   return SharedStepper(std::move(*stepper));
 }
@@ -55,7 +55,7 @@ Landing landing_of(const state::Louse& louse, double now, double within) {
 }
 
 /// The shortest tick in which `before` takes off, given that it does in `tick`.
-core::Expected<double> take_off_after(const terrain::AnySurface& ground, Integrator integrator,
+core::Expected<double> take_off_after(const document::AnySurface& ground, Integrator integrator,
                                       const state::Louse& before, double tick) {
   double low = 0.0, high = tick;
   for (int i = 0; i < 44; ++i) {
@@ -76,7 +76,7 @@ struct Measured {
   double take_off = 0.0, landing_time = 0.0, landing_place = 0.0, end = 0.0;
 };
 
-core::Expected<Measured> measure(const terrain::AnySurface& ground, Integrator integrator, double rate,
+core::Expected<Measured> measure(const document::AnySurface& ground, Integrator integrator, double rate,
                                  const std::vector<Jump>& all) {
   const auto stepper = jumping(ground, integrator, 1.0 / rate);
   if (!stepper) return tl::unexpected(stepper.error());
@@ -130,13 +130,13 @@ Contestant runner(SharedStepper stepper, double rate, const std::vector<Jump>& a
 core::Expected<void> measure_flight(const Output& output) {
   const std::vector<double> rates =
       output.quick ? std::vector<double>{60, 240} : std::vector<double>{15, 30, 60, 120, 240, 480, 960};
-  const terrain::AnySurface ground = SkiJump::spline();
+  const document::AnySurface ground = SkiJump::spline();
   const std::vector<Jump> all = jumps();
   std::vector<Measured> measured;
   std::vector<Contestant> contestants;
   {
-    Progress progress("errors of jumps", physics::kIntegrators.size() * rates.size());
-    for (const Integrator integrator : physics::kIntegrators) {
+    Progress progress("errors of jumps", kIntegrators.size() * rates.size());
+    for (const Integrator integrator : kIntegrators) {
       for (const double rate : rates) {
         const auto one = measure(ground, integrator, rate, all);
         if (!one) return tl::unexpected(one.error());
@@ -154,7 +154,7 @@ core::Expected<void> measure_flight(const Output& output) {
   Panel in_flight{"landing", "error of the place of landing [m]", {}};
   Panel after{"a third of a second after it", "position error [m]", {}};
   std::size_t i = 0;
-  for (const Integrator integrator : physics::kIntegrators) {
+  for (const Integrator integrator : kIntegrators) {
     const std::string name(to_text(integrator));
     Curve landing{name, {}}, end{name, {}};
     for (const double rate : rates) {

@@ -18,13 +18,11 @@
 namespace woodlouse::lab {
 namespace {
 
-using physics::Integrator;
-
 constexpr double kSeconds = 10.0;
 
 struct Ground {
   std::string name;
-  terrain::AnySurface surface;
+  document::AnySurface surface;
 };
 
 /// Gravity and curvature alone: the hardest case for energy and phase, and one with a reference to 1e-13.
@@ -51,7 +49,7 @@ std::vector<Ground> grounds(terrain::FunctionName function) {
   return result;
 }
 
-physics::Motion reference_end(const terrain::AnySurface& surface, const physics::Motion& start, double h) {
+physics::Motion reference_end(const document::AnySurface& surface, const physics::Motion& start, double h) {
   if (const auto* spline = std::get_if<terrain::BicubicSpline>(&surface)) {
     return reference_motion(*spline, start, kSeconds, h, free_motion());
   }
@@ -68,8 +66,8 @@ struct Measured {
 core::Expected<Measured> measure(const Ground& ground, Integrator integrator, double rate,
                                  const std::vector<physics::Motion>& from,
                                  const std::vector<physics::Motion>& ends) {
-  const auto stepper = physics::make_stepper(ground.surface, physics::Equations::kSurface, integrator,
-                                             free_motion(), kNowhere, 1.0 / rate);
+  const auto stepper =
+      make_stepper(ground.surface, Equations::kSurface, integrator, free_motion(), kNowhere, 1.0 / rate);
   if (!stepper) return tl::unexpected(stepper.error());
   std::vector<double> errors;
   physics::StepCounters counters;
@@ -88,10 +86,10 @@ core::Expected<Measured> measure(const Ground& ground, Integrator integrator, do
 /// One simulated second of all starts, over and over.
 core::Expected<Contestant> runner(const Ground& ground, const Measured& m,
                                   const std::vector<physics::Motion>& from) {
-  auto stepper = physics::make_stepper(ground.surface, physics::Equations::kSurface, m.integrator,
-                                       free_motion(), kNowhere, 1.0 / m.rate);
+  auto stepper =
+      make_stepper(ground.surface, Equations::kSurface, m.integrator, free_motion(), kNowhere, 1.0 / m.rate);
   if (!stepper) return tl::unexpected(stepper.error());
-  const auto run = [shared = std::shared_ptr<const physics::LaboratoryStepper>(std::move(*stepper)), &from,
+  const auto run = [shared = std::shared_ptr<const LaboratoryStepper>(std::move(*stepper)), &from,
                     ticks = std::lround(m.rate)] {
     physics::StepCounters counters;
     for (const physics::Motion& start : from) {
@@ -107,7 +105,7 @@ std::string picture(const Table& table, const std::vector<Ground>& all) {
   std::vector<Panel> panels;
   for (const Ground& ground : all) {
     Panel panel{ground.name, "position error after 10 s [m]", {}};
-    for (const Integrator integrator : physics::kIntegrators) {
+    for (const Integrator integrator : kIntegrators) {
       Curve curve{std::string(to_text(integrator)), {}};
       for (const auto& row : table.rows()) {
         if (std::get<std::string>(row[0]) != ground.name || std::get<std::string>(row[1]) != curve.name)
@@ -148,8 +146,8 @@ core::Expected<void> measure_integrators(terrain::FunctionName function, const O
     std::vector<Measured> measured;
     std::vector<Contestant> contestants;
     {
-      Progress progress("errors on " + ground.name, physics::kIntegrators.size() * rates.size());
-      for (const Integrator integrator : physics::kIntegrators) {
+      Progress progress("errors on " + ground.name, kIntegrators.size() * rates.size());
+      for (const Integrator integrator : kIntegrators) {
         for (const double rate : rates) {
           auto one = measure(ground, integrator, rate, from, ends);
           if (!one) return tl::unexpected(one.error());

@@ -17,8 +17,6 @@
 namespace woodlouse::lab {
 namespace {
 
-using physics::Integrator;
-
 constexpr double kPull = 1.0;  // the document's planet: F = -x / r^3
 constexpr double kPeriods = 10.0;
 constexpr double kManyPeriods = 100.0;
@@ -30,7 +28,7 @@ state::Parameters planet() {
 }
 
 /// Flat, with lines of knots through the centre as the shipped map has them.
-terrain::AnySurface flat_ground() {
+document::AnySurface flat_ground() {
   terrain::HeightGrid grid;
   grid.columns = grid.rows = 5;
   grid.x_origin = grid.y_origin = -20.0;
@@ -46,7 +44,7 @@ struct Measured {
   double momentum_later = 0.0;
 };
 
-Measured measure(const physics::LaboratoryStepper& stepper, const KeplerEllipse& ellipse, double rate) {
+Measured measure(const LaboratoryStepper& stepper, const KeplerEllipse& ellipse, double rate) {
   Measured result;
   state::Louse louse = louse_at(ellipse.start(), ellipse.velocity());
   physics::StepCounters counters;
@@ -69,7 +67,7 @@ Measured measure(const physics::LaboratoryStepper& stepper, const KeplerEllipse&
 }
 
 /// One period, over and over.
-Contestant runner(std::shared_ptr<const physics::LaboratoryStepper> stepper, const KeplerEllipse& ellipse,
+Contestant runner(std::shared_ptr<const LaboratoryStepper> stepper, const KeplerEllipse& ellipse,
                   double rate) {
   const long ticks = std::lround(ellipse.period() * rate);
   const auto run = [stepper = std::move(stepper), start = louse_at(ellipse.start(), ellipse.velocity()),
@@ -87,7 +85,7 @@ Contestant runner(std::shared_ptr<const physics::LaboratoryStepper> stepper, con
 core::Expected<void> measure_kepler(const Output& output) {
   const std::vector<double> rates =
       output.quick ? std::vector<double>{60, 240} : std::vector<double>{15, 30, 60, 120, 240, 480, 960};
-  const terrain::AnySurface ground = flat_ground();
+  const document::AnySurface ground = flat_ground();
   Table table({"eccentricity", "integrator", "rate", "sub_steps", "ns_per_second", "ns_best",
                "error_10_periods", "energy_10_periods", "energy_100_periods", "momentum_100_periods"});
   std::vector<Panel> panels;
@@ -97,13 +95,12 @@ core::Expected<void> measure_kepler(const Output& output) {
     std::vector<Measured> measured;
     std::vector<Contestant> contestants;
     {
-      Progress progress("errors, " + name, physics::kIntegrators.size() * rates.size());
-      for (const Integrator integrator : physics::kIntegrators) {
+      Progress progress("errors, " + name, kIntegrators.size() * rates.size());
+      for (const Integrator integrator : kIntegrators) {
         for (const double rate : rates) {
-          auto made = physics::make_stepper(ground, physics::Equations::kSurface, integrator, planet(),
-                                            kNowhere, 1.0 / rate);
+          auto made = make_stepper(ground, Equations::kSurface, integrator, planet(), kNowhere, 1.0 / rate);
           if (!made) return tl::unexpected(made.error());
-          const std::shared_ptr<const physics::LaboratoryStepper> stepper = std::move(*made);
+          const std::shared_ptr<const LaboratoryStepper> stepper = std::move(*made);
           measured.push_back(measure(*stepper, ellipse, rate));
           contestants.push_back(runner(stepper, ellipse, rate));
           progress.advance();
@@ -113,7 +110,7 @@ core::Expected<void> measure_kepler(const Output& output) {
     const std::vector<Timing> times = race(contestants, output.effort(), "times, " + name);
     Panel panel{name, "position error after 10 periods [m]", {}};
     std::size_t i = 0;
-    for (const Integrator integrator : physics::kIntegrators) {
+    for (const Integrator integrator : kIntegrators) {
       Curve curve{std::string(to_text(integrator)), {}};
       for (const double rate : rates) {
         const Measured& m = measured[i];

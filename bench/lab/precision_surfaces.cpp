@@ -16,9 +16,9 @@
 namespace woodlouse::lab {
 namespace {
 
+using document::Interpolation;
 using terrain::FunctionName;
 using terrain::FunctionSurface;
-using terrain::Interpolation;
 
 constexpr double kInner = 0.8;  // of the domain: what the ends do not reach
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -52,7 +52,7 @@ struct Errors {
 void raise(double& most, double value) { most = std::fmax(most, value); }
 
 /// The largest errors over random points, NaN where there is no Hessian.
-Errors errors_of(const terrain::AnySurface& any, const Truth& truth, std::size_t points) {
+Errors errors_of(const document::AnySurface& any, const Truth& truth, std::size_t points) {
   return std::visit(
       [&]<typename S>(const S& surface) {
         Errors e;
@@ -78,7 +78,7 @@ Errors errors_of(const terrain::AnySurface& any, const Truth& truth, std::size_t
       any);
 }
 
-Contestant sampler(const terrain::AnySurface& surface, const std::vector<core::Vec2>& points) {
+Contestant sampler(const document::AnySurface& surface, const std::vector<core::Vec2>& points) {
   const auto run = [&surface, &points] {
     std::visit(
         [&](const auto& s) {
@@ -105,7 +105,7 @@ std::string picture(const Table& table) {
   const auto panel = [&](std::size_t x_column, std::size_t y_column) {
     std::ostringstream plots;
     std::size_t index = 0;
-    for (const Interpolation interpolation : terrain::kInterpolations) {
+    for (const Interpolation interpolation : document::kInterpolations) {
       const std::string block = "$d" + std::to_string(index);
       script << block << " << EOD\n";
       for (const auto& row : table.rows()) {
@@ -142,17 +142,17 @@ core::Expected<void> measure_surfaces(FunctionName function, const Output& outpu
   struct Entry {
     Interpolation interpolation;
     std::size_t grid;
-    terrain::AnySurface surface;
+    document::AnySurface surface;
     Errors errors;
   };
   std::vector<Entry> entries;
   {
-    Progress progress("errors of surfaces", terrain::kInterpolations.size() * grids.size());
-    for (const Interpolation interpolation : terrain::kInterpolations) {
+    Progress progress("errors of surfaces", document::kInterpolations.size() * grids.size());
+    for (const Interpolation interpolation : document::kInterpolations) {
       const bool wraps = interpolation == Interpolation::kPeriodic;
       const Truth truth{FunctionSurface(wraps ? FunctionName::kWavyPot : function, 1.0), wraps};
       for (const std::size_t grid : grids) {
-        auto surface = terrain::interpolate(interpolation, truth.grid(grid));
+        auto surface = document::interpolate(interpolation, truth.grid(grid));
         if (!surface) return tl::unexpected(surface.error());
         const bool slow = interpolation == Interpolation::kNaturalDocument;
         const Errors errors = errors_of(*surface, truth, quick || slow ? 4000 : 40000);

@@ -81,17 +81,17 @@ struct Field {
   terrain::HeightGrid grid;
   terrain::BicubicSpline spline;
   terrain::TiledBSpline bspline;
-  terrain::DocumentSpline document;
-  terrain::Biquadratic biquadratic;
-  terrain::Blended blended;
-  terrain::GaussGradient gauss;
+  document::Spline papers;
+  document::Biquadratic biquadratic;
+  document::Blended blended;
+  document::GaussGradient gauss;
   std::unique_ptr<Rival> gsl_six, gsl_three, alglib;
 
   explicit Field(std::size_t g)
       : grid(terrain::sample_function(terrain::FunctionName::kVolcano, 1.0, g)),
         spline(grid),
         bspline(grid),
-        document(grid),
+        papers(grid),
         biquadratic(grid),
         blended(grid),
         gauss(grid),
@@ -147,7 +147,7 @@ std::vector<Entry> entries_of(const Field& f) {
   result.push_back(rival("GSL spline2d", "z+G+H", f.gsl_six));
   result.push_back(rival("GSL spline2d", "z+G", f.gsl_three));
   result.push_back(rival("ALGLIB spline2ddiff", "z+G", f.alglib));
-  result.push_back(ours<Wanted::kGradient>("the document's", f.document, 32));
+  result.push_back(ours<Wanted::kGradient>("the document's", f.papers, 32));
   return result;
 }
 

@@ -74,8 +74,7 @@ class Runners {
  public:
   static constexpr int kTicks = 20;
 
-  Runners(std::unique_ptr<physics::LaboratoryStepper> stepper, std::size_t lice)
-      : stepper_(std::move(stepper)) {
+  Runners(std::unique_ptr<LaboratoryStepper> stepper, std::size_t lice) : stepper_(std::move(stepper)) {
     core::Random random(2);
     for (std::uint32_t id = 1; id <= lice; ++id) start_.push_back(random_louse(random, id));
   }
@@ -88,7 +87,7 @@ class Runners {
   [[nodiscard]] double louse_steps() const { return static_cast<double>(start_.size()) * kTicks; }
 
  private:
-  std::unique_ptr<physics::LaboratoryStepper> stepper_;
+  std::unique_ptr<LaboratoryStepper> stepper_;
   std::vector<state::Louse> start_;
 };
 
@@ -99,22 +98,21 @@ struct Entry {
   std::shared_ptr<Runners> runners;
 };
 
-core::Expected<Entry> runners(const terrain::AnySurface& surface, std::string name,
-                              physics::Equations equations, physics::Integrator integrator,
-                              std::size_t lice) {
-  auto stepper = physics::make_stepper(surface, equations, integrator, state::Parameters{}, kNowhere, kTick);
+core::Expected<Entry> runners(const document::AnySurface& surface, std::string name, Equations equations,
+                              Integrator integrator, std::size_t lice) {
+  auto stepper = make_stepper(surface, equations, integrator, state::Parameters{}, kNowhere, kTick);
   if (!stepper) return tl::unexpected(stepper.error());
   return Entry{std::move(name), static_cast<double>(lice), nullptr,
                std::make_shared<Runners>(std::move(*stepper), lice)};
 }
 
 core::Expected<void> measure_on(std::size_t knots, const Output& output, Table& table, Table& ratios) {
-  using physics::Equations, physics::Integrator, physics::InstructionSet;
+  using physics::InstructionSet;
   const terrain::HeightGrid grid =
       terrain::sample_function(terrain::FunctionName::kVolcano, kScale, (knots - 1) / 2);
   const terrain::BicubicSpline spline(grid);
-  const terrain::AnySurface any(spline);
-  const terrain::AnySurface document{terrain::DocumentSpline(grid)};
+  const document::AnySurface any(spline);
+  const document::AnySurface papers{document::Spline(grid)};
 
   std::vector<Entry> entries;
   for (const std::uint32_t lice : {200u, 10000u}) {
@@ -132,8 +130,7 @@ core::Expected<void> measure_on(std::size_t knots, const Output& output, Table& 
     if (!entry) return tl::unexpected(entry.error());
     entries.push_back(std::move(*entry));
   }
-  auto documents =
-      runners(document, "the document's step", Equations::kAsPrinted, Integrator::kFalseEuler, 20);
+  auto documents = runners(papers, "the document's step", Equations::kAsPrinted, Integrator::kFalseEuler, 20);
   if (!documents) return tl::unexpected(documents.error());
   entries.push_back(std::move(*documents));
 

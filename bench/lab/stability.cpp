@@ -18,8 +18,6 @@
 namespace woodlouse::lab {
 namespace {
 
-using physics::Integrator;
-
 constexpr double kGravity = 9.81;
 constexpr double kGoal = 1e-4;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -67,10 +65,10 @@ double penetration(const terrain::Rectangle& walls, core::Vec2 p) {
 /// Runs one louse between elastic walls and fills the cell's results.
 core::Expected<void> run(Cell& cell, const EggCrate& crate, Integrator integrator, double seconds) {
   const state::Parameters parameters{kGravity, 0.0, cell.friction, 0.0, 1.0};
-  const terrain::AnySurface& surface = crate.surface;
+  const document::AnySurface& surface = crate.surface;
   const terrain::Rectangle walls = crate.walls;
-  const auto stepper = physics::make_stepper(surface, physics::Equations::kSurface, integrator, parameters,
-                                             walls, 1.0 / cell.rate);
+  const auto stepper =
+      make_stepper(surface, Equations::kSurface, integrator, parameters, walls, 1.0 / cell.rate);
   if (!stepper) return tl::unexpected(stepper.error());
 
   // Off every axis of symmetry, on the flank of a dent.
@@ -218,7 +216,7 @@ std::string picture(Integrator integrator, const std::vector<Cell>& cells, const
 }
 
 core::Expected<void> run(const StabilityOptions& options) {
-  std::vector<Integrator> integrators(physics::kIntegrators.begin(), physics::kIntegrators.end());
+  std::vector<Integrator> integrators(kIntegrators.begin(), kIntegrators.end());
   if (options.integrator != "all") {
     const auto one = integrator_named(options.integrator);
     if (!one) return tl::unexpected(one.error());
@@ -254,8 +252,7 @@ void add_stability(CLI::App& app, Job& job) {
   CLI::App* command = app.add_subcommand(
       "stability", "Energy, NaN and walls over slopes, curvatures, speeds and rates; a soak.");
   const auto options = std::make_shared<StabilityOptions>();
-  command
-      ->add_option("--integrator", options->integrator, "all, or one of: " + names_of(physics::kIntegrators))
+  command->add_option("--integrator", options->integrator, "all, or one of: " + names_of(kIntegrators))
       ->capture_default_str();
   add_output_options(*command, options->output);
   command->footer(

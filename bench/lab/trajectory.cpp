@@ -32,7 +32,7 @@ struct TrajectoryOptions {
   bool quick = false;
 };
 
-void print_row(double t, const terrain::AnySurface& surface, const state::Louse& louse,
+void print_row(double t, const document::AnySurface& surface, const state::Louse& louse,
                const state::Parameters& parameters) {
   const core::Vec2 v = louse.velocity;
   const bool flies = louse.phase == state::Phase::kFlying;
@@ -50,7 +50,7 @@ void print_row(double t, const terrain::AnySurface& surface, const state::Louse&
 
 /// What only the exact equations have, and what does not go together.
 core::Expected<state::Parameters> parameters_of(const TrajectoryOptions& options, const state::Louse& louse,
-                                                physics::Equations equations) {
+                                                Equations equations) {
   const auto contact = contact_named(options.contact);
   if (!contact) return tl::unexpected(contact.error());
   const double thrust_max =
@@ -59,7 +59,7 @@ core::Expected<state::Parameters> parameters_of(const TrajectoryOptions& options
   parameters.contact = *contact;
   parameters.central_gravity = options.central_gravity;
   const bool flies = *contact == state::SurfaceContact::kUnilateral;
-  if (equations != physics::Equations::kSurface && (flies || options.central_gravity > 0.0)) {
+  if (equations != Equations::kSurface && (flies || options.central_gravity > 0.0)) {
     return core::fail("--equations", "the document's have neither flight nor central gravity",
                       "take --equations surface");
   }
@@ -95,7 +95,7 @@ core::Expected<void> run(const TrajectoryOptions& options) {
   const auto parameters = parameters_of(options, *louse, *equations);
   if (!parameters) return tl::unexpected(parameters.error());
   const auto stepper =
-      physics::make_stepper(*surface, *equations, *integrator, *parameters, kNowhere, 1.0 / options.rate);
+      make_stepper(*surface, *equations, *integrator, *parameters, kNowhere, 1.0 / options.rate);
   if (!stepper) return tl::unexpected(stepper.error());
 
   const double seconds = options.quick ? std::fmin(options.seconds, 1.0) : options.seconds;
@@ -122,8 +122,8 @@ void add_trajectory(CLI::App& app, Job& job) {
   TrajectoryOptions& o = *options;
   const CLI::Range any_size(0.0, 1e6);
   add_surface_options(*command, o.surface, MapOption::kOffered);
-  command->add_option("--equations", o.equations, names_of(physics::kEquations))->capture_default_str();
-  command->add_option("--integrator", o.integrator, names_of(physics::kIntegrators))->capture_default_str();
+  command->add_option("--equations", o.equations, names_of(kEquations))->capture_default_str();
+  command->add_option("--integrator", o.integrator, names_of(kIntegrators))->capture_default_str();
   command->add_option("--rate", o.rate, "steps a second [Hz]")
       ->check(CLI::Range(1e-3, 1e6))
       ->capture_default_str();

@@ -2,9 +2,9 @@
 
 #include <cassert>
 
-namespace woodlouse::terrain {
+namespace woodlouse::document {
 
-Biquadratic::Biquadratic(HeightGrid grid)
+Biquadratic::Biquadratic(terrain::HeightGrid grid)
     : grid_(std::move(grid)),
       domain_(grid_.domain()),
       inverse_dx_(1.0 / grid_.dx),
@@ -13,4 +13,4 @@ Biquadratic::Biquadratic(HeightGrid grid)
   assert(grid_.heights.size() == grid_.columns * grid_.rows);
 }
 
-}  // namespace woodlouse::terrain
+}  // namespace woodlouse::document

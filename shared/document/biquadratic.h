@@ -17,35 +17,40 @@
 #include "shared/terrain/height_grid.h"
 #include "shared/terrain/surface.h"
 
-namespace woodlouse::terrain {
+namespace woodlouse::document {
 
 class Biquadratic {
  public:
   static constexpr bool has_hessian = false;
 
   /// REQUIRES at least 3 knots each way, spacings > 0.
-  explicit Biquadratic(HeightGrid grid);
+  explicit Biquadratic(terrain::HeightGrid grid);
 
-  [[nodiscard]] SurfaceSample sample(double x, double y) const;
-  [[nodiscard]] Rectangle domain() const { return domain_; }
+  [[nodiscard]] terrain::SurfaceSample sample(double x, double y) const;
+  [[nodiscard]] terrain::Rectangle domain() const { return domain_; }
   [[nodiscard]] double cell() const { return grid_.dx < grid_.dy ? grid_.dx : grid_.dy; }
-  [[nodiscard]] const HeightGrid& grid() const { return grid_; }
+  [[nodiscard]] const terrain::HeightGrid& grid() const { return grid_; }
 
  private:
-  HeightGrid grid_;
-  Rectangle domain_;
+  terrain::HeightGrid grid_;
+  terrain::Rectangle domain_;
   double inverse_dx_;
   double inverse_dy_;
 };
 
-inline SurfaceSample Biquadratic::sample(double x, double y) const {
+inline terrain::SurfaceSample Biquadratic::sample(double x, double y) const {
   const double column = (x - grid_.x_origin) * inverse_dx_;
   const double row = (y - grid_.y_origin) * inverse_dy_;
   const std::size_t i = nearest_inner_knot(column, grid_.columns);
   const std::size_t j = nearest_inner_knot(row, grid_.rows);
   const StencilSample s =
       nine_knots(grid_, i, j).sample(column - static_cast<double>(i), row - static_cast<double>(j));
-  return {s.z, s.zu * inverse_dx_, s.zv * inverse_dy_, kNoHessian, kNoHessian, kNoHessian};
+  return {s.z,
+          s.zu * inverse_dx_,
+          s.zv * inverse_dy_,
+          terrain::kNoHessian,
+          terrain::kNoHessian,
+          terrain::kNoHessian};
 }
 
-}  // namespace woodlouse::terrain
+}  // namespace woodlouse::document

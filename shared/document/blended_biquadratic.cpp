@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-namespace woodlouse::terrain {
+namespace woodlouse::document {
 namespace {
 
 /// The centre next to `center` on the side of `offset`, as far as the grid has one with neighbours.
@@ -18,7 +18,7 @@ constexpr double kDifferenceStep = 0.001;  ///< [knot spacings], chapter 4.3.5
 
 }  // namespace
 
-Blend::Blend(const HeightGrid& grid, double column, double row) {
+Blend::Blend(const terrain::HeightGrid& grid, double column, double row) {
   const std::size_t i = nearest_inner_knot(column, grid.columns);
   const std::size_t j = nearest_inner_knot(row, grid.rows);
   u_ = column - static_cast<double>(i);
@@ -57,7 +57,7 @@ StencilSample Blend::sample() const {
 }
 
 template <BlendGradient kKind>
-BlendedBiquadratic<kKind>::BlendedBiquadratic(HeightGrid grid)
+BlendedBiquadratic<kKind>::BlendedBiquadratic(terrain::HeightGrid grid)
     : grid_(std::move(grid)),
       domain_(grid_.domain()),
       inverse_dx_(1.0 / grid_.dx),
@@ -67,7 +67,7 @@ BlendedBiquadratic<kKind>::BlendedBiquadratic(HeightGrid grid)
 }
 
 template <BlendGradient kKind>
-SurfaceSample BlendedBiquadratic<kKind>::sample(double x, double y) const {
+terrain::SurfaceSample BlendedBiquadratic<kKind>::sample(double x, double y) const {
   const double column = (x - grid_.x_origin) * inverse_dx_;
   const double row = (y - grid_.y_origin) * inverse_dy_;
   StencilSample s;
@@ -82,11 +82,16 @@ SurfaceSample BlendedBiquadratic<kKind>::sample(double x, double y) const {
   } else {
     s = Blend(grid_, column, row).template sample<kKind>();
   }
-  return {s.z, s.zu * inverse_dx_, s.zv * inverse_dy_, kNoHessian, kNoHessian, kNoHessian};
+  return {s.z,
+          s.zu * inverse_dx_,
+          s.zv * inverse_dy_,
+          terrain::kNoHessian,
+          terrain::kNoHessian,
+          terrain::kNoHessian};
 }
 
 template class BlendedBiquadratic<BlendGradient::kConsistent>;
 template class BlendedBiquadratic<BlendGradient::kDocument>;
 template class BlendedBiquadratic<BlendGradient::kDifferenced>;
 
-}  // namespace woodlouse::terrain
+}  // namespace woodlouse::document

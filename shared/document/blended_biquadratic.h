@@ -29,14 +29,14 @@
 #include "shared/terrain/height_grid.h"
 #include "shared/terrain/surface.h"
 
-namespace woodlouse::terrain {
+namespace woodlouse::document {
 
 enum class BlendGradient { kConsistent, kDocument, kDifferenced };
 
 /// The three stencils at a point given in knot spacings.
 class Blend {
  public:
-  Blend(const HeightGrid& grid, double column, double row);
+  Blend(const terrain::HeightGrid& grid, double column, double row);
 
   [[nodiscard]] double value() const;
   /// zu, zv of kind kConsistent or kDocument.
@@ -59,15 +59,15 @@ class BlendedBiquadratic {
   static constexpr bool has_hessian = false;
 
   /// REQUIRES at least 3 knots each way, spacings > 0.
-  explicit BlendedBiquadratic(HeightGrid grid);
+  explicit BlendedBiquadratic(terrain::HeightGrid grid);
 
-  [[nodiscard]] SurfaceSample sample(double x, double y) const;
-  [[nodiscard]] Rectangle domain() const { return domain_; }
+  [[nodiscard]] terrain::SurfaceSample sample(double x, double y) const;
+  [[nodiscard]] terrain::Rectangle domain() const { return domain_; }
   [[nodiscard]] double cell() const { return grid_.dx < grid_.dy ? grid_.dx : grid_.dy; }
 
  private:
-  HeightGrid grid_;
-  Rectangle domain_;
+  terrain::HeightGrid grid_;
+  terrain::Rectangle domain_;
   double inverse_dx_;
   double inverse_dy_;
 };
@@ -80,4 +80,4 @@ extern template class BlendedBiquadratic<BlendGradient::kConsistent>;
 extern template class BlendedBiquadratic<BlendGradient::kDocument>;
 extern template class BlendedBiquadratic<BlendGradient::kDifferenced>;
 
-}  // namespace woodlouse::terrain
+}  // namespace woodlouse::document

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-namespace woodlouse::terrain {
+namespace woodlouse::document {
 namespace {
 
-core::Vec2 fitted_gradient(const HeightGrid& grid, std::size_t i, std::size_t j) {
+core::Vec2 fitted_gradient(const terrain::HeightGrid& grid, std::size_t i, std::size_t j) {
   const std::size_t center_i = std::clamp<std::size_t>(i, 1, grid.columns - 2);
   const std::size_t center_j = std::clamp<std::size_t>(j, 1, grid.rows - 2);
   const auto [south, middle, north] = nine_knots(grid, center_i, center_j);
@@ -35,16 +35,16 @@ core::Vec2 between(core::Vec2 a, core::Vec2 b, double t) { return a + t * (b - a
 
 }  // namespace
 
-GaussGradient::GaussGradient(HeightGrid grid) : height_(std::move(grid)) {
-  const HeightGrid& knots = height_.grid();
+GaussGradient::GaussGradient(terrain::HeightGrid grid) : height_(std::move(grid)) {
+  const terrain::HeightGrid& knots = height_.grid();
   gradients_.reserve(knots.heights.size());
   for (std::size_t j = 0; j < knots.rows; ++j) {
     for (std::size_t i = 0; i < knots.columns; ++i) gradients_.push_back(fitted_gradient(knots, i, j));
   }
 }
 
-SurfaceSample GaussGradient::sample(double x, double y) const {
-  const HeightGrid& grid = height_.grid();
+terrain::SurfaceSample GaussGradient::sample(double x, double y) const {
+  const terrain::HeightGrid& grid = height_.grid();
   const double column = (x - grid.x_origin) / grid.dx;
   const double row = (y - grid.y_origin) / grid.dy;
   const std::size_t i = cell_of(column, grid.columns);
@@ -53,7 +53,8 @@ SurfaceSample GaussGradient::sample(double x, double y) const {
   const core::Vec2 south = between(knot_gradient(i, j), knot_gradient(i + 1, j), u);
   const core::Vec2 north = between(knot_gradient(i, j + 1), knot_gradient(i + 1, j + 1), u);
   const core::Vec2 gradient = between(south, north, row - static_cast<double>(j));
-  return {height_.sample(x, y).z, gradient.x, gradient.y, kNoHessian, kNoHessian, kNoHessian};
+  return {height_.sample(x, y).z, gradient.x,          gradient.y,
+          terrain::kNoHessian,    terrain::kNoHessian, terrain::kNoHessian};
 }
 
-}  // namespace woodlouse::terrain
+}  // namespace woodlouse::document

@@ -29,17 +29,17 @@
 #include "shared/terrain/height_grid.h"
 #include "shared/terrain/surface.h"
 
-namespace woodlouse::terrain {
+namespace woodlouse::document {
 
 class GaussGradient {
  public:
   static constexpr bool has_hessian = false;
 
   /// REQUIRES at least 3 knots each way, spacings > 0.
-  explicit GaussGradient(HeightGrid grid);
+  explicit GaussGradient(terrain::HeightGrid grid);
 
-  [[nodiscard]] SurfaceSample sample(double x, double y) const;
-  [[nodiscard]] Rectangle domain() const { return height_.domain(); }
+  [[nodiscard]] terrain::SurfaceSample sample(double x, double y) const;
+  [[nodiscard]] terrain::Rectangle domain() const { return height_.domain(); }
   [[nodiscard]] double cell() const { return height_.cell(); }
   /// The stored gradient of knot (i, j).
   [[nodiscard]] core::Vec2 knot_gradient(std::size_t i, std::size_t j) const {
@@ -51,4 +51,4 @@ class GaussGradient {
   std::vector<core::Vec2> gradients_;
 };
 
-}  // namespace woodlouse::terrain
+}  // namespace woodlouse::document

@@ -14,7 +14,7 @@
 
 #include "shared/terrain/height_grid.h"
 
-namespace woodlouse::terrain {
+namespace woodlouse::document {
 
 /// The knot nearest to `position` (in knot spacings from the first) among those with a neighbour on either
 /// side: at the rim the stencil's centre moves inward. Halves go as Pascal's Round sends them, to the even
@@ -69,10 +69,10 @@ struct NineKnots {
 };
 
 /// The nine knots around knot (i, j). REQUIRES 1 <= i <= columns - 2, 1 <= j <= rows - 2.
-inline NineKnots nine_knots(const HeightGrid& grid, std::size_t i, std::size_t j) {
+inline NineKnots nine_knots(const terrain::HeightGrid& grid, std::size_t i, std::size_t j) {
   assert(i >= 1 && i + 2 <= grid.columns && j >= 1 && j + 2 <= grid.rows);
   const double* middle = grid.heights.data() + j * grid.columns + (i - 1);
   return {middle - grid.columns, middle, middle + grid.columns};
 }
 
-}  // namespace woodlouse::terrain
+}  // namespace woodlouse::document

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-namespace woodlouse::terrain {
+namespace woodlouse::document {
 namespace {
 
 std::size_t min_knots(Interpolation interpolation) {
@@ -13,7 +13,7 @@ std::size_t min_knots(Interpolation interpolation) {
     case Interpolation::kNatural:
       return 2;
     case Interpolation::kNaturalDocument:
-      return DocumentSpline::kMinKnots;
+      return Spline::kMinKnots;
     case Interpolation::kBiquadratic:
     case Interpolation::kBlended:
     case Interpolation::kBlendedDocument:
@@ -35,16 +35,15 @@ bool is_global(Interpolation interpolation) {
          interpolation == Interpolation::kPeriodic || interpolation == Interpolation::kNaturalDocument;
 }
 
-std::optional<core::Error> misfit(Interpolation interpolation, const HeightGrid& grid) {
+std::optional<core::Error> misfit(Interpolation interpolation, const terrain::HeightGrid& grid) {
   const std::string where(to_text(interpolation));
   const std::size_t least = min_knots(interpolation);
   if (grid.columns < least || grid.rows < least) {
     return core::Error{where, "needs " + std::to_string(least) + " knots each way", "take a finer grid"};
   }
   if (interpolation == Interpolation::kNaturalDocument &&
-      std::max(grid.columns, grid.rows) > DocumentSpline::kMaxKnots) {
-    return core::Error{where,
-                       "takes at most " + std::to_string(DocumentSpline::kMaxKnots) + " knots each way",
+      std::max(grid.columns, grid.rows) > Spline::kMaxKnots) {
+    return core::Error{where, "takes at most " + std::to_string(Spline::kMaxKnots) + " knots each way",
                        "natural is the same surface without that limit"};
   }
   if (is_global(interpolation)) {
@@ -59,7 +58,7 @@ std::optional<core::Error> misfit(Interpolation interpolation, const HeightGrid&
     }
   }
   if (interpolation == Interpolation::kPeriodic) {
-    const SeamMismatch seam = seam_mismatch(grid);
+    const terrain::SeamMismatch seam = terrain::seam_mismatch(grid);
     const auto [low, high] = std::minmax_element(grid.heights.begin(), grid.heights.end());
     if (std::fmax(seam.x, seam.y) > 1e-9 * (*high - *low)) {
       return core::Error{
@@ -107,17 +106,18 @@ std::optional<Interpolation> interpolation_from_text(std::string_view text) {
   return std::nullopt;
 }
 
-core::Expected<AnySurface> interpolate(Interpolation interpolation, const HeightGrid& grid) {
+core::Expected<AnySurface> interpolate(Interpolation interpolation, const terrain::HeightGrid& grid) {
   if (auto error = misfit(interpolation, grid)) return tl::unexpected(std::move(*error));
   switch (interpolation) {
     case Interpolation::kNotAKnot:
-      return AnySurface(BicubicSpline(grid));
+      return AnySurface(terrain::BicubicSpline(grid));
     case Interpolation::kNatural:
-      return AnySurface(BicubicSpline(grid, SplineEnds::kNatural));
+      return AnySurface(terrain::BicubicSpline(grid, terrain::SplineEnds::kNatural));
     case Interpolation::kPeriodic:
-      return AnySurface(WrappedSurface(BicubicSpline(grid, SplineEnds::kPeriodic)));
+      return AnySurface(
+          terrain::WrappedSurface(terrain::BicubicSpline(grid, terrain::SplineEnds::kPeriodic)));
     case Interpolation::kNaturalDocument:
-      return AnySurface(DocumentSpline(grid));
+      return AnySurface(Spline(grid));
     case Interpolation::kBiquadratic:
       return AnySurface(Biquadratic(grid));
     case Interpolation::kBlended:
@@ -129,14 +129,14 @@ core::Expected<AnySurface> interpolate(Interpolation interpolation, const Height
     case Interpolation::kGauss:
       return AnySurface(GaussGradient(grid));
     case Interpolation::kBSpline:
-      return AnySurface(TiledBSpline(grid));
+      return AnySurface(terrain::TiledBSpline(grid));
   }
   assert(false);
   return core::fail("surface", "is unknown");
 }
 
 bool has_hessian(const AnySurface& surface) {
-  return std::visit([]<typename S>(const S&) { return kHasHessian<S>; }, surface);
+  return std::visit([]<typename S>(const S&) { return terrain::kHasHessian<S>; }, surface);
 }
 
-}  // namespace woodlouse::terrain
+}  // namespace woodlouse::document

@@ -1,4 +1,5 @@
-// GroundSteps of a surface, compiled for its method and forces. Included only by the steps_on_*.cpp.
+// GroundSteps of a ground, compiled for its integrator I, equations E and forces F. Included only where steps
+// are compiled: steps_on_*.cpp, and beside them document/steps.cpp and the lab's own methods.
 #pragma once
 
 #include <memory>
@@ -13,7 +14,7 @@
 namespace woodlouse::physics {
 
 /// What is sampled in a call: the ground itself, but for big maps, where it remembers the tiles the call was
-/// in.
+/// in. A ground of another room may have a surface_of() there.
 template <typename S>
 const S& surface_of(const S& ground) {
   return ground;
@@ -22,7 +23,7 @@ inline terrain::TiledBSpline surface_of(const terrain::TiledGround& ground) {
   return terrain::TiledBSpline(ground);
 }
 
-template <terrain::Surface S, typename F, typename I>
+template <typename S, typename F, typename I, typename E>
 class CompiledSteps final : public GroundSteps {
  public:
   CompiledSteps(const S& ground, const StepRules& rules) : ground_(ground), rules_(rules) {}
@@ -44,9 +45,10 @@ class CompiledSteps final : public GroundSteps {
 
  private:
   using Surface = std::remove_cvref_t<decltype(surface_of(std::declval<const S&>()))>;
-  using OneStepper = Stepper<Surface, F, SurfaceEquations, I>;
+  using OneStepper = Stepper<Surface, F, E, I>;
   static constexpr bool kHasLanes =
-      std::is_same_v<S, terrain::BicubicSpline> || std::is_same_v<S, terrain::PlaneSurface>;
+      E::kExact && std::is_same_v<I, Nystrom4> &&
+      (std::is_same_v<S, terrain::BicubicSpline> || std::is_same_v<S, terrain::PlaneSurface>);
 
   void advance_batched(const OneStepper& stepper, std::span<state::Louse> lice,
                        std::span<const std::uint32_t> moving, const BatchStep& batch, BatchLists& lists,
@@ -75,7 +77,7 @@ template <typename I, typename S>
 std::unique_ptr<const GroundSteps> with_forces(const S& ground, const StepRules& rules) {
   const state::Parameters& p = rules.parameters;
   const auto make = [&]<typename F>(F) -> std::unique_ptr<const GroundSteps> {
-    return std::make_unique<const CompiledSteps<S, F, I>>(ground, rules);
+    return std::make_unique<const CompiledSteps<S, F, I, SurfaceEquations>>(ground, rules);
   };
   if (p.central_gravity > 0.0)
     return make(Forces<true, true, true, true>{});  // what is 0 of the others does nothing
@@ -93,18 +95,17 @@ std::unique_ptr<const GroundSteps> with_forces(const S& ground, const StepRules&
 
 /// The same with fewer choices, for what is rarely run: friction, which has rules of its own, is compiled
 /// out, and all of them where energy is kept.
-template <typename I, typename S>
+template <typename I, typename E = SurfaceEquations, typename S>
 std::unique_ptr<const GroundSteps> with_main_forces(const S& ground, const StepRules& rules) {
-  if (rules.parameters.central_gravity > 0.0) {
-    return std::make_unique<const CompiledSteps<S, Forces<true, true, true, true>, I>>(ground, rules);
+  const auto make = [&]<typename F>(F) -> std::unique_ptr<const GroundSteps> {
+    return std::make_unique<const CompiledSteps<S, F, I, E>>(ground, rules);
+  };
+  if (rules.parameters.central_gravity > 0.0) return make(Forces<true, true, true, true>{});
+  if constexpr (E::kExact) {
+    if (conserves_energy(rules.parameters)) return make(Forces<false, false, false>{});
   }
-  if (conserves_energy(rules.parameters)) {
-    return std::make_unique<const CompiledSteps<S, Forces<false, false, false>, I>>(ground, rules);
-  }
-  if (rules.parameters.friction > 0.0) {
-    return std::make_unique<const CompiledSteps<S, Forces<true, true, true>, I>>(ground, rules);
-  }
-  return std::make_unique<const CompiledSteps<S, Forces<true, false, true>, I>>(ground, rules);
+  return rules.parameters.friction > 0.0 ? make(Forces<true, true, true>{})
+                                         : make(Forces<true, false, true>{});
 }
 
 /// For the grounds of most maps: the default method in every combination of forces, the others in the main

@@ -24,8 +24,8 @@ class GroundSteps {
   virtual ~GroundSteps() = default;
 
   /// Moves lice[moving[0]], lice[moving[1]], ..., none of them resting, through one tick. batch: for as many
-  /// at once as it can; width 0: none, and so REQUIRED of every ground but the bicubic spline and the plane.
-  /// lists: room for it.
+  /// at once as it can; width 0: none, and so REQUIRED but of the default method on the bicubic spline and on
+  /// the plane. lists: room for it.
   virtual void advance(std::span<state::Louse> lice, std::span<const std::uint32_t> moving,
                        const BatchStep& batch, BatchLists& lists, StepCounters& counters) const = 0;
   /// Whether friction, brake and walls hold this louse where it is.

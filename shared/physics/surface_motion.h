@@ -177,7 +177,7 @@ template <typename F, typename Sample, typename T>
   return a;
 }
 
-/// The equations above, as a choice beside those of document_equations.h.
+/// The equations above, as a choice beside the document's (document/equations.h).
 struct SurfaceEquations {
   static constexpr bool kExact = true;
   template <typename F, typename Sample, typename T>

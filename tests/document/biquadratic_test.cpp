@@ -7,6 +7,7 @@
 #include "tests/terrain/grids.h"
 
 using namespace woodlouse;
+using namespace woodlouse::document;
 using namespace woodlouse::terrain;
 
 TEST_CASE("the biquadratic equals the document's, chapter 3.6, to 1e-12") {

@@ -8,6 +8,7 @@
 #include "tests/terrain/grids.h"
 
 using namespace woodlouse;
+using namespace woodlouse::document;
 using namespace woodlouse::terrain;
 
 TEST_CASE("the blended biquadratic equals the document's, chapter 4.3, to 1e-12, its gradient included") {

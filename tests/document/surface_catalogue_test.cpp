@@ -6,6 +6,7 @@
 #include "tests/terrain/grids.h"
 
 using namespace woodlouse;
+using namespace woodlouse::document;
 using namespace woodlouse::terrain;
 
 static_assert(CurvedSurface<BicubicSpline> && CurvedSurface<FunctionSurface> && CurvedSurface<TiledBSpline> &&
@@ -15,7 +16,7 @@ static_assert(Surface<Blended> && !CurvedSurface<Blended>);
 static_assert(Surface<BlendedDocument> && !CurvedSurface<BlendedDocument>);
 static_assert(Surface<BlendedDifferenced> && !CurvedSurface<BlendedDifferenced>);
 static_assert(Surface<GaussGradient> && !CurvedSurface<GaussGradient>);
-static_assert(Surface<DocumentSpline> && !CurvedSurface<DocumentSpline>);
+static_assert(Surface<Spline> && !CurvedSurface<Spline>);
 static_assert(!CurvedSurface<WrappedSurface<Biquadratic>>);
 
 TEST_CASE("every interpolation goes to text and back, and is built over the four functions") {

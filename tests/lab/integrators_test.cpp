@@ -8,9 +8,9 @@
 #include "tests/support/motion.h"
 
 using namespace woodlouse;
-using namespace woodlouse::physics;
-using namespace woodlouse::state;
-using terrain::AnySurface;
+using namespace woodlouse::lab;
+using document::AnySurface;
+using physics::StepCounters;
 using terrain::FunctionName;
 using terrain::FunctionSurface;
 using tests::moving;
@@ -108,35 +108,6 @@ TEST_CASE("Dormand-Prince meets the reference trajectories without friction to 1
   CHECK(rows > 10);
 }
 
-TEST_CASE("the document's equations and False Euler give the document's trajectories to 1e-9") {
-  const tests::CsvTable t = tests::read_reference("seed_trajectories.csv");
-  const std::map<std::string, terrain::Interpolation> surfaces = {
-      {"spline", terrain::Interpolation::kNaturalDocument},
-      {"biquadratic", terrain::Interpolation::kBiquadratic},
-      {"blended", terrain::Interpolation::kBlendedDocument}};
-  const state::Parameters p{.gravity = 9.81, .drag = 0.2, .friction = 0.05, .thrust_max = 0.0};
-  int inside = 0;
-  for (std::size_t row = 0; row < t.rows.size(); ++row) {
-    // The document checks no bounds: where a stencil reaches over the rim its numbers mean nothing.
-    if (std::fabs(t.number(row, "x")) > 0.9 || std::fabs(t.number(row, "y")) > 0.9) continue;
-    ++inside;
-    INFO("row " << row << " " << t.text(row, "surface") << " " << t.text(row, "method"));
-    const auto grid = terrain::sample_function(*terrain::function_from_text(t.text(row, "surface")), 1.0,
-                                               static_cast<std::size_t>(t.number(row, "g")));
-    const auto surface = terrain::interpolate(surfaces.at(t.text(row, "method")), grid);
-    REQUIRE(surface.has_value());
-    const Equations equations =
-        t.number(row, "corrected_cramer") != 0 ? Equations::kLocalPlane : Equations::kAsPrinted;
-    const state::Louse end = rolled(*surface, equations, Integrator::kFalseEuler, p,
-                                    moving({0.35, -0.2}, {0.3, 0.4}), 200, t.number(row, "step") / 200);
-    CHECK(end.position.x == Approx(t.number(row, "x")).margin(1e-9).epsilon(0));
-    CHECK(end.position.y == Approx(t.number(row, "y")).margin(1e-9).epsilon(0));
-    CHECK(end.velocity.x == Approx(t.number(row, "vx")).margin(1e-9).epsilon(0));
-    CHECK(end.velocity.y == Approx(t.number(row, "vy")).margin(1e-9).epsilon(0));
-  }
-  CHECK(inside > 180);
-}
-
 TEST_CASE("the energy error of Verlet-Q stays bounded without a trend") {
   const FunctionSurface wavy(FunctionName::kWavyPot, 1.0);
   const AnySurface surface = wavy;
@@ -159,7 +130,7 @@ TEST_CASE("the energy error of Verlet-Q stays bounded without a trend") {
 
 TEST_CASE("what can't be combined is refused by name") {
   const auto grid = terrain::sample_function(FunctionName::kHills, 1.0, 5);
-  const auto biquadratic = terrain::interpolate(terrain::Interpolation::kBiquadratic, grid);
+  const auto biquadratic = document::interpolate(document::Interpolation::kBiquadratic, grid);
   REQUIRE(biquadratic.has_value());
   const auto refused = [&](const AnySurface& s, Equations e, Integrator i) {
     const auto made = make_stepper(s, e, i, kFree, tests::kNowhere, 0.01);

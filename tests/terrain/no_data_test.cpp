@@ -3,9 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "shared/document/biquadratic.h"
-#include "shared/document/blended_biquadratic.h"
-#include "shared/document/gauss_gradient.h"
 #include "shared/terrain/fill_missing.h"
 #include "shared/terrain/outside_policy.h"
 #include "shared/terrain/tiled_bspline.h"
@@ -124,21 +121,4 @@ TEST_CASE("a map without any data has no ground and ends nowhere in an abort") {
   const TiledBSpline surface(grid);
   CHECK_FALSE(surface.has_ground(0.0, 3.0));
   CHECK(std::isnan(surface.sample(0.0, 3.0).zyy));
-}
-
-TEST_CASE("a NaN knot reaches the local surfaces only as far as their stencils") {
-  const HeightGrid grid = grid_with_hole();
-  const Biquadratic biquadratic(grid);
-  const Blended blended(grid);
-  const GaussGradient gauss(grid);
-  tests::at_random_points(grid.domain(), 20000, 3, [&](double x, double y) {
-    const auto [column, row] = tests::in_knots(grid, x, y);
-    const double away = std::fmax(std::fabs(column - 20), std::fabs(row - 10));
-    INFO(column << ", " << row);
-    REQUIRE(std::isfinite(biquadratic.sample(x, y).z) == (away > 1.5));
-    if (away > 2.0) {
-      REQUIRE(std::isfinite(blended.sample(x, y).zx));
-      REQUIRE(std::isfinite(gauss.sample(x, y).zx));
-    }
-  });
 }

@@ -1,8 +1,8 @@
-// Every surface, equation and integrator by name, for whoever compares them: the lab. A server does not
-// include this; it compiles the default over the two surfaces of terrain.h (world.h).
+// Every surface, equation and integrator by name, for whoever compares them.
 //
 // Compiled outright: the exact equations and every integrator over the function surface and the bicubic
-// spline. The rest samples its surface through one indirect call a point.
+// spline; those that rooms have are the rooms' own steps. The rest samples its surface through one indirect
+// call a point.
 #pragma once
 
 #include <array>
@@ -10,14 +10,15 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "shared/core/error.h"
 #include "shared/document/surface_catalogue.h"
-#include "shared/physics/world.h"
+#include "shared/physics/ground_steps.h"
 #include "shared/state/louse.h"
 #include "shared/state/parameters.h"
 
-namespace woodlouse::physics {
+namespace woodlouse::lab {
 
 enum class Equations { kSurface, kLocalPlane, kAsPrinted };
 enum class Integrator {
@@ -43,20 +44,24 @@ std::string_view to_text(Integrator integrator);
 std::optional<Equations> equations_from_text(std::string_view text);
 std::optional<Integrator> integrator_from_text(std::string_view text);
 
-/// One choice of all of them, ready to step lice; one indirect call a batch.
+/// One choice of all of them, ready to step lice.
 class LaboratoryStepper {
  public:
-  virtual ~LaboratoryStepper() = default;
+  explicit LaboratoryStepper(std::unique_ptr<const physics::GroundSteps> steps) : steps_(std::move(steps)) {}
+
   /// Moves each louse that is not at rest through one tick. Thrusts are not counted down.
-  virtual void advance(std::span<state::Louse> lice, StepCounters& counters) const = 0;
+  void advance(std::span<state::Louse> lice, physics::StepCounters& counters) const;
+
+ private:
+  std::unique_ptr<const physics::GroundSteps> steps_;
 };
 
 /// walls: where lice are kept, infinite: nowhere; tick: [s]. `surface` must outlive the stepper. Errors: the
 /// exact equations on a surface without a Hessian; verlet_q and verlet_q4 with the document's equations,
 /// which have no closed-form implicit kick; precise on a surface without polynomial cells.
-core::Expected<std::unique_ptr<LaboratoryStepper>> make_stepper(const terrain::AnySurface& surface,
+core::Expected<std::unique_ptr<LaboratoryStepper>> make_stepper(const document::AnySurface& surface,
                                                                 Equations equations, Integrator integrator,
                                                                 const state::Parameters& parameters,
                                                                 const terrain::Rectangle& walls, double tick);
 
-}  // namespace woodlouse::physics
+}  // namespace woodlouse::lab

@@ -15,7 +15,7 @@
 namespace woodlouse::lab {
 
 struct EggCrate {
-  terrain::AnySurface surface;
+  document::AnySurface surface;
   terrain::Rectangle walls;
   double lowest;  ///< the lowest knot, at the bottom of a dent [m]
 };

@@ -17,7 +17,7 @@ inline constexpr terrain::Rectangle kNowhere{
     -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
     std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
-inline terrain::SurfaceSample sample_of(const terrain::AnySurface& surface, core::Vec2 p) {
+inline terrain::SurfaceSample sample_of(const document::AnySurface& surface, core::Vec2 p) {
   return std::visit([&](const auto& s) { return s.sample(p.x, p.y); }, surface);
 }
 

@@ -35,11 +35,11 @@ core::Expected<E> chosen(std::string_view option, std::string_view text, const s
 inline core::Expected<terrain::FunctionName> function_named(std::string_view text) {
   return chosen("--function", text, terrain::function_from_text(text), names_of(terrain::kFunctionNames));
 }
-inline core::Expected<physics::Equations> equations_named(std::string_view text) {
-  return chosen("--equations", text, physics::equations_from_text(text), names_of(physics::kEquations));
+inline core::Expected<Equations> equations_named(std::string_view text) {
+  return chosen("--equations", text, equations_from_text(text), names_of(kEquations));
 }
-inline core::Expected<physics::Integrator> integrator_named(std::string_view text) {
-  return chosen("--integrator", text, physics::integrator_from_text(text), names_of(physics::kIntegrators));
+inline core::Expected<Integrator> integrator_named(std::string_view text) {
+  return chosen("--integrator", text, integrator_from_text(text), names_of(kIntegrators));
 }
 
 inline constexpr std::array kContacts = {state::SurfaceContact::kBilateral,

@@ -12,9 +12,9 @@
 namespace woodlouse::lab {
 namespace {
 
-std::string surface_names() { return "function " + names_of(terrain::kInterpolations); }
+std::string surface_names() { return "function " + names_of(document::kInterpolations); }
 
-core::Expected<terrain::AnySurface> of_float_grid(const SurfaceOptions& options) {
+core::Expected<document::AnySurface> of_float_grid(const SurfaceOptions& options) {
   if (options.surface != "bspline") {
     return core::fail(options.map, "a float grid is read tile by tile", "take --surface bspline");
   }
@@ -22,23 +22,23 @@ core::Expected<terrain::AnySurface> of_float_grid(const SurfaceOptions& options)
   if (!grid) return tl::unexpected(grid.error());
   const terrain::GridFrame frame = (*grid)->frame();
   if (frame.columns < 4 || frame.rows < 4) return core::fail(options.map, "needs 4 knots each way");
-  return terrain::AnySurface(std::in_place_type<terrain::TiledBSpline>, std::move(*grid));
+  return document::AnySurface(std::in_place_type<terrain::TiledBSpline>, std::move(*grid));
 }
 
-core::Expected<terrain::AnySurface> of_map(const SurfaceOptions& options,
-                                           std::optional<terrain::Interpolation> interpolation) {
+core::Expected<document::AnySurface> of_map(const SurfaceOptions& options,
+                                            std::optional<document::Interpolation> interpolation) {
   const auto loaded = map::load_map(options.map);
   if (!loaded) return tl::unexpected(loaded.error());
   const map::MapDefinition& definition = (*loaded)->definition;
   if (const auto* tiled = std::get_if<map::TiledTerrain>(&definition.terrain)) {
-    if (interpolation == terrain::Interpolation::kBSpline) {
-      return terrain::AnySurface(std::in_place_type<terrain::TiledBSpline>, tiled->heights);
+    if (interpolation == document::Interpolation::kBSpline) {
+      return document::AnySurface(std::in_place_type<terrain::TiledBSpline>, tiled->heights);
     }
     return core::fail(options.map, "its heights are not read whole", "take --surface bspline");
   }
-  if (interpolation) return terrain::interpolate(*interpolation, map::knots_of(definition));
+  if (interpolation) return document::interpolate(*interpolation, map::knots_of(definition));
   if (const auto* function = std::get_if<map::FunctionTerrain>(&definition.terrain)) {
-    return terrain::AnySurface(terrain::FunctionSurface(function->function, function->scale));
+    return document::AnySurface(terrain::FunctionSurface(function->function, function->scale));
   }
   return core::fail(options.map, "its terrain is a grid, no function", "take --surface not_a_knot");
 }
@@ -60,8 +60,8 @@ void add_surface_options(CLI::App& app, SurfaceOptions& options, MapOption map) 
   }
 }
 
-core::Expected<terrain::AnySurface> make_surface(const SurfaceOptions& options) {
-  const auto interpolation = terrain::interpolation_from_text(options.surface);
+core::Expected<document::AnySurface> make_surface(const SurfaceOptions& options) {
+  const auto interpolation = document::interpolation_from_text(options.surface);
   const bool is_function = options.surface == "function";
   if (!interpolation && !is_function) {
     return core::fail("--surface", "there is no \"" + options.surface + "\"", "one of: " + surface_names());
@@ -72,8 +72,8 @@ core::Expected<terrain::AnySurface> make_surface(const SurfaceOptions& options) 
   }
   const auto function = function_named(options.function);
   if (!function) return tl::unexpected(function.error());
-  if (is_function) return terrain::AnySurface(terrain::FunctionSurface(*function, 1.0));
-  return terrain::interpolate(*interpolation, terrain::sample_function(*function, 1.0, options.grid));
+  if (is_function) return document::AnySurface(terrain::FunctionSurface(*function, 1.0));
+  return document::interpolate(*interpolation, terrain::sample_function(*function, 1.0, options.grid));
 }
 
 }  // namespace woodlouse::lab

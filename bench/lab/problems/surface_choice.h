@@ -21,6 +21,6 @@ enum class MapOption { kOffered, kNotOffered };
 
 void add_surface_options(CLI::App& app, SurfaceOptions& options, MapOption map);
 /// Functions and their grids lie on [-1, 1]; maps where they say.
-core::Expected<terrain::AnySurface> make_surface(const SurfaceOptions& options);
+core::Expected<document::AnySurface> make_surface(const SurfaceOptions& options);
 
 }  // namespace woodlouse::lab

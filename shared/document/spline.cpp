@@ -1,17 +1,17 @@
-#include "shared/document/document_spline.h"
+#include "shared/document/spline.h"
 
 #include <cassert>
 
-namespace woodlouse::terrain {
+namespace woodlouse::document {
 namespace {
 
-using VecTyp = std::array<double, DocumentSpline::kMaxKnots>;
-using SplAux = std::array<double, DocumentSpline::kMaxKnots + 1>;
+using VecTyp = std::array<double, Spline::kMaxKnots>;
+using SplAux = std::array<double, Spline::kMaxKnots + 1>;
 
 struct CoefOne {
   double c3, c2, c1, c0;
 };
-using CoefTyp = std::array<CoefOne, DocumentSpline::kMaxKnots>;
+using CoefTyp = std::array<CoefOne, Spline::kMaxKnots>;
 
 constexpr double kD6 = 1.0 / 6.0;
 constexpr double kM6 = 6.0;
@@ -82,7 +82,7 @@ struct ValueAndSlope {
 
 }  // namespace
 
-DocumentSpline::DocumentSpline(const HeightGrid& grid)
+Spline::Spline(const terrain::HeightGrid& grid)
     : domain_(grid.domain()), dx_(grid.dx), dy_(grid.dy), columns_(grid.columns), rows_(grid.rows) {
   assert(columns_ >= kMinKnots && columns_ <= kMaxKnots && rows_ >= kMinKnots && rows_ <= kMaxKnots);
   knots_.resize(columns_ * rows_);
@@ -98,7 +98,7 @@ DocumentSpline::DocumentSpline(const HeightGrid& grid)
   }
 }
 
-SurfaceSample DocumentSpline::sample(double x, double y) const {
+terrain::SurfaceSample Spline::sample(double x, double y) const {
   const double xs = (x - domain_.x_min) / dx_;
   const double ys = (y - domain_.y_min) / dy_;
   const std::size_t xi = cell_of(xs, columns_ - 2);
@@ -112,7 +112,7 @@ SurfaceSample DocumentSpline::sample(double x, double y) const {
   }
   const ValueAndSlope z = val_spline(rows_ - 1, vecf, ys);
   const ValueAndSlope zx = val_spline(rows_ - 1, vecd, ys);
-  return {z.z, zx.z / dx_, z.zx / dy_, kNoHessian, kNoHessian, kNoHessian};
+  return {z.z, zx.z / dx_, z.zx / dy_, terrain::kNoHessian, terrain::kNoHessian, terrain::kNoHessian};
 }
 
-}  // namespace woodlouse::terrain
+}  // namespace woodlouse::document

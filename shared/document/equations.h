@@ -1,5 +1,5 @@
-// The document's equations (chapters 1.1, 1.2, 2.4), for comparison only: a local plane instead of the
-// surface.
+// The document's equations (chapters 1.1, 1.2, 2.4): a local plane instead of the surface. The exact ones:
+// physics/surface_motion.h.
 //     (1 + zx^2) ax + zx zy ay = -g zx + fx
 //     zx zy ax + (1 + zy^2) ay = -g zy + fy
 // solved by Cramer's rule. The term v'Hv is missing from the acceleration and from the normal force; friction
@@ -12,16 +12,17 @@
 
 #include "shared/physics/surface_motion.h"
 
-namespace woodlouse::physics {
+namespace woodlouse::document {
 
 enum class CramerFactors { kPutRight, kAsPrinted };
 
+/// Stateless, as a parameter of physics::Stepper; F: the physics::Forces of the map.
 template <CramerFactors kFactors>
-struct DocumentEquations {
+struct PlaneEquations {
   static constexpr bool kExact = false;
 
   template <typename F>
-  static core::Vec2 acceleration(const terrain::SlopeSample& s, core::Vec2 v, const Drive& drive,
+  static core::Vec2 acceleration(const terrain::SlopeSample& s, core::Vec2 v, const physics::Drive& drive,
                                  const state::Parameters& p) {
     const double zx2 = s.zx * s.zx;
     const double zy2 = s.zy * s.zy;
@@ -44,7 +45,7 @@ struct DocumentEquations {
     }
     if constexpr (F::thrust) {
       if (drive.push > 0.0) {
-        const core::Vec2 f = push_over_tangent(s, drive.direction, drive.push);
+        const core::Vec2 f = physics::push_over_tangent(s, drive.direction, drive.push);
         const double fz = s.zx * f.x + s.zy * f.y;
         fx += f.x + fz * s.zx;
         fy += f.y + fz * s.zy;
@@ -57,7 +58,7 @@ struct DocumentEquations {
   }
 };
 
-using LocalPlane = DocumentEquations<CramerFactors::kPutRight>;
-using AsPrinted = DocumentEquations<CramerFactors::kAsPrinted>;
+using LocalPlane = PlaneEquations<CramerFactors::kPutRight>;
+using AsPrinted = PlaneEquations<CramerFactors::kAsPrinted>;
 
-}  // namespace woodlouse::physics
+}  // namespace woodlouse::document

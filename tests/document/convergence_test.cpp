@@ -7,6 +7,7 @@
 #include "tests/terrain/grids.h"
 
 using namespace woodlouse;
+using namespace woodlouse::document;
 using namespace woodlouse::terrain;
 
 namespace {

@@ -1,4 +1,4 @@
-#include "shared/document/document_spline.h"
+#include "shared/document/spline.h"
 
 #include <catch2/catch.hpp>
 
@@ -8,6 +8,7 @@
 #include "tests/terrain/grids.h"
 
 using namespace woodlouse;
+using namespace woodlouse::document;
 using namespace woodlouse::terrain;
 
 TEST_CASE("the document's evaluation gives the document's numbers, chapter 5.4, to 1e-12") {
@@ -15,8 +16,7 @@ TEST_CASE("the document's evaluation gives the document's numbers, chapter 5.4, 
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const auto name = function_from_text(table.text(row, "surface"));
     REQUIRE(name.has_value());
-    const DocumentSpline surface(
-        sample_function(*name, 1.0, static_cast<std::size_t>(table.number(row, "g"))));
+    const Spline surface(sample_function(*name, 1.0, static_cast<std::size_t>(table.number(row, "g"))));
     const SurfaceSample s = surface.sample(table.number(row, "x"), table.number(row, "y"));
     INFO("row " << row);
     REQUIRE(s.z == Approx(table.number(row, "spline_z")).margin(1e-12).epsilon(0));
@@ -32,7 +32,7 @@ TEST_CASE(
   for (const auto& size : kSizes) {
     const std::size_t columns = size[0], rows = size[1];
     const HeightGrid grid = tests::random_grid(columns, rows, 2);
-    const DocumentSpline document(grid);
+    const Spline document(grid);
     const BicubicSpline spline(grid, SplineEnds::kNatural);
     const auto compare = [&](double x, double y) {
       const SurfaceSample a = document.sample(x, y), b = spline.sample(x, y);

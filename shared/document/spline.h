@@ -27,19 +27,19 @@
 #include "shared/terrain/height_grid.h"
 #include "shared/terrain/surface.h"
 
-namespace woodlouse::terrain {
+namespace woodlouse::document {
 
-class DocumentSpline {
+class Spline {
  public:
   static constexpr bool has_hessian = false;
   static constexpr std::size_t kMinKnots = 5;     ///< each way: p >= 4
   static constexpr std::size_t kMaxKnots = 1001;  ///< each way: spl + 1
 
   /// REQUIRES kMinKnots to kMaxKnots each way, spacings > 0, finite heights.
-  explicit DocumentSpline(const HeightGrid& grid);
+  explicit Spline(const terrain::HeightGrid& grid);
 
-  [[nodiscard]] SurfaceSample sample(double x, double y) const;
-  [[nodiscard]] Rectangle domain() const { return domain_; }
+  [[nodiscard]] terrain::SurfaceSample sample(double x, double y) const;
+  [[nodiscard]] terrain::Rectangle domain() const { return domain_; }
   [[nodiscard]] double cell() const { return dx_ < dy_ ? dx_ : dy_; }
 
  private:
@@ -48,7 +48,7 @@ class DocumentSpline {
     double a3, a2, a1, a0, z;
   };
 
-  Rectangle domain_;
+  terrain::Rectangle domain_;
   double dx_;
   double dy_;
   std::size_t columns_;
@@ -56,4 +56,4 @@ class DocumentSpline {
   std::vector<Knot> knots_;
 };
 
-}  // namespace woodlouse::terrain
+}  // namespace woodlouse::document

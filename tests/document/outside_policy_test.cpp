@@ -8,6 +8,7 @@
 #include "tests/terrain/grids.h"
 
 using namespace woodlouse;
+using namespace woodlouse::document;
 using namespace woodlouse::terrain;
 
 namespace {
