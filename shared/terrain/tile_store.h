@@ -39,9 +39,8 @@ class TileStore {
 
   [[nodiscard]] const HeightSource& source() const { return *source_; }
   [[nodiscard]] std::size_t max_tiles() const { return max_tiles_; }
-  /// Of the whole map, and along x.
+  /// Of the whole map.
   [[nodiscard]] std::size_t all_tiles() const { return all_tiles_; }
-  [[nodiscard]] std::size_t tiles_x() const { return tiles_x_; }
 
   struct Counters {
     std::size_t live = 0;          ///< in memory now
