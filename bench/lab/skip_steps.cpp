@@ -76,16 +76,47 @@ struct Duel {
   Contestant skipped;
 };
 
+/// One louse at a time, and as many as this machine can.
+std::vector<physics::InstructionSet> slowest_and_best() {
+  const auto best = physics::best_instruction_set();
+  if (best == physics::InstructionSet::kScalar) return {best};
+  return {physics::InstructionSet::kScalar, best};
+}
+
 void add_forces(std::vector<Duel>& duels) {
   const auto ground = volcano();
   const std::vector<state::Louse> lice = lice_of(200, 2.0);
   std::vector<state::Louse> pushed = lice;
   for (state::Louse& louse : pushed) push(louse, {0.6, 0.8});
-  for (const auto set : {physics::InstructionSet::kScalar, physics::best_instruction_set()}) {
+  for (const auto set : slowest_and_best()) {
     duels.push_back({std::string("drag, friction, thrust compiled out, ") + physics::to_text(set),
                      "ns a louse-step", fresh_ticks(world_of(ground, {}, set, pushed)),
                      fresh_ticks(world_of(ground, {9.81, 0.0, 0.0, 0.0, 0.5}, set, lice))});
-    if (set == physics::best_instruction_set()) break;
+  }
+}
+
+/// Each force alone: the same motion with it compiled in, too weak to change a bit that shows, and compiled
+/// out; the other two act.
+void add_each_force(std::vector<Duel>& duels) {
+  constexpr double kFeeble = 1e-30;
+  struct Force {
+    const char* name;
+    double state::Parameters::*strength;
+  };
+  const auto ground = volcano();
+  std::vector<state::Louse> lice = lice_of(200, 2.0);
+  for (state::Louse& louse : lice) push(louse, {0.6, 0.8});
+  for (const auto set : slowest_and_best()) {
+    for (const Force& force :
+         {Force{"drag", &state::Parameters::drag}, Force{"friction", &state::Parameters::friction},
+          Force{"thrust", &state::Parameters::thrust_max}}) {
+      state::Parameters with, without;
+      with.*force.strength = kFeeble;
+      without.*force.strength = 0.0;
+      duels.push_back({std::string(force.name) + " alone compiled out, " + physics::to_text(set),
+                       "ns a louse-step", fresh_ticks(world_of(ground, with, set, lice)),
+                       fresh_ticks(world_of(ground, without, set, lice))});
+    }
   }
 }
 
@@ -93,11 +124,10 @@ void add_flat(std::vector<Duel>& duels) {
   std::vector<state::Louse> lice = lice_of(200, 2.0);
   for (state::Louse& louse : lice) push(louse, {0.6, 0.8});
   const auto curved = std::make_shared<const terrain::Terrain>(terrain::BicubicSpline(flat_grid()));
-  for (const auto set : {physics::InstructionSet::kScalar, physics::best_instruction_set()}) {
+  for (const auto set : slowest_and_best()) {
     duels.push_back({std::string("curvature of flat ground, ") + physics::to_text(set), "ns a louse-step",
                      fresh_ticks(world_of(curved, {}, set, lice)),
                      fresh_ticks(world_of(flat(), {}, set, lice))});
-    if (set == physics::best_instruction_set()) break;
   }
 }
 
@@ -158,6 +188,7 @@ void add_columns(std::vector<Duel>& duels) {
 core::Expected<void> measure_skipped_steps(Table& table, Effort effort) {
   std::vector<Duel> duels;
   add_forces(duels);
+  add_each_force(duels);
   add_flat(duels);
   add_resting(duels);
   add_hessians(duels);
