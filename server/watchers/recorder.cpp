@@ -3,10 +3,9 @@
 #include <boost/asio/post.hpp>
 
 #include <cassert>
-#include <cerrno>
-#include <cstring>
 #include <utility>
 
+#include "shared/core/sink_file.h"
 #include "shared/protocol/codes.h"
 
 namespace woodlouse::server {
@@ -20,25 +19,25 @@ core::Expected<std::unique_ptr<Recorder>> Recorder::open(const std::filesystem::
                                                          replay::Header header,
                                                          boost::asio::thread_pool& disk,
                                                          std::shared_ptr<spdlog::logger> log) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
+  auto out = core::open_file_sink(file);
   if (!out)
-    return core::fail("cannot write the recording " + file.string(), std::strerror(errno),
+    return core::fail("cannot write the recording " + file.string(), out.error().what,
                       "does its folder exist, and may you write there?");
-  return std::unique_ptr<Recorder>(
-      new Recorder(file, std::move(out), std::move(header), disk, std::move(log)));
+  return std::make_unique<Recorder>(std::move(*out), file.string(), std::move(header), disk, std::move(log));
 }
 
-Recorder::Recorder(std::filesystem::path file, std::ofstream out, replay::Header header,
+Recorder::Recorder(std::unique_ptr<core::ByteSink> out, std::string name, replay::Header header,
                    boost::asio::thread_pool& disk, std::shared_ptr<spdlog::logger> log)
-    : file_(std::move(file)),
+    : name_(std::move(name)),
       disk_(disk),
       log_(std::move(log)),
       header_(std::move(header)),
       keyframe_ticks_(replay::keyframe_ticks(header_.tick_hz)),
       out_(std::move(out)),
-      writer_(replay::encoding_of(file_.string())),
-      flush_timer_(disk.get_executor()) {}
+      writer_(replay::encoding_of(name_)),
+      flush_timer_(disk.get_executor()) {
+  assert(out_ != nullptr);
+}
 
 void Recorder::begin(const match::Match& game, Announce announce) {
   assert(game.settings().tick_hz == header_.tick_hz);
@@ -80,9 +79,7 @@ void Recorder::finish(const std::string& reason, std::function<void()> done) {
     if (!failed_) {
       writer_.append_end(bytes_, reason);
       write_out();
-      errno = 0;
-      out_.close();
-      if (!failed_ && !out_) give_up(std::strerror(errno));
+      if (!failed_) judge(out_->close());
     }
     // Behind the cancelled timer's handler: whoever is told may let go of the recording.
     boost::asio::post(disk_, done);
@@ -113,17 +110,18 @@ void Recorder::await_flush() {
 }
 
 void Recorder::write_out() {
-  errno = 0;
-  out_.write(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
-  out_.flush();
+  judge(out_->write(bytes_));
   bytes_.clear();
-  if (!out_) give_up(std::strerror(errno));
+}
+
+void Recorder::judge(const core::Expected<void>& outcome) {
+  if (!outcome) give_up(outcome.error().what);
 }
 
 void Recorder::give_up(const std::string& why) {
   if (failed_.exchange(true)) return;
-  log_->error("RECORDING ENDED: cannot write {}: {}; the game goes on, what follows is not recorded",
-              file_.string(), why);
+  log_->error("RECORDING ENDED: cannot write {}: {}; the game goes on, what follows is not recorded", name_,
+              why);
   if (announce_)
     announce_({std::string(protocol::code::kRecordingEnded), "the game is no longer recorded: " + why});
 }

@@ -12,7 +12,6 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 #include <memory>
 #include <span>
@@ -20,6 +19,7 @@
 #include <vector>
 
 #include "server/room/tick_watcher.h"
+#include "shared/core/byte_sink.h"
 #include "shared/core/error.h"
 #include "shared/match/match.h"
 #include "shared/replay/writer.h"
@@ -39,6 +39,11 @@ class Recorder final : public TickWatcher {
                                                         replay::Header header, boost::asio::thread_pool& disk,
                                                         std::shared_ptr<spdlog::logger> log);
 
+  /// The same into any sink; `name` says in the log what can't be written, and .zst at its end that it is
+  /// packed.
+  Recorder(std::unique_ptr<core::ByteSink> out, std::string name, replay::Header header,
+           boost::asio::thread_pool& disk, std::shared_ptr<spdlog::logger> log);
+
   /// announce: told why, once, when the recording ends before its time.
   void begin(const match::Match& game, Announce announce) override;
   void player(match::PlayerId player, const std::string& name, protocol::Role role) override;
@@ -51,16 +56,14 @@ class Recorder final : public TickWatcher {
   void finish(const std::string& reason, std::function<void()> done) override;
 
  private:
-  Recorder(std::filesystem::path file, std::ofstream out, replay::Header header,
-           boost::asio::thread_pool& disk, std::shared_ptr<spdlog::logger> log);
-
   using Job = std::function<void(std::string&)>;
   void enqueue(Job job);
   void await_flush();
   void write_out();
+  void judge(const core::Expected<void>& outcome);
   void give_up(const std::string& why);
 
-  std::filesystem::path file_;
+  std::string name_;
   boost::asio::thread_pool& disk_;
   std::shared_ptr<spdlog::logger> log_;
   replay::Header header_;
@@ -69,7 +72,7 @@ class Recorder final : public TickWatcher {
   std::atomic<bool> failed_{false};
   std::uint64_t keyframe_ticks_ = 0;
   // The disk thread's, after begin():
-  std::ofstream out_;
+  std::unique_ptr<core::ByteSink> out_;
   replay::ReplayWriter writer_;
   boost::asio::steady_timer flush_timer_;
   bool will_flush_ = false;  ///< the timer runs

@@ -2,12 +2,10 @@
 
 #include <boost/asio/post.hpp>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <utility>
 
 #include "shared/core/joined.h"
+#include "shared/core/sink_file.h"
 #include "shared/replay/writer.h"
 
 namespace woodlouse::server {
@@ -94,11 +92,10 @@ core::Expected<std::string> Shadow::dump_side(const char* side, const match::Ste
   writer.append_keyframe(bytes, after);
   writer.append_end(bytes, "the shadow differs");
   const std::string file = joined({dump_.string(), ".", std::to_string(after.tick), ".", side, ".ndjson"});
-  errno = 0;
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) return core::fail(file, joined({"can't be written: ", std::strerror(errno)}));
+  const auto out = core::open_file_sink(file);
+  auto written = out ? (*out)->write(bytes) : core::Expected<void>(tl::unexpected(out.error()));
+  if (written) written = (*out)->close();
+  if (!written) return core::fail(file, joined({"can't be written: ", written.error().what}));
   return file;
 }
 

@@ -109,6 +109,58 @@ TEST_CASE("a full disk ends the recording with one log line, a word to who asked
   CHECK(std::count(text.begin(), text.end(), '\n') == 1);
 }
 
+namespace {
+
+/// Keeps what it gets, and fails at the call it is told to: writes from 1, and the closing.
+class FailingSink final : public core::ByteSink {
+ public:
+  FailingSink(std::string& kept, int failing_write, bool fails_to_close)
+      : kept_(kept), left_(failing_write), fails_to_close_(fails_to_close) {}
+  core::Expected<void> write(std::string_view bytes) override {
+    if (--left_ == 0) return core::fail("sink", "the disk is gone");
+    kept_ += bytes;
+    return {};
+  }
+  core::Expected<void> close() override {
+    if (fails_to_close_) return core::fail("sink", "the disk is gone at last");
+    return {};
+  }
+
+ private:
+  std::string& kept_;
+  int left_;
+  bool fails_to_close_;
+};
+
+}  // namespace
+
+TEST_CASE("a recording whose sink fails at any call is given up once, and what was written before stands") {
+  for (const int failing_write : {0, 1, 2}) {
+    Log log;
+    boost::asio::thread_pool disk(1);
+    std::string kept;
+    const bool fails_to_close = failing_write == 0;
+    Recorder recorder(std::make_unique<FailingSink>(kept, failing_write, fails_to_close), "game.ndjson",
+                      header(), disk, log.logger);
+    // Long enough to be written in two parts at least.
+    const std::vector<protocol::Notice> told = play(recorder, disk, 6000);
+    INFO("write " << failing_write);
+    REQUIRE(told.size() == 1);
+    CHECK_THAT(told[0].text, Catch::Contains("the disk is gone"));
+    const std::string text = log.text.str();
+    CHECK(std::count(text.begin(), text.end(), '\n') == 1);
+    CHECK_THAT(text, Catch::Contains("cannot write game.ndjson: the disk is gone"));
+    const auto verdict = replay::verify(replay::ReplaySource::of_bytes(kept, "kept"));
+    if (failing_write == 1) {
+      CHECK(kept.empty());
+    } else {
+      REQUIRE(verdict);
+      CHECK(verdict->ok());
+      CHECK(verdict->cut_off == (failing_write == 2));
+    }
+  }
+}
+
 TEST_CASE("a recording that cannot be created is told with the reason") {
   Log log;
   boost::asio::thread_pool disk(1);
