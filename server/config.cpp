@@ -97,7 +97,7 @@ CLI::App* add_fork(CLI::App& app, Typed& typed) {
   return fork;
 }
 
-CLI::App* add_inspect(CLI::App& app, replay::InspectRequest& request) {
+CLI::App* add_inspect(CLI::App& app, InspectRequest& request) {
   CLI::App* inspect =
       app.add_subcommand("inspect", "Say what a recording holds, or the exact state at a tick");
   inspect->add_option("file", request.file, "A recording")->required();

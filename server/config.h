@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "server/commands/fork.h"
+#include "server/commands/inspect.h"
 #include "server/log.h"
 #include "server/net/listen_address.h"
 #include "shared/core/error.h"
-#include "shared/replay/inspect_file.h"
 
 namespace woodlouse::server {
 
@@ -39,7 +39,7 @@ struct VerifyConfig {
   unsigned jobs = 1;  ///< threads, 1..256
 };
 struct InspectConfig {
-  replay::InspectRequest request;
+  InspectRequest request;
 };
 /// Help or the version was asked for.
 struct PrintConfig {

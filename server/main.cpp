@@ -3,11 +3,12 @@
 #include <iostream>
 #include <variant>
 
+#include "server/commands/check.h"
+#include "server/commands/inspect.h"
+#include "server/commands/verify.h"
 #include "server/config.h"
 #include "server/log.h"
 #include "server/server.h"
-#include "shared/map/map_file.h"
-#include "shared/replay/verify_file.h"
 
 namespace {
 
@@ -29,24 +30,9 @@ int run(const PrintConfig& config) {
   return kOk;
 }
 
-int run(const CheckConfig& config) {
-  int exit_code = kOk;
-  for (const auto& file : config.maps) {
-    const std::vector<core::Error> errors = woodlouse::map::check_map(file);
-    if (errors.empty()) std::cout << file.string() << ": ok\n";
-    for (const core::Error& error : errors) std::cout << error.text() << '\n';
-    if (!errors.empty()) exit_code = kFailed;
-  }
-  return exit_code;
-}
-
-int run(const VerifyConfig& config) {
-  return woodlouse::replay::verify_command(config.files, config.jobs, std::cout);
-}
-
-int run(const InspectConfig& config) {
-  return woodlouse::replay::inspect_command(config.request, std::cout, std::cerr);
-}
+int run(const CheckConfig& config) { return check_command(config.maps, std::cout); }
+int run(const VerifyConfig& config) { return verify_command(config.files, config.jobs, std::cout); }
+int run(const InspectConfig& config) { return inspect_command(config.request, std::cout, std::cerr); }
 
 int run(const ServeConfig& config) {
   auto server = Server::create(config, make_logger(config.log_format));

@@ -185,13 +185,13 @@ void Server::run() {
   auto ticks_work = asio::make_work_guard(ticks_);
   auto io_work = asio::make_work_guard(io_);
   await_signal();
-  const std::size_t rooms = lobby_.rooms().size();
-  for (const auto& room : lobby_.rooms())
-    room->start([this] { asio::post(strand_, [this] { room_ended(); }); });
+  const auto rooms = lobby_.rooms();
+  rooms_running_ = rooms.size();
+  for (const auto& room : rooms) room->start([this] { asio::post(strand_, [this] { room_ended(); }); });
   acceptor_.start();
 
   std::vector<std::jthread> threads;
-  for (std::size_t i = 0; i < tick_threads(rooms); ++i) threads.emplace_back([this] { ticks_.run(); });
+  for (std::size_t i = 0; i < tick_threads(rooms.size()); ++i) threads.emplace_back([this] { ticks_.run(); });
   for (std::size_t i = 0; i < kIoThreads; ++i) threads.emplace_back([this] { io_.run(); });
   threads.clear();
   disk_.join();
@@ -208,7 +208,7 @@ void Server::await_signal() {
 }
 
 void Server::room_ended() {
-  if (++rooms_ended_ == lobby_.rooms().size()) stop("the game is over", "ticks done");
+  if (--rooms_running_ == 0) stop("the game is over", "ticks done");
 }
 
 void Server::stop(const std::string& text, const std::string& reason) {
@@ -218,10 +218,8 @@ void Server::stop(const std::string& text, const std::string& reason) {
   deadline_.async_wait([this](const boost::system::error_code& error) {
     if (!error) give_up_waiting();
   });
-  const auto rooms = lobby_.rooms();
-  parts_running_ = rooms.size() + 1;
   const auto part_done = [this] { asio::post(strand_, [this] { part_stopped(); }); };
-  for (const auto& room : rooms) room->stop(bye, reason, part_done);
+  parts_running_ = 1 + lobby_.stop(bye, reason, part_done);
   acceptor_.stop(bye, part_done);
 }
 

@@ -84,7 +84,7 @@ class Server {
   Acceptor acceptor_;
   std::string address_;
   // The strand's:
-  std::size_t rooms_ended_ = 0;
+  std::size_t rooms_running_ = 0;  ///< that have not reached the tick limit
   std::size_t parts_running_ = 0;  ///< once stopping: rooms and the acceptor
   bool stopping_ = false;
 };

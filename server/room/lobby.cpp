@@ -16,7 +16,7 @@ auto find_in(auto& rooms, std::string_view name) {
 bool Lobby::open(std::shared_ptr<Room> room) {
   assert(room != nullptr && !room->name().empty());
   const std::lock_guard lock(mutex_);
-  if (find_in(rooms_, room->name()) != rooms_.end()) return false;
+  if (stopped_ || find_in(rooms_, room->name()) != rooms_.end()) return false;
   rooms_.push_back(std::move(room));
   return true;
 }
@@ -33,6 +33,18 @@ bool Lobby::close(std::string_view name, const protocol::Bye& bye, const std::st
   }
   room->stop(bye, reason, std::move(closed));
   return true;
+}
+
+std::size_t Lobby::stop(const protocol::Bye& bye, const std::string& reason,
+                        const std::function<void()>& stopped) {
+  std::vector<std::shared_ptr<Room>> rooms;
+  {
+    const std::lock_guard lock(mutex_);
+    stopped_ = true;
+    rooms = rooms_;
+  }
+  for (const auto& room : rooms) room->stop(bye, reason, stopped);
+  return rooms.size();
 }
 
 std::shared_ptr<Door> Lobby::find(std::string_view name) const {

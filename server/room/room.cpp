@@ -15,8 +15,8 @@ namespace asio = boost::asio;
 /// Holds the room weakly: a session that has not heard of its closing keeps none of it.
 class Room::RoomDoor final : public Door {
  public:
-  explicit RoomDoor(std::weak_ptr<Room> room, std::string name)
-      : room_(std::move(room)), name_(std::move(name)) {}
+  explicit RoomDoor(const std::shared_ptr<Room>& room)
+      : room_(room), name_(room->name()), map_(room->census().map) {}
 
   void join(SessionId session, std::shared_ptr<Subscriber> subscriber, protocol::Join join) override {
     if (const auto room = room_.lock()) return room->join(session, std::move(subscriber), std::move(join));
@@ -31,12 +31,13 @@ class Room::RoomDoor final : public Door {
   [[nodiscard]] const std::string& name() const override { return name_; }
   [[nodiscard]] protocol::RoomEntry census() const override {
     if (const auto room = room_.lock()) return room->census();
-    return {name_, {}, 0, 0, 0};
+    return {name_, map_, 0, 0, 0};
   }
 
  private:
   std::weak_ptr<Room> room_;
   std::string name_;
+  std::string map_;
 };
 
 std::shared_ptr<Room> Room::make(asio::io_context& ticks, asio::io_context& io, RoomSettings settings,
@@ -57,7 +58,7 @@ Room::Room(asio::io_context& ticks, asio::io_context& io, RoomSettings settings,
   assert(game_ != nullptr);
 }
 
-std::shared_ptr<Door> Room::door() { return std::make_shared<RoomDoor>(weak_from_this(), settings_.name); }
+std::shared_ptr<Door> Room::door() { return std::make_shared<RoomDoor>(shared_from_this()); }
 
 void Room::start(std::function<void()> ended) {
   asio::post(strand_, [self = shared_from_this(), this, ended = std::move(ended)]() mutable {
@@ -86,6 +87,7 @@ void Room::stop(const protocol::Bye& bye, const std::string& reason, std::functi
     state_ = State::kStopped;
     timer_.cancel();
     members_.dismiss(bye);
+    post_figures();  // should the watchers take too long for whoever waits
     finish_watching(reason, std::move(stopped));
   });
 }
@@ -154,6 +156,7 @@ void Room::tick(Time now) {
   for (const auto& watcher : watchers_) watcher->step(step, margins, *game_);
   members_.answer(number, now);
   members_.send_frames();
+  for (const auto& watcher : watchers_) watcher->rest(*game_);
 }
 
 /// On the strand while ticks run; on whose work ended last, once they have stopped.

@@ -21,7 +21,7 @@ struct InputMargin {
 };
 
 /// The room's strand calls it, in this order: player() for who is there already, begin(), then player(),
-/// chat() and step() as they happen, finish(). Every call returns at once.
+/// chat() and step() and rest() as they happen, finish(). Every call returns at once.
 class TickWatcher {
  public:
   /// Tells every session of the room; any thread.
@@ -40,8 +40,10 @@ class TickWatcher {
                     const std::string& /*text*/) {}
   /// After the step. `game`: as the step left it, nothing queued since. margins: of the step's inputs that
   /// came from sessions.
-  virtual void step(const match::StepRecord& record, std::span<const InputMargin> margins,
-                    const match::Match& game) = 0;
+  virtual void step(const match::StepRecord& /*record*/, std::span<const InputMargin> /*margins*/,
+                    const match::Match& /*game*/) {}
+  /// After everything else of the tick is done: who is in the room was answered and shown it.
+  virtual void rest(const match::Match& /*game*/) {}
   /// Last of all, once; `done` is called when its work is done, on some thread. It outlives that call.
   virtual void finish(const std::string& reason, std::function<void()> done) = 0;
 

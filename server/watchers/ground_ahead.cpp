@@ -32,7 +32,7 @@ GroundAhead::GroundAhead(std::string room, const terrain::TiledGround& ground,
       shared_(std::make_shared<Shared>(ground)),
       push_(physics.thrust_max + physics.gravity) {}
 
-void GroundAhead::step(const match::StepRecord&, std::span<const InputMargin>, const match::Match& game) {
+void GroundAhead::rest(const match::Match& game) {
   look(game.world().lice());
   if (!told_ && game.tick() % game.settings().tick_hz == 0) tell_of_failures();  // once a second
 }

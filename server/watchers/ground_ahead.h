@@ -41,8 +41,7 @@ class GroundAhead final : public TickWatcher {
   ~GroundAhead() override;
 
   void begin(const match::Match&, Announce) override {}
-  void step(const match::StepRecord& record, std::span<const InputMargin> margins,
-            const match::Match& game) override;
+  void rest(const match::Match& game) override;
   void finish(const std::string&, std::function<void()> done) override { done(); }
   void add_figures(RoomFigures& figures) const override { figures.ground = this->figures(); }
 

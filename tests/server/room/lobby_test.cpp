@@ -114,6 +114,7 @@ TEST_CASE("a room that closes says bye to its members, and the doors that are he
   door->submit(1, protocol::Chat{"anybody?"}, {});
   door->leave(1);
   CHECK(door->census().players == 0);
+  CHECK(door->census().map == "volcano");
   CHECK_FALSE(house.lobby.close("hills", {}, "closed", [] {}));
 }
 
@@ -133,6 +134,21 @@ TEST_CASE("a closed room leaves memory though its door is held") {
   house.settle();
   CHECK(room.expired());
   CHECK(guest.use_count() == 1);
+}
+
+TEST_CASE("a lobby that stops ends every room once, keeps them in its list and opens none any more") {
+  House house;
+  REQUIRE(house.lobby.open(house.make("hills")));
+  REQUIRE(house.lobby.open(house.make("arena")));
+  const auto guest = house.join(*house.lobby.find("arena"), 1);
+  int stopped = 0;
+  CHECK(house.lobby.stop({"shutdown", "the server stops", false}, "test", [&] { ++stopped; }) == 2);
+  house.settle();
+  CHECK(stopped == 2);
+  CHECK(guest->byes.size() == 1);
+  CHECK(house.lobby.names().size() == 2);
+  CHECK_FALSE(house.lobby.open(house.make("late")));
+  CHECK(house.join(*house.lobby.find("hills"), 2)->refusals.size() == 1);
 }
 
 TEST_CASE("a room may close before it started, and a name may be opened again") {

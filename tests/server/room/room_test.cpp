@@ -280,3 +280,19 @@ TEST_CASE("the house's bots take over the lice of bots of their name") {
   CHECK(players[1].id == 2);
   CHECK(players[2].id == 3);
 }
+
+TEST_CASE("a room's figures may be read while it runs, and are whole once it has stopped") {
+  House house(settings(8));
+  CHECK(house.room->figures()->ticks == 0);
+  house.room->start([] {});
+  // A second of ticks, and the first of the next.
+  for (int turn = 0; turn < 2000 && house.room->figures()->ticks == 0; ++turn) house.ticks.run_one();
+  const auto first = house.room->figures();
+  CHECK(first->ticks == 60);
+  CHECK(first->lateness.count() == 60);
+  for (int turn = 0; turn < 5; ++turn) house.ticks.run_one();
+  CHECK(first->ticks == 60);  // a snapshot
+  house.room->stop({"shutdown", "the server stops", false}, "test", [] {});
+  house.settle();
+  CHECK(house.room->figures()->ticks > 60);
+}

@@ -1,4 +1,4 @@
-#include "shared/replay/inspect_file.h"
+#include "server/commands/inspect.h"
 
 #include <cmath>
 #include <ostream>
@@ -7,7 +7,7 @@
 #include "shared/replay/inspect.h"
 #include "shared/replay/source_file.h"
 
-namespace woodlouse::replay {
+namespace woodlouse::server {
 namespace {
 
 int report(const core::Error& error, std::ostream& errors) {
@@ -18,11 +18,11 @@ int report(const core::Error& error, std::ostream& errors) {
 }  // namespace
 
 int inspect_command(const InspectRequest& request, std::ostream& out, std::ostream& errors) {
-  const auto archive = ReplayArchive::open(source_of_file(request.file));
+  const auto archive = replay::ReplayArchive::open(replay::source_of_file(request.file));
   if (!archive) return report(archive.error(), errors);
   const bool wants_state = request.tick || request.seconds;
   if (request.summary || !wants_state) {
-    const core::Expected<std::string> summary = inspect_summary(**archive);
+    const core::Expected<std::string> summary = replay::inspect_summary(**archive);
     if (!summary) return report(summary.error(), errors);
     out << *summary;
   }
@@ -32,7 +32,7 @@ int inspect_command(const InspectRequest& request, std::ostream& out, std::ostre
   const std::uint64_t tick = request.tick ? *request.tick
                              : at < 1e15  ? static_cast<std::uint64_t>(std::floor(at + 1e-6))
                                           : std::uint64_t{1} << 53;
-  const core::Expected<InspectedState> state = inspect_state(**archive, tick);
+  const core::Expected<replay::InspectedState> state = replay::inspect_state(**archive, tick);
   if (!state) return report(state.error(), errors);
   out << state->json;
   if (!state->difference) return 0;
@@ -42,4 +42,4 @@ int inspect_command(const InspectRequest& request, std::ostream& out, std::ostre
       errors);
 }
 
-}  // namespace woodlouse::replay
+}  // namespace woodlouse::server

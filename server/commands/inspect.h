@@ -6,7 +6,7 @@
 #include <iosfwd>
 #include <optional>
 
-namespace woodlouse::replay {
+namespace woodlouse::server {
 
 struct InspectRequest {
   std::filesystem::path file;
@@ -18,4 +18,4 @@ struct InspectRequest {
 /// 0; 1 when it can't be read, or the state is not the recorded one: told on `errors`.
 int inspect_command(const InspectRequest& request, std::ostream& out, std::ostream& errors);
 
-}  // namespace woodlouse::replay
+}  // namespace woodlouse::server
