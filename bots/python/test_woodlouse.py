@@ -2,83 +2,16 @@
 
 import contextlib
 import io
-import json
 import math
 import os
 import socket
-import struct
 import sys
 import threading
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import woodlouse
-
-HELLO = {"type": "hello", "protocol": 1, "behavior": 1, "server": "scripted", "session": "1", "rooms": ["a"],
-         "features": [], "limits": {"line": 4096}}
-WELCOME = {"type": "welcome", "id": 2, "resume_token": "", "room": "a", "tick": 5, "tick_hz": 60, "state_hz": 20,
-           "fields": ["id", "x", "y", "vx", "vy"], "quantum": [1, 0.5, 0.5, 0.25, 0.25], "format": "quantized",
-           "map": {"name": "a", "hash": "0123456789abcdef", "extent": [-1, -2, 3, 4], "bytes": 10},
-           "physics": {"gravity": 9.81, "drag": 0.2, "friction": 0.05, "thrust_max": 4, "edge_restitution": 0.5},
-           "mode": "roam", "players": [{"id": 1, "name": "ann", "role": "bot"}]}
-KEY = {"type": "key", "tick": 60, "louse": [[1, 10, 20, 0, 0], [2, -4, 6, 8, -8]], "hash": "00000000000000ff"}
-BYE = {"type": "bye", "code": "shutdown", "text": "enough", "resumable": False}
-
-
-class Scripted:
-    """Listens, and plays script(send, receive) for the first who connects. send takes messages or raw bytes."""
-
-    def __init__(self, script, chunk=None):
-        self._script = script
-        self._chunk = chunk
-        self._listener = socket.create_server(("127.0.0.1", 0))
-        self.address = "127.0.0.1:%d" % self._listener.getsockname()[1]
-        self.failure = None
-        self._thread = threading.Thread(target=self._serve, daemon=True)
-
-    def __enter__(self):
-        self._thread.start()
-        return self
-
-    def __exit__(self, *exception):
-        self._thread.join(10)
-        self._listener.close()
-        if self.failure and exception[0] is None:
-            raise self.failure
-
-    def _serve(self):
-        try:
-            connection, _ = self._listener.accept()
-            connection.settimeout(10)
-            connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-            with connection, connection.makefile("rb") as lines:
-                def send(*messages):
-                    for message in messages:
-                        line = message if isinstance(message, bytes) else json.dumps(message).encode() + b"\n"
-                        step = self._chunk or max(1, len(line))
-                        for begin in range(0, len(line), step):
-                            connection.sendall(line[begin:begin + step])
-
-                self._script(send, lambda: json.loads(lines.readline()))
-        except Exception as failure:
-            self.failure = failure
-
-
-def joined(then, chunk=None):
-    """A scripted server that takes a join and goes on with then(send, receive)."""
-    def script(send, receive):
-        send(HELLO)
-        assert receive()["type"] == "join"
-        send(WELCOME)
-        then(send, receive)
-    return Scripted(script, chunk)
-
-
-def expect(receive, **fields):
-    message = receive()
-    for name, value in fields.items():
-        assert message.get(name) == value, "%r is not %s=%r" % (message, name, value)
-    return message
+from scripted_server import BYE, HELLO, KEY, Scripted, WELCOME, expect, joined
 
 
 class Joining(unittest.TestCase):
@@ -230,73 +163,6 @@ class Seeing(unittest.TestCase):
                 game.close()
 
 
-class Verifying(unittest.TestCase):
-    ROWS = [[1, 0, 0.1, -0.0, 1e-300, 2, 1, 0, 0.5, 0, 0, 0, 3.25, 1, 4294967295],
-            [2, 1, -7.5, 1 / 3, 0, 0, 0, -1, 0, 0, 0, 0, 12, 0, 0]]
-
-    def key(self):
-        # Of the rows above by the server's own code: previous 1, inputs 2, tick 60, generator 3.
-        return {"type": "key", "tick": 60, "louse": self.ROWS, "hash": "1a1ddc05fc45cd16", "previous": "%016x" % 1,
-                "inputs": "%016x" % 2, "generator": "%016x" % 3}
-
-    def verified(self, key):
-        welcome = dict(WELCOME, fields=woodlouse.ALL_FIELDS, quantum=[1] * 15, format="exact")
-
-        def script(send, receive):
-            send(HELLO)
-            expect(receive, type="join", fields="all", format="exact")
-            send(welcome, key, BYE)
-
-        with Scripted(script) as server:
-            with woodlouse.connect(server.address, verify=True) as game:
-                for _ in game.states():
-                    pass
-        return game.verified
-
-    def test_xxh64_is_that_of_the_c_library_for_every_length_of_rest(self):
-        data = bytes((7 * i + 3) & 255 for i in range(100))
-        hashes = [woodlouse.xxh64(data[:size]) for size in range(101)]
-        self.assertEqual(hashes[0], 0xef46db3751d8e999)
-        self.assertEqual(woodlouse.xxh64(b"abc"), 0x44bc2cf5ad770999)
-        self.assertEqual(woodlouse.xxh64(struct.pack("<101Q", *hashes)), 0x69278944434abcf6)
-
-    def test_a_key_whose_rows_give_its_hash_is_counted(self):
-        self.assertEqual(self.verified(self.key()), 1)
-
-    def test_a_flipped_bit_in_any_number_of_a_row_raises(self):
-        for louse in range(2):
-            for column in range(15):
-                key = self.key()
-                key["louse"] = [list(row) for row in self.ROWS]
-                value = key["louse"][louse][column]
-                if column in (0, 1, 13, 14):
-                    key["louse"][louse][column] = value ^ 1
-                else:
-                    bits, = struct.unpack("<Q", struct.pack("<d", value))
-                    key["louse"][louse][column], = struct.unpack("<d", struct.pack("<Q", bits ^ 1))
-                with self.assertRaises(woodlouse.WoodlouseError) as caught:
-                    self.verified(key)
-                self.assertEqual(caught.exception.code, "differs")
-                self.assertIn("tick 60", caught.exception.text)
-
-    def test_what_else_went_into_the_hash_counts_too(self):
-        for field in ("hash", "previous", "inputs", "generator"):
-            with self.assertRaises(woodlouse.WoodlouseError) as caught:
-                self.verified(dict(self.key(), **{field: "%016x" % 9}))
-            self.assertEqual(caught.exception.code, "differs")
-
-    def test_a_key_without_its_proof_or_with_rows_out_of_shape_is_no_key(self):
-        for key in ({k: v for k, v in self.key().items() if k != "inputs"}, dict(self.key(), louse=[[1, 0, 2]]),
-                    dict(self.key(), louse=[["1"] + self.ROWS[0][1:]])):
-            with self.assertRaises(woodlouse.WoodlouseError) as caught:
-                self.verified(key)
-            self.assertEqual(caught.exception.code, "protocol")
-
-    def test_fields_of_ones_own_cannot_be_verified(self):
-        with self.assertRaises(ValueError):
-            woodlouse.connect("127.0.0.1:1", fields=["x"], verify=True)
-
-
 class Acting(unittest.TestCase):
     def test_thrusts_are_numbered_and_their_acks_come_back(self):
         ack = {"type": "ack", "seq": 1, "tick": 61, "margin_us": 5, "late": False, "dropped": False, "clamped": False}
@@ -357,43 +223,6 @@ class Acting(unittest.TestCase):
                 self.assertEqual(game.rooms(), [{"name": "a"}])
                 self.assertEqual(game.map().extent, (0, 0, 1, 2))
                 self.assertIs(game.map(), game.map())
-
-
-class TheGround(unittest.TestCase):
-    def ground(self, function, columns=9, rows=7):
-        heights = [[function(-2 + 0.5 * i, 1 + 0.25 * j) for i in range(columns)] for j in range(rows)]
-        return woodlouse.Ground("g", [-2, 1], [0.5, 0.25], heights)
-
-    def test_it_goes_through_its_knots(self):
-        ground = self.ground(lambda x, y: math.sin(3 * x) + y * y)
-        for j in range(ground.rows):
-            for i in range(ground.columns):
-                self.assertAlmostEqual(ground.height(-2 + 0.5 * i, 1 + 0.25 * j), ground.heights[j][i], places=12)
-
-    def test_it_is_exact_on_planes_to_the_rim(self):
-        ground = self.ground(lambda x, y: 3 * x - 2 * y + 1)
-        for k in range(200):
-            x, y = -2 + 4 * (k * 0.618 % 1), 1 + 1.5 * (k * 0.414 % 1)
-            self.assertAlmostEqual(ground.height(x, y), 3 * x - 2 * y + 1, places=12)
-            self.assertAlmostEqual(ground.gradient(x, y)[0], 3, places=11)
-            self.assertAlmostEqual(ground.gradient(x, y)[1], -2, places=11)
-
-    def test_its_gradient_is_that_of_its_heights(self):
-        ground = self.ground(lambda x, y: math.sin(2 * x) * math.cos(y))
-        for k in range(200):
-            x, y, h = -1.99 + 3.98 * (k * 0.618 % 1), 1.01 + 1.48 * (k * 0.414 % 1), 1e-6
-            gx, gy = ground.gradient(x, y)
-            self.assertAlmostEqual(gx, (ground.height(x + h, y) - ground.height(x - h, y)) / (2 * h), places=6)
-            self.assertAlmostEqual(gy, (ground.height(x, y + h) - ground.height(x, y - h)) / (2 * h), places=6)
-
-    def test_outside_it_is_its_rim(self):
-        ground = self.ground(lambda x, y: x + y)
-        self.assertAlmostEqual(ground.height(99, 1.5), 2 + 1.5)
-        self.assertAlmostEqual(ground.height(-99, -99), -2 + 1)
-
-    def test_its_summit_is_the_highest_inner_knot(self):
-        ground = self.ground(lambda x, y: -(x - 0.5) ** 2 - (y - 1.75) ** 2 + (100 if x == 2 else 0))
-        self.assertEqual(ground.summit(), (0.5, 1.75, 0.0))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,4 @@
-#!/usr/bin/env python3
 """What the client can prove, in a real terminal: keys verified while watching, recordings re-run. Standard library only.
-
-Usage: test_proof.py BIN_FOLDER [unittest arguments]; BIN_FOLDER holds woodlouse and woodlouse-server.
 """
 
 import os
@@ -11,13 +8,11 @@ import signal
 import socket
 import struct
 import subprocess
-import sys
 import tempfile
 import threading
 import unittest
 
-import test_client
-from test_client import LOOK, InATerminal, Server, wait_for
+from terminal import BIN, LOOK, MAPS, InATerminal, Server, wait_for
 
 
 class Meddler:
@@ -76,7 +71,7 @@ class Watching(InATerminal):
     def test_every_key_of_an_honest_server_is_verified(self):
         server = Server()
         self.addCleanup(server.stop)
-        self.terminal.run(f"{test_client.BIN}/woodlouse {LOOK} {server.address} --watch --verify")
+        self.terminal.run(f"{BIN}/woodlouse {LOOK} {server.address} --watch --verify")
         self.terminal.shows(r"watching  state ok [3-9]\b")
         self.terminal.shows(r"PLAYERS 2")
         self.terminal.keys("q", "y")
@@ -87,14 +82,14 @@ class Watching(InATerminal):
         self.addCleanup(server.stop)
         meddler = Meddler(server.address)
         self.addCleanup(meddler.stop)
-        self.terminal.run(f"{test_client.BIN}/woodlouse {LOOK} {meddler.address} --watch --verify")
+        self.terminal.run(f"{BIN}/woodlouse {LOOK} {meddler.address} --watch --verify")
         self.terminal.shows(r"state DIFFERS at tick \d+")
         self.terminal.keys("q", "y")
         self.assertEqual(self.exit_code(), 1)
         self.terminal.shows(r"woodlouse: state DIFFERS at tick \d+: the key says [0-9a-f]{16}")
 
     def watch_as_text(self, address):
-        return subprocess.Popen([f"{test_client.BIN}/woodlouse", address, "--watch", "--verify", "--glyphs", "text"],
+        return subprocess.Popen([f"{BIN}/woodlouse", address, "--watch", "--verify", "--glyphs", "text"],
                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def test_as_text_the_count_is_a_line_and_a_difference_ends_it_with_1(self):
@@ -118,13 +113,13 @@ class AtTheReplay(InATerminal):
         cls.folder = tempfile.mkdtemp(prefix="woodlouse-replay-")
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         cls.file = os.path.join(cls.folder, "game.ndjson")
-        subprocess.run([f"{test_client.BIN}/woodlouse-server", "--map", f"{test_client.MAPS}/volcano.json", "--listen",
+        subprocess.run([f"{BIN}/woodlouse-server", "--map", f"{MAPS}/volcano.json", "--listen",
                         "127.0.0.1:0", "--bots", "2", "--seed", "5", "--ticks", str(cls.TICKS), "--record", cls.file],
                        check=True, timeout=60, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def watch(self, file=None, look=LOOK):
         self.before = self.terminal.stty()
-        self.terminal.run(f"{test_client.BIN}/woodlouse replay {look} {file or self.file}")
+        self.terminal.run(f"{BIN}/woodlouse replay {look} {file or self.file}")
         self.terminal.shows(r"REPLAY  \w+\.ndjson  \d (lice|louse)")
         return wait_for("the client", lambda: self.terminal.process("woodlouse"))
 
@@ -212,15 +207,15 @@ class AtTheReplay(InATerminal):
         self.terminal.shows(r"woodlouse: state DIFFERS at tick 201: [0-9a-f]{16} recorded, [0-9a-f]")
 
     def test_what_is_no_recording_is_told_before_the_screen_is_touched(self):
-        self.terminal.run(f"{test_client.BIN}/woodlouse replay {test_client.BIN}/nothing")
+        self.terminal.run(f"{BIN}/woodlouse replay {BIN}/nothing")
         self.terminal.shows(r"woodlouse: \S+/nothing: can't be opened")
         self.assertEqual(self.exit_code(), 74)
-        self.terminal.run(f"{test_client.BIN}/woodlouse replay {test_client.MAPS}/volcano.json")
+        self.terminal.run(f"{BIN}/woodlouse replay {MAPS}/volcano.json")
         self.terminal.shows(r"woodlouse: \S+volcano\.json")
         self.assertEqual(self.exit_code(), 74)
 
     def test_without_a_terminal_it_says_what_to_run_instead(self):
-        done = subprocess.run([f"{test_client.BIN}/woodlouse", "replay", self.file], stdin=subprocess.DEVNULL,
+        done = subprocess.run([f"{BIN}/woodlouse", "replay", self.file], stdin=subprocess.DEVNULL,
                               capture_output=True, text=True, timeout=20)
         self.assertEqual(done.returncode, 2)
         self.assertIn(f"woodlouse-server verify {self.file}", done.stderr)
@@ -228,7 +223,4 @@ class AtTheReplay(InATerminal):
 
 
 if __name__ == "__main__":
-    test_client.BIN = os.path.abspath(sys.argv.pop(1))
-    if shutil.which("tmux") is None:
-        sys.exit("test_proof.py: tmux is missing; packages.txt lists it")
     unittest.main(verbosity=2)
