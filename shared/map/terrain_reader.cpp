@@ -19,8 +19,6 @@ constexpr json::Range kFunctionScale{0.1, 1e5, "m"};
 constexpr std::uint64_t kMinFunctionGrid = 2;
 constexpr std::uint64_t kMaxFunctionGrid = 999;
 constexpr std::size_t kMinKnotsEachWay = 4;
-/// 89.4 degrees between neighbouring knots. Steeper is a wall, and walls are the map's edge's business.
-constexpr double kMaxSlope = 100.0;
 
 FunctionTerrain read_function(const json::Value& value, const json::Value& name, json::Problems& problems) {
   const json::Fields fields(value, {"function", "grid", "scale"}, problems);

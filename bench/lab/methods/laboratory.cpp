@@ -1,8 +1,6 @@
 #include "bench/lab/methods/laboratory.h"
 
-#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <variant>
 
@@ -72,16 +70,11 @@ std::optional<Integrator> integrator_from_text(std::string_view text) {
 }
 
 void LaboratoryStepper::advance(std::span<state::Louse> lice, physics::StepCounters& counters) const {
-  constexpr std::size_t kBlock = 64;
-  std::array<std::uint32_t, kBlock> moving;
-  physics::BatchLists lists;
-  for (; !lice.empty(); lice = lice.subspan(std::min(kBlock, lice.size()))) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < std::min(kBlock, lice.size()); ++i) {
-      if (lice[i].phase != state::Phase::kResting) moving[count++] = static_cast<std::uint32_t>(i);
-    }
-    steps_->advance(lice, {moving.data(), count}, {}, lists, counters);
+  moving_.clear();
+  for (std::size_t i = 0; i < lice.size(); ++i) {
+    if (lice[i].phase != state::Phase::kResting) moving_.push_back(static_cast<std::uint32_t>(i));
   }
+  steps_->advance(lice, moving_, {}, lists_, counters);
 }
 
 core::Expected<std::unique_ptr<LaboratoryStepper>> make_stepper(const document::AnySurface& surface,

@@ -6,11 +6,13 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "shared/core/error.h"
 #include "shared/document/surface_catalogue.h"
@@ -44,7 +46,7 @@ std::string_view to_text(Integrator integrator);
 std::optional<Equations> equations_from_text(std::string_view text);
 std::optional<Integrator> integrator_from_text(std::string_view text);
 
-/// One choice of all of them, ready to step lice.
+/// One choice of all of them, ready to step lice. One thread at a time.
 class LaboratoryStepper {
  public:
   explicit LaboratoryStepper(std::unique_ptr<const physics::GroundSteps> steps) : steps_(std::move(steps)) {}
@@ -54,6 +56,8 @@ class LaboratoryStepper {
 
  private:
   std::unique_ptr<const physics::GroundSteps> steps_;
+  mutable std::vector<std::uint32_t> moving_;  ///< room for lists, kept from call to call
+  mutable physics::BatchLists lists_;
 };
 
 /// walls: where lice are kept, infinite: nowhere; tick: [s]. `surface` must outlive the stepper. Errors: the
