@@ -88,7 +88,7 @@ Server::Server(const ServeConfig& config, std::shared_ptr<spdlog::logger> log)
       strand_(asio::make_strand(io_)),
       signals_(strand_, SIGINT, SIGTERM),
       deadline_(strand_),
-      environment_{lobby_, limits_, traffic_, kServerName, log_},
+      environment_{lobby_, limits_, traffic_, timekeeper_, kServerName, log_},
       acceptor_(io_, environment_) {
   // A bot may push once a tick and still ask for the time.
   limits_.messages_per_s = std::max(limits_.messages_per_s, 2 * config.tick_hz);
@@ -141,8 +141,8 @@ core::Expected<void> Server::open_room(const ServeConfig& config, const std::str
   auto watchers = make_watchers(config, name, start);
   if (!watchers) return tl::unexpected(watchers.error());
   log_opened(name, config, start);
-  const bool is_new =
-      lobby_.open(Room::make(ticks_, io_, std::move(settings), std::move(start), std::move(*watchers), log_));
+  const bool is_new = lobby_.open(Room::make(ticks_, io_, std::move(settings), std::move(start),
+                                             std::move(*watchers), timekeeper_, log_));
   assert(is_new);
   static_cast<void>(is_new);
   return {};

@@ -27,6 +27,7 @@
 #include "server/room/lobby.h"
 #include "server/room/room.h"
 #include "server/room/start.h"
+#include "server/room/steady_timekeeper.h"
 #include "shared/core/error.h"
 
 namespace woodlouse::server {
@@ -79,6 +80,7 @@ class Server {
 
   protocol::Limits limits_;
   TrafficMetrics traffic_;
+  SteadyTimekeeper timekeeper_;
   Lobby lobby_;
   SessionEnvironment environment_;
   Acceptor acceptor_;

@@ -3,12 +3,9 @@
 #include <boost/asio/bind_executor.hpp>
 #include <boost/asio/post.hpp>
 
-#include <netinet/in.h>
-#include <netinet/tcp.h>
-#include <sys/socket.h>
-
 #include <utility>
 
+#include "server/net/tcp_wire.h"
 #include "shared/protocol/codes.h"
 
 namespace woodlouse::server {
@@ -19,11 +16,6 @@ using asio::ip::tcp;
 using boost::system::error_code;
 
 constexpr Duration kPause = std::chrono::milliseconds(100);  // after accepting failed
-
-// What the kernel may hold unsent for one client. Small, so that a client that reads slowly shows soon and
-// what it is sent is fresh; bytes on their way do not count, so that distance costs no speed.
-using NotSentLowWater = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
-constexpr int kUnsentBytes = 64 * 1024;
 
 core::Error cannot_listen(const std::string& where, const error_code& error) {
   core::Error failure{"cannot listen on " + where, error.message(), {}};
@@ -98,19 +90,19 @@ void Acceptor::open_session(tcp::socket socket) {
   error_code error;
   const tcp::endpoint remote = socket.remote_endpoint(error);
   if (error) return;  // gone before it was seen
-  const std::string address = AddressBook::key(remote.address());
-  const AddressBook::Admission admission = addresses_.admit(address);
-  if (admission == AddressBook::Admission::kDrop) return;
-  socket.set_option(tcp::no_delay(true), error);
-  if (!error) socket.set_option(NotSentLowWater(kUnsentBytes), error);
+  const std::string address = ConnectionLimits::key(remote.address());
+  const ConnectionLimits::Admission admission = addresses_.admit(address);
+  if (admission == ConnectionLimits::Admission::kDrop) return;
+  auto wire = std::make_unique<TcpWire>(std::move(socket));
+  error = wire->set_options();
   if (error) environment_.log->warn("socket options of {}: {}", to_text(remote), error.message());
 
   const SessionId id = next_id_++;
-  auto session = std::make_shared<Session>(id, std::move(socket), environment_);
+  auto session = std::make_shared<Session>(id, std::move(wire), environment_);
   sessions_.emplace(id, session);
   auto closed = [this, id, address] { asio::post(strand_, [this, id, address] { on_closed(id, address); }); };
   environment_.log->debug("session {:016x}: from {}", id, to_text(remote));
-  if (admission == AddressBook::Admission::kWelcome) return session->start(std::move(closed));
+  if (admission == ConnectionLimits::Admission::kWelcome) return session->start(std::move(closed));
   session->start_refused({std::string(protocol::code::kTooManyConnections),
                           "your address has " + std::to_string(environment_.limits.per_address) +
                               " connections already; close one first",

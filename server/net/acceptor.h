@@ -46,7 +46,7 @@ class Acceptor {
   boost::asio::ip::tcp::acceptor acceptor_;
   boost::asio::steady_timer pause_;
   // The strand's:
-  AddressBook addresses_;
+  ConnectionLimits addresses_;
   std::unordered_map<SessionId, std::shared_ptr<Session>> sessions_;
   SessionId next_id_ = 1;
   bool starved_ = false;  ///< accepting failed last time; told once

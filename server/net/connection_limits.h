@@ -10,12 +10,12 @@
 
 namespace woodlouse::server {
 
-class AddressBook {
+class ConnectionLimits {
  public:
   /// Past the limit so many more are told why before they are turned away; further ones are just closed.
   static constexpr std::uint32_t kCourtesy = 16;
 
-  explicit AddressBook(std::uint32_t per_address) : per_address_(per_address) {}
+  explicit ConnectionLimits(std::uint32_t per_address) : per_address_(per_address) {}
 
   enum class Admission { kWelcome, kRefuse, kDrop };
   /// A connection of that address: kWelcome and kRefuse count it until release().

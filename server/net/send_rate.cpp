@@ -1,11 +1,24 @@
 #include "server/net/send_rate.h"
 
 #include <algorithm>
+#include <string>
+#include <string_view>
 #include <utility>
 
-namespace woodlouse::server {
+#include "shared/protocol/codes.h"
 
-bool PaceKeeper::wants(const Frame& frame, std::uint64_t divisor) const {
+namespace woodlouse::server {
+namespace {
+
+namespace code = protocol::code;
+
+protocol::Notice as_notice(std::string_view code, std::string text) {
+  return {std::string(code), std::move(text)};
+}
+
+}  // namespace
+
+bool SendRate::wants(const Frame& frame, std::uint64_t divisor) const {
   if (frame.kind == FrameKind::kKey) return true;
   switch (pace_) {
     case Pace::kFull:
@@ -18,7 +31,7 @@ bool PaceKeeper::wants(const Frame& frame, std::uint64_t divisor) const {
   return false;
 }
 
-PaceKeeper::Change PaceKeeper::on_frame(Time now, bool replaced) {
+SendRate::Change SendRate::on_frame(Time now, bool replaced) {
   ++offered_;
   if (replaced) {
     ++replaced_;
@@ -32,7 +45,7 @@ PaceKeeper::Change PaceKeeper::on_frame(Time now, bool replaced) {
   return change;
 }
 
-PaceKeeper::Change PaceKeeper::judge(Time now) {
+SendRate::Change SendRate::judge(Time now) {
   if (pace_ == Pace::kKeysOnly) {
     if (replaced_ == offered_) return Change::kGiveUp;
   } else if (replaced_ * 3 >= offered_) {
@@ -49,11 +62,25 @@ PaceKeeper::Change PaceKeeper::judge(Time now) {
   return Change::kRestored;
 }
 
-PaceKeeper::Change PaceKeeper::lower(Time now) {
+SendRate::Change SendRate::lower(Time now) {
   if (std::exchange(on_trial_, false)) restore_after_ = std::min(restore_after_ * 2, kRestoreMost);
   pace_ = pace_ == Pace::kFull ? Pace::kHalf : Pace::kKeysOnly;
   clean_since_ = now;
   return Change::kLowered;
+}
+
+std::optional<protocol::Notice> SendRate::notice(Change change) const {
+  if (change == Change::kNone || change == Change::kGiveUp) return std::nullopt;
+  switch (pace_) {
+    case Pace::kFull:
+      return as_notice(code::kRateRestored, "frames at the full rate again");
+    case Pace::kHalf:
+      if (change == Change::kRestored) return as_notice(code::kRateLowered, "deltas again, at half the rate");
+      return as_notice(code::kRateLowered, "you read slower than frames come: half the rate from now on");
+    case Pace::kKeysOnly:
+      return as_notice(code::kKeysOnly, "you read very slowly: only keys from now on");
+  }
+  return std::nullopt;
 }
 
 }  // namespace woodlouse::server

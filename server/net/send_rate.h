@@ -3,17 +3,18 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "server/room/clock.h"
 #include "server/room/frame.h"
+#include "shared/protocol/messages.h"
 
 namespace woodlouse::server {
 
-enum class Pace : std::uint8_t { kFull, kHalf, kKeysOnly };
-
 /// Judges a client by the frames that had to be replaced because it had not taken the one before.
-class PaceKeeper {
+class SendRate {
  public:
+  enum class Pace : std::uint8_t { kFull, kHalf, kKeysOnly };
   enum class Change {
     kNone,
     kLowered,   ///< pace() went down a step: tell the client
@@ -28,13 +29,15 @@ class PaceKeeper {
   static constexpr Duration kRestoreAfter = std::chrono::seconds(10);
   static constexpr Duration kRestoreMost = std::chrono::seconds(80);
 
-  explicit PaceKeeper(Time now) : window_(now), clean_since_(now) {}
+  explicit SendRate(Time now) : window_(now), clean_since_(now) {}
 
   /// Does this frame go out at the present pace? divisor: the client takes every divisor-th frame anyway.
   [[nodiscard]] bool wants(const Frame& frame, std::uint64_t divisor) const;
   /// A frame goes out; `replaced`: the one before was still unsent.
   Change on_frame(Time now, bool replaced);
   [[nodiscard]] Pace pace() const { return pace_; }
+  /// What the client is told of the change that has just led to pace(); nothing for kNone and kGiveUp.
+  [[nodiscard]] std::optional<protocol::Notice> notice(Change change) const;
 
  private:
   Change lower(Time now);

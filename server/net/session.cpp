@@ -1,14 +1,11 @@
 #include "server/net/session.h"
 
-#include <boost/asio/bind_executor.hpp>
-#include <boost/asio/buffer.hpp>
 #include <boost/asio/dispatch.hpp>
-#include <boost/asio/write.hpp>
+#include <boost/asio/post.hpp>
 
-#include <type_traits>
+#include <algorithm>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "shared/core/stable_hash.h"
 #include "shared/match/match.h"
@@ -35,26 +32,26 @@ Line as_line(const protocol::ServerMessage& message) {
 
 }  // namespace
 
-Session::Session(SessionId id, Socket socket, const SessionEnvironment& environment)
+Session::Session(SessionId id, std::unique_ptr<Wire> wire, const SessionEnvironment& environment)
     : id_(id),
-      socket_(std::move(socket)),
+      wire_(std::move(wire)),
       environment_(environment),
       framer_(environment.limits.line),
-      limiter_(environment.limits.messages_per_s, environment.limits.burst, Clock::now()),
+      limiter_(environment.limits.messages_per_s, environment.limits.burst, environment.timekeeper.now()),
       outbox_(environment.limits.outbox_bytes),
-      pace_(Clock::now()),
-      watch_(socket_.get_executor()),
-      handshake_until_(Clock::now() + std::chrono::seconds(environment.limits.handshake_s)),
-      active_(Clock::now()) {}
+      rate_(environment.timekeeper.now()),
+      watch_(environment.timekeeper.make_alarm(wire_->executor())),
+      handshake_until_(environment.timekeeper.now() + std::chrono::seconds(environment.limits.handshake_s)),
+      active_(environment.timekeeper.now()) {}
 
 void Session::start(std::function<void()> closed) {
-  asio::dispatch(socket_.get_executor(), [self = shared_from_this(), closed = std::move(closed)]() mutable {
+  asio::dispatch(wire_->executor(), [self = shared_from_this(), closed = std::move(closed)]() mutable {
     self->closed_ = std::move(closed);
     protocol::Hello hello;
     hello.behavior = match::kBehavior;
     hello.server = self->environment_.server_name;
     hello.session = core::to_hex(self->id_);
-    hello.rooms = self->environment_.lobby.names();
+    hello.rooms = self->environment_.directory.names();
     hello.features = {"quantized", "exact", "fields", "delta", "get_map"};
     hello.limits = self->environment_.limits;
     self->say(hello);
@@ -64,7 +61,7 @@ void Session::start(std::function<void()> closed) {
 }
 
 void Session::start_refused(protocol::ErrorMessage why, std::function<void()> closed) {
-  asio::dispatch(socket_.get_executor(),
+  asio::dispatch(wire_->executor(),
                  [self = shared_from_this(), why = std::move(why), closed = std::move(closed)]() mutable {
                    self->closed_ = std::move(closed);
                    self->read();
@@ -75,21 +72,21 @@ void Session::start_refused(protocol::ErrorMessage why, std::function<void()> cl
 // ---- reading -------------------------------------------------------------------------------------------
 
 void Session::read() {
-  socket_.async_read_some(
-      asio::buffer(incoming_),
-      [self = shared_from_this()](const error_code& error, std::size_t size) { self->on_read(error, size); });
+  wire_->read_some(incoming_, [self = shared_from_this()](const error_code& error, std::size_t size) {
+    self->on_read(error, size);
+  });
 }
 
 void Session::on_read(const error_code& error, std::size_t size) {
   if (state_ == State::kClosed) return;
   if (error) return close();  // the client has gone, in whatever way
   if (state_ == State::kOpen) {
-    const Time now = Clock::now();
+    const Time read_at = now();
     framer_.append({incoming_.data(), size});
     while (state_ == State::kOpen) {
       const auto line = framer_.next();
       if (!line) break;
-      on_line(*line, now);
+      on_line(*line, read_at);
     }
   }
   if (state_ != State::kClosed) read();
@@ -131,21 +128,21 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
   if (const auto refusal = handshake_.judge(message)) return say(*refusal);
   if (const auto* ping = std::get_if<protocol::Ping>(&message)) return say(protocol::Pong{ping->t});
   if (std::holds_alternative<protocol::Pong>(message)) return;
-  if (std::holds_alternative<protocol::List>(message)) return say(environment_.lobby.list());
+  if (std::holds_alternative<protocol::List>(message)) return say(environment_.directory.list());
   if (std::holds_alternative<protocol::Leave>(message))
     return say_bye({}, {std::string(code::kLeft), "goodbye", false}, kLinger);
   if (auto* join = std::get_if<protocol::Join>(&message)) {
-    room_ = environment_.lobby.find(join->room);
-    if (room_) return room_->join(id_, shared_from_this(), std::move(*join));
+    door_ = environment_.directory.find(join->room);
+    if (door_) return door_->join(id_, shared_from_this(), std::move(*join));
     handshake_.refused();
     std::string names;
-    for (const std::string& name : environment_.lobby.names()) names += ' ' + name;
+    for (const std::string& name : environment_.directory.names()) names += ' ' + name;
     return say(protocol::ErrorMessage{std::string(code::kUnknownRoom),
                                       "join.room: no room \"" + join->room + "\"; there are:" + names,
                                       false,
                                       {}});
   }
-  room_->submit(id_, std::move(message), now);
+  door_->submit(id_, std::move(message), now);
 }
 
 // ---- writing -------------------------------------------------------------------------------------------
@@ -166,19 +163,12 @@ void Session::write() {
   if (writing_.empty()) {
     if (state_ != State::kSayingBye) return;
     state_ = State::kDraining;
-    error_code ignored_if_the_client_went_first;
-    socket_.shutdown(Socket::shutdown_send, ignored_if_the_client_went_first);
-    if (ignored_if_the_client_went_first) close();
+    if (wire_->shut_down_sending()) close();  // the client went first
     return;
   }
-  std::vector<asio::const_buffer> buffers;
-  buffers.reserve(writing_.lines.size());
-  for (const Line& line : writing_.lines) buffers.push_back(asio::buffer(*line));
-  asio::async_write(
-      socket_, std::move(buffers),
-      [self = shared_from_this(), frames = writing_.frames](const error_code& error, std::size_t size) {
-        self->on_written(error, size, frames);
-      });
+  wire_->write(writing_.lines,
+               [self = shared_from_this(), frames = writing_.frames](
+                   const error_code& error, std::size_t size) { self->on_written(error, size, frames); });
 }
 
 void Session::on_written(const error_code& error, std::size_t size, std::size_t frames) {
@@ -186,10 +176,79 @@ void Session::on_written(const error_code& error, std::size_t size, std::size_t 
   outbox_.written();
   if (state_ == State::kClosed) return;
   if (error) return close();
-  active_ = Clock::now();
+  active_ = now();
   environment_.traffic.frames_sent.fetch_add(frames, std::memory_order_relaxed);
   environment_.traffic.bytes_sent.fetch_add(size, std::memory_order_relaxed);
   write();
+}
+
+// ---- what the room says: each call hops to the session's executor ---------------------------------------
+
+void Session::deliver(Line line) {
+  asio::post(wire_->executor(),
+             [self = shared_from_this(), line = std::move(line)]() mutable { self->push(std::move(line)); });
+}
+
+void Session::answer(protocol::ServerMessage message) {
+  asio::post(wire_->executor(),
+             [self = shared_from_this(), message = std::move(message)] { self->say(message); });
+}
+
+void Session::show_again(const Frame& frame) {
+  asio::post(wire_->executor(), [self = shared_from_this(), frame] {
+    if (self->state_ != State::kOpen) return;
+    self->outbox_.offer(frame);
+    self->write();
+  });
+}
+
+void Session::show(const Frame& frame) {
+  asio::post(wire_->executor(), [self = shared_from_this(), frame] {
+    if (self->state_ != State::kOpen || !self->rate_.wants(frame, self->divisor_)) return;
+    const FrameSlots::Outcome outcome = self->outbox_.offer(frame);
+    if (outcome == FrameSlots::Outcome::kStale) return;
+    self->tell_pace(self->rate_.on_frame(self->now(), outcome == FrameSlots::Outcome::kReplaced));
+    self->write();
+  });
+}
+
+void Session::tell_pace(SendRate::Change change) {
+  if (change == SendRate::Change::kGiveUp) {
+    environment_.log->info("session {:016x}: too slow even for keys", id_);
+    return fail(code::kSlow, "you read too slowly, even for keys alone");
+  }
+  if (const auto notice = rate_.notice(change)) say(*notice);
+}
+
+void Session::deliver_map(Line line) {
+  asio::post(wire_->executor(), [self = shared_from_this(), line = std::move(line)]() mutable {
+    if (self->state_ != State::kOpen) return;
+    if (self->outbox_.push_map(std::move(line)) == Outbox::PushMap::kAlreadyWaiting)
+      return self->say(protocol::ErrorMessage{std::string(code::kRateLimited),
+                                              "get_map: the map you asked for is still on its way", false,
+                                              1000});
+    self->write();
+  });
+}
+
+void Session::welcome(protocol::Welcome welcome, std::uint32_t divisor) {
+  asio::post(wire_->executor(), [self = shared_from_this(), welcome = std::move(welcome), divisor] {
+    self->divisor_ = divisor;
+    self->say(welcome);
+  });
+}
+
+void Session::refuse_join(protocol::ErrorMessage error) {
+  asio::post(wire_->executor(), [self = shared_from_this(), error = std::move(error)] {
+    self->door_ = nullptr;
+    self->handshake_.refused();
+    self->say(error);
+  });
+}
+
+void Session::end(protocol::Bye bye) {
+  asio::post(wire_->executor(),
+             [self = shared_from_this(), bye = std::move(bye)] { self->say_bye({}, bye, kShutdownLinger); });
 }
 
 // ---- the end -------------------------------------------------------------------------------------------
@@ -208,8 +267,7 @@ void Session::fail(const protocol::ErrorMessage& error) {
 void Session::say_bye(const std::optional<protocol::ErrorMessage>& error, const protocol::Bye& bye,
                       Duration linger) {
   if (state_ == State::kClosed) return;
-  linger_until_ =
-      state_ == State::kOpen ? Clock::now() + linger : std::min(linger_until_, Clock::now() + linger);
+  linger_until_ = state_ == State::kOpen ? now() + linger : std::min(linger_until_, now() + linger);
   watch(linger_until_);
   if (state_ != State::kOpen) return;
   leave_room();
@@ -221,39 +279,37 @@ void Session::say_bye(const std::optional<protocol::ErrorMessage>& error, const 
 }
 
 void Session::leave_room() {
-  if (room_) std::exchange(room_, nullptr)->leave(id_);
+  if (door_) std::exchange(door_, nullptr)->leave(id_);
 }
 
 void Session::close() {
   if (state_ == State::kClosed) return;
   leave_room();
   state_ = State::kClosed;
-  watch_.cancel();
-  error_code error;
-  socket_.close(error);
-  if (error) environment_.log->warn("session {:016x}: close: {}", id_, error.message());
+  watch_->cancel();
+  if (const error_code error = wire_->close())
+    environment_.log->warn("session {:016x}: close: {}", id_, error.message());
   std::exchange(closed_, nullptr)();
 }
 
 // ---- timeouts ------------------------------------------------------------------------------------------
 
 void Session::watch(Time until) {
-  watch_.expires_at(until);
-  watch_.async_wait([self = shared_from_this()](const error_code& error) {
-    if (!error) self->on_watch();
+  watch_->set(until, [self = shared_from_this()](bool cancelled) {
+    if (!cancelled) self->on_watch();
   });
 }
 
 void Session::on_watch() {
   if (state_ == State::kClosed) return;
   if (state_ != State::kOpen) {
-    if (Clock::now() >= linger_until_) return close();
+    if (now() >= linger_until_) return close();
     return watch(linger_until_);
   }
   const bool has_joined = handshake_.state() != Handshake::State::kGreeting;
   const Time idle_until = active_ + std::chrono::seconds(environment_.limits.idle_s);
   const Time until = has_joined ? idle_until : std::min(idle_until, handshake_until_);
-  if (Clock::now() < until) return watch(until);
+  if (now() < until) return watch(until);
   if (!has_joined && until == handshake_until_)
     return fail(code::kHandshakeTimeout,
                 "no join within " + std::to_string(environment_.limits.handshake_s) + " s");

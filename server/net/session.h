@@ -1,5 +1,6 @@
-// One client's connection: its socket and nothing of the game. Reads lines, judges them by the handshake's
-// rules and the rate limiter, passes them to the room; writes what the outbox holds, one write in flight.
+// One client's connection, and nothing of the game. Reads lines, judges them by the handshake's rules and the
+// rate limiter, passes them to the room's door; writes what the outbox holds, one write in flight. The bytes
+// go over a wire and the time comes from a timekeeper: a test stands in for both.
 //
 // How it ends: a fatal error, `leave`, a timeout, a slow client or the room's bye put a last line into the
 // outbox; when that is written the sending side is shut, and what still comes in is read and thrown away
@@ -8,9 +9,6 @@
 #pragma once
 
 #include <spdlog/logger.h>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/steady_timer.hpp>
-#include <boost/asio/strand.hpp>
 #include <boost/system/error_code.hpp>
 
 #include <array>
@@ -24,9 +22,12 @@
 #include "server/net/outbox.h"
 #include "server/net/rate_limiter.h"
 #include "server/net/send_rate.h"
+#include "server/net/wire.h"
 #include "server/room/directory.h"
+#include "server/room/door.h"
 #include "server/room/figures.h"
 #include "server/room/subscriber.h"
+#include "server/room/timekeeper.h"
 #include "shared/protocol/framing.h"
 #include "shared/protocol/messages.h"
 
@@ -34,26 +35,27 @@ namespace woodlouse::server {
 
 /// What all sessions share; outlives them.
 struct SessionEnvironment {
-  const Directory& lobby;
+  const Directory& directory;
   const protocol::Limits& limits;
   TrafficMetrics& traffic;
+  Timekeeper& timekeeper;
   std::string_view server_name;  ///< with its version
   std::shared_ptr<spdlog::logger> log;
 };
 
 class Session final : public Subscriber, public std::enable_shared_from_this<Session> {
  public:
-  using Socket = boost::asio::ip::tcp::socket;
-
   /// What a line weighs against the rate that goes out to a whole room, or brings a long answer.
   static constexpr double kBroadcastCost = 10.0;
   static constexpr Duration kLinger = std::chrono::seconds(1);
   static constexpr Duration kShutdownLinger = std::chrono::milliseconds(300);
 
-  /// The socket's executor is a strand, the session's own.
-  Session(SessionId id, Socket socket, const SessionEnvironment& environment);
+  /// The wire's executor is the session's: what is not said to be of any thread runs there alone.
+  Session(SessionId id, std::unique_ptr<Wire> wire, const SessionEnvironment& environment);
 
-  /// Says hello and begins to read. closed: called once, on the session's strand, when the socket is closed.
+  // One of the two, once; any thread.
+
+  /// Says hello and begins to read. closed: called once, on the session's executor, when the wire is closed.
   void start(std::function<void()> closed);
   /// Instead of start(): an error and a bye, no hello.
   void start_refused(protocol::ErrorMessage why, std::function<void()> closed);
@@ -86,7 +88,7 @@ class Session final : public Subscriber, public std::enable_shared_from_this<Ses
   void push(Line line);
   void write();
   void on_written(const boost::system::error_code& error, std::size_t size, std::size_t frames);
-  void tell_pace(PaceKeeper::Change change);
+  void tell_pace(SendRate::Change change);
 
   void fail(std::string_view code, std::string text);
   void fail(const protocol::ErrorMessage& error);
@@ -94,27 +96,28 @@ class Session final : public Subscriber, public std::enable_shared_from_this<Ses
   void leave_room();
   void close();
 
+  [[nodiscard]] Time now() const { return environment_.timekeeper.now(); }
   void watch(Time until);
   void on_watch();
 
   SessionId id_;
-  Socket socket_;
+  std::unique_ptr<Wire> wire_;
   const SessionEnvironment& environment_;
   std::function<void()> closed_;
 
   State state_ = State::kOpen;
   Handshake handshake_;
-  std::shared_ptr<Door> room_;  ///< null before the join
+  std::shared_ptr<Door> door_;  ///< null before the join
   std::array<char, 16384> incoming_{};
   protocol::LineFramer framer_;
   RateLimiter limiter_;
 
   Outbox outbox_;
   Outbox::Batch writing_;  ///< in flight; empty: none
-  PaceKeeper pace_;
+  SendRate rate_;
   std::uint32_t divisor_ = 1;
 
-  boost::asio::steady_timer watch_;
+  std::unique_ptr<Alarm> watch_;
   Time handshake_until_;
   Time active_;  ///< the last line read or write finished
   Time linger_until_{};

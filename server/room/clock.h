@@ -1,12 +1,12 @@
-// The one clock of the server: monotonic, never set back. Pure parts take a Time as an argument.
+// The clock's types under the server's roof. Who asks what time it is asks a Timekeeper (timekeeper.h).
 #pragma once
 
-#include <chrono>
+#include "shared/core/clock.h"
 
 namespace woodlouse::server {
 
-using Clock = std::chrono::steady_clock;
-using Time = Clock::time_point;
-using Duration = Clock::duration;
+using core::Clock;
+using core::Duration;
+using core::Time;
 
 }  // namespace woodlouse::server

@@ -41,17 +41,19 @@ class Room::RoomDoor final : public Door {
 };
 
 std::shared_ptr<Room> Room::make(asio::io_context& ticks, asio::io_context& io, RoomSettings settings,
-                                 Start start, Watchers watchers, std::shared_ptr<spdlog::logger> log) {
-  return std::shared_ptr<Room>(
-      new Room(ticks, io, std::move(settings), std::move(start), std::move(watchers), std::move(log)));
+                                 Start start, Watchers watchers, Timekeeper& timekeeper,
+                                 std::shared_ptr<spdlog::logger> log) {
+  return std::shared_ptr<Room>(new Room(ticks, io, std::move(settings), std::move(start), std::move(watchers),
+                                        timekeeper, std::move(log)));
 }
 
 Room::Room(asio::io_context& ticks, asio::io_context& io, RoomSettings settings, Start start,
-           Watchers watchers, std::shared_ptr<spdlog::logger> log)
+           Watchers watchers, Timekeeper& timekeeper, std::shared_ptr<spdlog::logger> log)
     : settings_(std::move(settings)),
       log_(std::move(log)),
       strand_(asio::make_strand(ticks)),
-      timer_(strand_),
+      timekeeper_(timekeeper),
+      alarm_(timekeeper.make_alarm(strand_)),
       game_(std::move(start.match)),
       watchers_(std::move(watchers)),
       members_(io, settings_, *game_, watchers_, std::move(start.unclaimed), log_) {
@@ -67,8 +69,8 @@ void Room::start(std::function<void()> ended) {
     state_ = State::kRunning;
     begin_watching();
     members_.add_house_bots();
-    clock_.emplace(game_->settings().tick_hz, Clock::now());
-    arm_timer();
+    clock_.emplace(game_->settings().tick_hz, timekeeper_.now());
+    await_tick();
   });
 }
 
@@ -85,7 +87,7 @@ void Room::begin_watching() {
 void Room::stop(const protocol::Bye& bye, const std::string& reason, std::function<void()> stopped) {
   asio::post(strand_, [self = shared_from_this(), this, bye, reason, stopped = std::move(stopped)]() mutable {
     state_ = State::kStopped;
-    timer_.cancel();
+    alarm_->cancel();
     members_.dismiss(bye);
     post_figures();  // should the watchers take too long for whoever waits
     finish_watching(reason, std::move(stopped));
@@ -122,15 +124,14 @@ void Room::leave(SessionId session) {
   asio::post(strand_, [self = shared_from_this(), this, session] { members_.remove(session); });
 }
 
-void Room::arm_timer() {
-  timer_.expires_at(clock_->deadline());
-  timer_.async_wait(
-      [self = shared_from_this(), this](const boost::system::error_code& error) { on_timer(error); });
+void Room::await_tick() {
+  alarm_->set(clock_->deadline(), [self = shared_from_this(), this](bool cancelled) {
+    if (!cancelled && state_ == State::kRunning) on_tick_due();
+  });
 }
 
-void Room::on_timer(const boost::system::error_code& error) {
-  if (error || state_ != State::kRunning) return;
-  const Time now = Clock::now();
+void Room::on_tick_due() {
+  const Time now = timekeeper_.now();
   const std::uint64_t moves = clock_->moves();
   const Duration late = clock_->begin(now);
   working_.lateness.add(late);
@@ -138,14 +139,14 @@ void Room::on_timer(const boost::system::error_code& error) {
     log_->warn("room {}: tick {} came {} ms late; the clock moved, nothing is made up for", settings_.name,
                game_->tick(), std::chrono::duration_cast<std::chrono::milliseconds>(late).count());
   tick(now);
-  working_.work.add(Clock::now() - now);
+  working_.work.add(timekeeper_.now() - now);
   ++working_.ticks;
   if (working_.ticks % game_->settings().tick_hz == 0) post_figures();
   if (settings_.tick_limit && game_->tick() >= *settings_.tick_limit) {
     state_ = State::kStopped;
     return ended_();
   }
-  arm_timer();
+  await_tick();
 }
 
 void Room::tick(Time now) {

@@ -7,9 +7,7 @@
 
 #include <spdlog/logger.h>
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
-#include <boost/system/error_code.hpp>
 
 #include <cstdint>
 #include <functional>
@@ -24,6 +22,7 @@
 #include "server/room/members.h"
 #include "server/room/start.h"
 #include "server/room/tick_clock.h"
+#include "server/room/timekeeper.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
 
@@ -32,10 +31,11 @@ namespace woodlouse::server {
 /// What it has posted keeps it until it ran.
 class Room : public std::enable_shared_from_this<Room> {
  public:
-  /// ticks: where the room's strand lives; io: where its broadcaster lives. Both outlive it.
+  /// ticks: where the room's strand lives; io: where its broadcaster lives; timekeeper: whose time its ticks
+  /// keep. All outlive it.
   static std::shared_ptr<Room> make(boost::asio::io_context& ticks, boost::asio::io_context& io,
                                     RoomSettings settings, Start start, Watchers watchers,
-                                    std::shared_ptr<spdlog::logger> log);
+                                    Timekeeper& timekeeper, std::shared_ptr<spdlog::logger> log);
 
   // Any thread. Calls of one thread take effect in their order.
 
@@ -58,15 +58,15 @@ class Room : public std::enable_shared_from_this<Room> {
   using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
 
   Room(boost::asio::io_context& ticks, boost::asio::io_context& io, RoomSettings settings, Start start,
-       Watchers watchers, std::shared_ptr<spdlog::logger> log);
+       Watchers watchers, Timekeeper& timekeeper, std::shared_ptr<spdlog::logger> log);
 
   void join(SessionId session, std::shared_ptr<Subscriber> subscriber, protocol::Join join);
   void submit(SessionId session, protocol::ClientMessage message, Time arrived);
   void leave(SessionId session);
 
   void begin_watching();
-  void arm_timer();
-  void on_timer(const boost::system::error_code& error);
+  void await_tick();
+  void on_tick_due();
   void tick(Time now);
   void finish_watching(const std::string& reason, std::function<void()> stopped);
   void post_figures();
@@ -74,7 +74,8 @@ class Room : public std::enable_shared_from_this<Room> {
   RoomSettings settings_;
   std::shared_ptr<spdlog::logger> log_;
   Strand strand_;
-  boost::asio::steady_timer timer_;
+  Timekeeper& timekeeper_;
+  std::unique_ptr<Alarm> alarm_;  ///< on the strand
   std::unique_ptr<match::Match> game_;
   Watchers watchers_;
   Members members_;

@@ -7,7 +7,8 @@
 
 using namespace woodlouse::server;
 using std::chrono::seconds;
-using Change = PaceKeeper::Change;
+using Change = SendRate::Change;
+using Pace = SendRate::Pace;
 
 namespace {
 
@@ -21,15 +22,15 @@ struct Seen {
 
 /// 20 frames a second; `replaced(pace, second)` says whether a frame found the one before unsent.
 std::vector<Seen> play(double seconds_long, const std::function<bool(Pace, double)>& replaced) {
-  PaceKeeper keeper(kStart);
+  SendRate rate(kStart);
   std::vector<Seen> changes;
   for (std::uint64_t index = 0; static_cast<double>(index) < 20.0 * seconds_long; ++index) {
     const FrameKind kind = index % 20 == 0 ? FrameKind::kKey : FrameKind::kDelta;
-    if (!keeper.wants({kind, 3 * index, 0, index, nullptr}, 1)) continue;
+    if (!rate.wants({kind, 3 * index, 0, index, nullptr}, 1)) continue;
     const double second = static_cast<double>(index) / 20.0;
     const Time now = kStart + std::chrono::milliseconds(50 * index);
-    const Change change = keeper.on_frame(now, replaced(keeper.pace(), second));
-    if (change != Change::kNone) changes.push_back({second, change, keeper.pace()});
+    const Change change = rate.on_frame(now, replaced(rate.pace(), second));
+    if (change != Change::kNone) changes.push_back({second, change, rate.pace()});
     if (change == Change::kGiveUp) break;
   }
   return changes;
@@ -82,15 +83,15 @@ TEST_CASE("a client that fails again after each restoring is tried ever less oft
 }
 
 TEST_CASE("half rate is every other of the client's own frames, keys come at every pace") {
-  PaceKeeper keeper(kStart);
+  SendRate rate(kStart);
   const auto delta = [](std::uint64_t index) { return Frame{FrameKind::kDelta, 0, 0, index, nullptr}; };
-  CHECK(keeper.wants(delta(2), 2));
-  CHECK_FALSE(keeper.wants(delta(3), 2));
+  CHECK(rate.wants(delta(2), 2));
+  CHECK_FALSE(rate.wants(delta(3), 2));
   Time now = kStart;
-  while (keeper.pace() == Pace::kFull) keeper.on_frame(now += seconds(1), true);
-  CHECK_FALSE(keeper.wants(delta(2), 2));
-  CHECK(keeper.wants(delta(4), 2));
-  while (keeper.pace() == Pace::kHalf) keeper.on_frame(now += seconds(1), true);
-  CHECK_FALSE(keeper.wants(delta(4), 2));
-  CHECK(keeper.wants({FrameKind::kKey, 0, 0, 20, nullptr}, 2));
+  while (rate.pace() == Pace::kFull) rate.on_frame(now += seconds(1), true);
+  CHECK_FALSE(rate.wants(delta(2), 2));
+  CHECK(rate.wants(delta(4), 2));
+  while (rate.pace() == Pace::kHalf) rate.on_frame(now += seconds(1), true);
+  CHECK_FALSE(rate.wants(delta(4), 2));
+  CHECK(rate.wants({FrameKind::kKey, 0, 0, 20, nullptr}, 2));
 }

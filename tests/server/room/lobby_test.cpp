@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "server/room/steady_timekeeper.h"
 #include "shared/map/map_file.h"
 
 using namespace woodlouse;
@@ -42,7 +43,7 @@ struct House {
     settings.name = name;
     Start start{
         *map, std::make_unique<match::Match>(*map, match::MatchSettings{60, 0}), "volcano.json", {}, {}};
-    return Room::make(ticks, io, std::move(settings), std::move(start), {}, log);
+    return Room::make(ticks, io, std::move(settings), std::move(start), {}, timekeeper, log);
   }
   std::shared_ptr<Guest> join(Door& door, SessionId session) {
     auto guest = std::make_shared<Guest>();
@@ -64,6 +65,7 @@ struct House {
 
   boost::asio::io_context io{1};
   boost::asio::io_context ticks{1};
+  SteadyTimekeeper timekeeper;
   std::shared_ptr<spdlog::logger> log =
       std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::null_sink_mt>());
   Lobby lobby;

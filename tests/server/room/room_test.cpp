@@ -2,91 +2,14 @@
 
 #include <catch2/catch.hpp>
 
-#include <spdlog/sinks/null_sink.h>
-
+#include <string>
 #include <vector>
 
-#include "shared/map/map_file.h"
+#include "tests/server/room/house.h"
 
 using namespace woodlouse;
 using namespace woodlouse::server;
-
-namespace {
-
-/// Keeps what a room says to it.
-class Guest final : public Subscriber {
- public:
-  void deliver(Line line) override { lines.push_back(*line); }
-  void answer(protocol::ServerMessage message) override { answers.push_back(std::move(message)); }
-  void show(const Frame& frame) override { frames.push_back(frame); }
-  void show_again(const Frame& frame) override { frames.push_back(frame); }
-  void deliver_map(Line line) override { maps.push_back(*line); }
-  void refuse_join(protocol::ErrorMessage error) override { refusals.push_back(std::move(error)); }
-  void welcome(protocol::Welcome message, std::uint32_t every) override {
-    welcomes.push_back(std::move(message));
-    divisor = every;
-  }
-  void end(protocol::Bye bye) override { byes.push_back(std::move(bye)); }
-
-  std::vector<std::string> lines, maps;
-  std::vector<protocol::ServerMessage> answers;
-  std::vector<Frame> frames;
-  std::vector<protocol::ErrorMessage> refusals;
-  std::vector<protocol::Welcome> welcomes;
-  std::vector<protocol::Bye> byes;
-  std::uint32_t divisor = 0;
-};
-
-/// A room whose timer has not begun: what it does between two ticks.
-struct House {
-  explicit House(RoomSettings settings, Start start = open())
-      : room(Room::make(ticks, io, std::move(settings), std::move(start), {}, log)), door(room->door()) {}
-
-  static std::shared_ptr<const map::Map> load() {
-    auto map = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/volcano.json");
-    REQUIRE(map);
-    return *map;
-  }
-
-  static Start open() {
-    const auto map = load();
-    return {
-        map, std::make_unique<match::Match>(map, match::MatchSettings{60, 0}), "maps/volcano.json", {}, {}};
-  }
-
-  std::shared_ptr<Guest> join(SessionId session, protocol::Join join = {}) {
-    auto guest = std::make_shared<Guest>();
-    if (join.fields.empty()) join.fields = protocol::default_columns();
-    if (join.name.empty()) join.name = "guest" + std::to_string(session);
-    door->join(session, guest, join);
-    settle();
-    return guest;
-  }
-
-  void settle() {
-    while (ticks.poll() + io.poll() > 0) {
-      ticks.restart();
-      io.restart();
-    }
-    ticks.restart();
-    io.restart();
-  }
-
-  boost::asio::io_context ticks{1}, io{1};
-  std::shared_ptr<spdlog::logger> log =
-      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::null_sink_mt>());
-  std::shared_ptr<Room> room;
-  std::shared_ptr<Door> door;
-};
-
-RoomSettings settings(std::uint32_t per_room) {
-  RoomSettings result;
-  result.name = "volcano";
-  result.per_room = per_room;
-  return result;
-}
-
-}  // namespace
+using namespace woodlouse::server::test;
 
 TEST_CASE("a guest is welcomed with who is there, then shown a key, then hears of its own coming") {
   House house(settings(8));
@@ -195,29 +118,6 @@ TEST_CASE("a room that stops says bye to everyone and takes nobody more") {
   CHECK(house.join(2)->refusals.size() == 1);
 }
 
-namespace {
-
-/// A game that goes on after two players pushed: mara by her input 17, the other one, a bot, by none.
-Start went_on() {
-  Start start = House::open();
-  const match::PlayerId mara = start.match->join();
-  const match::PlayerId rolly = start.match->join();
-  start.match->file({mara, 17, {state::ThrustKind::kAlongHeading, {0.5, 0.0}}, state::kHeld, 0});
-  start.match->advance();
-  start.unclaimed.push_back({mara, "mara", protocol::Role::kPlayer, 18, Nobody{}});
-  start.unclaimed.push_back({rolly, "Rolly", protocol::Role::kBot, 0, Nobody{}});
-  return start;
-}
-
-protocol::Join named(const std::string& name, protocol::Role role = protocol::Role::kPlayer) {
-  protocol::Join join;
-  join.name = name;
-  join.role = role;
-  return join;
-}
-
-}  // namespace
-
 TEST_CASE(
     "who is only in the recording is named to guests, and keeps a louse until somebody takes it over by "
     "name") {
@@ -244,15 +144,15 @@ TEST_CASE("whoever took a louse over counts its inputs from the start and is ans
   protocol::Input input;
   input.seq = 0;
   input.thrust.value = {1.0, 0.0};
-  house.door->submit(1, input, Clock::now());
+  house.door->submit(1, input, house.timekeeper.now());
   input.seq = 0;
-  house.door->submit(1, input, Clock::now());
+  house.door->submit(1, input, house.timekeeper.now());
   house.settle();
   REQUIRE(mara->answers.size() == 2);  // of the second one: an error and an ack, dropped
   CHECK(std::get<protocol::ErrorMessage>(mara->answers[0]).code == "stale_seq");
   CHECK(std::get<protocol::Ack>(mara->answers[1]).dropped);
   house.room->start([] {});
-  for (int turn = 0; turn < 1000 && mara->answers.size() < 3; ++turn) house.ticks.run_one();
+  house.tick();
   REQUIRE(mara->answers.size() == 3);
   const auto& ack = std::get<protocol::Ack>(mara->answers[2]);
   CHECK(ack.seq == 0);
@@ -269,8 +169,7 @@ TEST_CASE("the house's bots take over the lice of bots of their name") {
   with_bots.bots = 2;
   House house(with_bots, std::move(start));
   house.room->start([] {});
-  for (int turn = 0; turn < 30; ++turn) house.ticks.run_one();
-  house.settle();
+  house.tick(30);
   const auto eve = house.join(1, named("eve", protocol::Role::kSpectator));
   REQUIRE(eve->welcomes.size() == 1);
   const auto& players = eve->welcomes[0].players;
@@ -279,20 +178,4 @@ TEST_CASE("the house's bots take over the lice of bots of their name") {
   CHECK(players[1].name == name);
   CHECK(players[1].id == 2);
   CHECK(players[2].id == 3);
-}
-
-TEST_CASE("a room's figures may be read while it runs, and are whole once it has stopped") {
-  House house(settings(8));
-  CHECK(house.room->figures()->ticks == 0);
-  house.room->start([] {});
-  // A second of ticks, and the first of the next.
-  for (int turn = 0; turn < 2000 && house.room->figures()->ticks == 0; ++turn) house.ticks.run_one();
-  const auto first = house.room->figures();
-  CHECK(first->ticks == 60);
-  CHECK(first->lateness.count() == 60);
-  for (int turn = 0; turn < 5; ++turn) house.ticks.run_one();
-  CHECK(first->ticks == 60);  // a snapshot
-  house.room->stop({"shutdown", "the server stops", false}, "test", [] {});
-  house.settle();
-  CHECK(house.room->figures()->ticks > 60);
 }

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "server/room/room.h"
+#include "server/room/steady_timekeeper.h"
 #include "shared/map/map_file.h"
 #include "tests/support/big_map_files.h"
 
@@ -99,9 +100,10 @@ TEST_CASE("a room whose map can't be read any more says so once, loudly, counts 
   settings.bots = 3;
   settings.tick_limit = 2500;
   Start start{map, std::make_unique<match::Match>(map, match::MatchSettings{1000, 0}), "hills.flt", {}, {}};
+  SteadyTimekeeper timekeeper;
   Watchers watchers;
   watchers.push_back(GroundAhead::make("alps", *map, "hills.flt", worker, log));
-  const auto room = Room::make(ticks, io, settings, std::move(start), std::move(watchers), log);
+  const auto room = Room::make(ticks, io, settings, std::move(start), std::move(watchers), timekeeper, log);
   room->start([&] { room->stop({}, "done", [&] { ticks.stop(); }); });
   ticks.run_for(std::chrono::seconds(60));
   worker.join();

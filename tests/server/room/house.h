@@ -1,0 +1,126 @@
+// A room without a port, whose time a test moves, and guests that keep what they are told.
+#pragma once
+
+#include <catch2/catch.hpp>
+
+#include <spdlog/sinks/null_sink.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "server/room/room.h"
+#include "shared/map/map_file.h"
+#include "tests/server/room/manual_timekeeper.h"
+
+namespace woodlouse::server::test {
+
+/// Keeps what a room says to it.
+class Guest final : public Subscriber {
+ public:
+  void deliver(Line line) override { lines.push_back(*line); }
+  void answer(protocol::ServerMessage message) override { answers.push_back(std::move(message)); }
+  void show(const Frame& frame) override { frames.push_back(frame); }
+  void show_again(const Frame& frame) override { frames.push_back(frame); }
+  void deliver_map(Line line) override { maps.push_back(*line); }
+  void refuse_join(protocol::ErrorMessage error) override { refusals.push_back(std::move(error)); }
+  void welcome(protocol::Welcome message, std::uint32_t every) override {
+    welcomes.push_back(std::move(message));
+    divisor = every;
+  }
+  void end(protocol::Bye bye) override { byes.push_back(std::move(bye)); }
+
+  std::vector<std::string> lines, maps;
+  std::vector<protocol::ServerMessage> answers;
+  std::vector<Frame> frames;
+  std::vector<protocol::ErrorMessage> refusals;
+  std::vector<protocol::Welcome> welcomes;
+  std::vector<protocol::Bye> byes;
+  std::uint32_t divisor = 0;
+};
+
+/// A room whose timer has not begun: what it does between two ticks.
+struct House {
+  explicit House(RoomSettings settings, Start start = open(), Watchers watchers = {})
+      : room(Room::make(ticks, io, std::move(settings), std::move(start), std::move(watchers), timekeeper,
+                        log)),
+        door(room->door()) {}
+
+  static std::shared_ptr<const map::Map> load() {
+    auto map = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/volcano.json");
+    REQUIRE(map);
+    return *map;
+  }
+
+  static Start open() {
+    const auto map = load();
+    return {
+        map, std::make_unique<match::Match>(map, match::MatchSettings{60, 0}), "maps/volcano.json", {}, {}};
+  }
+
+  std::shared_ptr<Guest> join(SessionId session, protocol::Join join = {}) {
+    auto guest = std::make_shared<Guest>();
+    if (join.fields.empty()) join.fields = protocol::default_columns();
+    if (join.name.empty()) join.name = "guest" + std::to_string(session);
+    door->join(session, guest, join);
+    settle();
+    return guest;
+  }
+
+  void settle() {
+    while (ticks.poll() + io.poll() > 0) {
+      ticks.restart();
+      io.restart();
+    }
+    ticks.restart();
+    io.restart();
+  }
+
+  /// So many ticks of 60 a second; the first one after start() is due at once.
+  void tick(int times = 1) {
+    for (int k = 0; k < times; ++k) {
+      settle();
+      if (std::exchange(ticked_, true)) timekeeper.advance(std::chrono::nanoseconds(16'666'667));
+      settle();
+    }
+  }
+
+  boost::asio::io_context ticks{1}, io{1};
+  ManualTimekeeper timekeeper;
+  std::shared_ptr<spdlog::logger> log =
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::null_sink_mt>());
+  std::shared_ptr<Room> room;
+  std::shared_ptr<Door> door;
+
+ private:
+  bool ticked_ = false;
+};
+
+inline RoomSettings settings(std::uint32_t per_room) {
+  RoomSettings result;
+  result.name = "volcano";
+  result.per_room = per_room;
+  return result;
+}
+
+/// A game that goes on after two players pushed: mara by her input 17, the other one, a bot, by none.
+inline Start went_on() {
+  Start start = House::open();
+  const match::PlayerId mara = start.match->join();
+  const match::PlayerId rolly = start.match->join();
+  start.match->file({mara, 17, {state::ThrustKind::kAlongHeading, {0.5, 0.0}}, state::kHeld, 0});
+  start.match->advance();
+  start.unclaimed.push_back({mara, "mara", protocol::Role::kPlayer, 18, Nobody{}});
+  start.unclaimed.push_back({rolly, "Rolly", protocol::Role::kBot, 0, Nobody{}});
+  return start;
+}
+
+inline protocol::Join named(const std::string& name, protocol::Role role = protocol::Role::kPlayer) {
+  protocol::Join join;
+  join.name = name;
+  join.role = role;
+  return join;
+}
+
+}  // namespace woodlouse::server::test

@@ -1,0 +1,117 @@
+#include "server/room/room.h"
+
+#include <catch2/catch.hpp>
+
+#include <string>
+#include <vector>
+
+#include "tests/server/room/house.h"
+
+using namespace woodlouse;
+using namespace woodlouse::server;
+using namespace woodlouse::server::test;
+
+TEST_CASE("a room's figures may be read while it runs, and are whole once it has stopped") {
+  House house(settings(8));
+  CHECK(house.room->figures()->ticks == 0);
+  house.room->start([] {});
+  house.tick(59);
+  CHECK(house.room->figures()->ticks == 0);
+  house.tick();
+  const auto first = house.room->figures();
+  CHECK(first->ticks == 60);
+  CHECK(first->lateness.count() == 60);
+  house.tick(5);
+  CHECK(first->ticks == 60);  // a snapshot
+  house.room->stop({"shutdown", "the server stops", false}, "test", [] {});
+  house.settle();
+  CHECK(house.room->figures()->ticks == 65);
+}
+
+TEST_CASE("ticks keep an absolute schedule: a little late is made up for, much is not") {
+  House house(settings(8));
+  house.room->start([] {});
+  house.tick(10);
+  house.timekeeper.advance(std::chrono::milliseconds(50));  // three ticks at once
+  house.settle();
+  house.timekeeper.advance(std::chrono::seconds(2));
+  house.settle();
+  house.room->stop({"shutdown", "the server stops", false}, "test", [] {});
+  house.settle();
+  const auto figures = house.room->figures();
+  CHECK(figures->clock_moves == 1);
+  CHECK(figures->ticks == 10 + 3 + 1);
+  CHECK(figures->lateness.max() >= std::chrono::seconds(1));
+}
+
+TEST_CASE("a room ends at its tick limit, once, and ticks no more") {
+  RoomSettings limited = settings(8);
+  limited.tick_limit = 3;
+  House house(limited);
+  int ended = 0;
+  house.room->start([&] { ++ended; });
+  house.tick(10);
+  CHECK(ended == 1);
+  house.room->stop({"shutdown", "the game is over", false}, "test", [] {});
+  house.settle();
+  CHECK(house.room->figures()->ticks == 3);
+}
+
+namespace {
+
+/// Writes down what it is told, in order.
+class Witness final : public TickWatcher {
+ public:
+  explicit Witness(std::vector<std::string>& seen) : seen_(seen) {}
+  void begin(const match::Match&, Announce announce) override {
+    announce_ = std::move(announce);
+    seen_.push_back("begin");
+  }
+  void player(match::PlayerId player, const std::string& name, protocol::Role) override {
+    seen_.push_back("player " + std::to_string(player) + " " + name);
+  }
+  void chat(std::uint64_t tick, match::PlayerId, const std::string&, const std::string& text) override {
+    seen_.push_back("chat " + std::to_string(tick) + " " + text);
+    announce_({"heard", text});
+  }
+  void step(const match::StepRecord& record, std::span<const InputMargin> margins,
+            const match::Match&) override {
+    seen_.push_back("step " + std::to_string(record.tick) + " margins " + std::to_string(margins.size()));
+  }
+  void rest(const match::Match& game) override { seen_.push_back("rest " + std::to_string(game.tick())); }
+  void finish(const std::string& reason, std::function<void()> done) override {
+    seen_.push_back("finish " + reason);
+    done();
+  }
+
+ private:
+  std::vector<std::string>& seen_;
+  Announce announce_;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "a watcher sees who is there, then each step and what was said, and the end; what it announces is "
+    "heard") {
+  std::vector<std::string> seen;
+  Watchers watchers;
+  watchers.push_back(std::make_unique<Witness>(seen));
+  House house(settings(8), went_on(), std::move(watchers));
+  house.room->start([] {});
+  house.settle();
+  const auto eve = house.join(1, named("eve"));
+  protocol::Input input;
+  input.thrust.value = {1.0, 0.0};
+  house.door->submit(1, input, house.timekeeper.now());
+  house.door->submit(1, protocol::Chat{"hi"}, house.timekeeper.now());
+  house.settle();
+  REQUIRE(eve->answers.size() == 1);
+  CHECK(std::get<protocol::Notice>(eve->answers[0]).text == "hi");
+  house.tick();
+  house.room->stop({"shutdown", "the server stops", false}, "test", [] {});
+  house.settle();
+  CHECK(seen == std::vector<std::string>{"player 1 mara", "player 2 Rolly", "begin", "step 1 margins 0",
+                                         "rest 2", "player 3 eve", "chat 2 hi", "step 2 margins 1", "rest 3",
+                                         "finish test"});
+}
