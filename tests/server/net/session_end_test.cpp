@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include <string>
+#include <utility>
 
 #include "server/net/session.h"
 #include "tests/server/net/session_stage.h"
@@ -9,7 +10,6 @@
 using namespace woodlouse;
 using namespace woodlouse::server;
 using std::chrono::milliseconds;
-using std::chrono::nanoseconds;
 using std::chrono::seconds;
 
 namespace {
@@ -237,13 +237,39 @@ TEST_CASE("nothing is written and nothing is passed on after the close") {
   stage.run();
   const std::size_t writes = stage.far->writes;
   say_everything(*member);
+  member->deliver(as_line(std::string(stage.limits.outbox_bytes + 1, 'x')));
   member->end({"shutdown", "the server stops", false});
   stage.send(kPing);
   stage.pass(seconds(100));
   CHECK(stage.far->writes == writes);
+  CHECK(stage.log.str().empty());
   CHECK_FALSE(stage.has_got("late"));
   CHECK_FALSE(stage.has_got("\"bye\""));
   CHECK(stage.closed == 1);
+}
+
+TEST_CASE("frames that come after the close are judged by nobody") {
+  Stage stage;
+  stage.start_joined();
+  const auto member = stage.volcano->member;
+  stage.far->hang_up();
+  stage.run();
+  for (std::uint64_t index = 0; index < 400; ++index) {
+    member->show({FrameKind::kKey, index, index, index, as_line("late key\n")});
+    stage.pass(milliseconds(50));
+  }
+  CHECK(stage.log.str().empty());
+}
+
+TEST_CASE("who was refused leaves no room") {
+  Stage stage;
+  stage.start_joined();
+  std::exchange(stage.volcano->member, nullptr)->refuse_join({"room_full", "full", false, {}});
+  stage.run();
+  stage.far->hang_up();
+  stage.run();
+  CHECK(stage.closed == 1);
+  CHECK(stage.volcano->left.empty());
 }
 
 TEST_CASE("whichever call of the connection fails, the session closes once and leaves its room once") {
