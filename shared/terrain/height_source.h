@@ -1,6 +1,6 @@
 // Where a big map's heights come from: a grid that is read piece by piece, when a surface needs it.
 //
-// Implemented by GridHeights over a grid in memory, and by whoever reads files (map/flt_grid.h). Called only
+// Implemented by GridHeights over a grid in memory, and by whoever reads files (map/flt_grid_file.h). Called only
 // when a tile is built, never per evaluation, so the indirect call costs nothing.
 #pragma once
 
