@@ -146,7 +146,7 @@ struct Stage {
   std::shared_ptr<FakeDoor> volcano = std::make_shared<FakeDoor>("volcano");
   std::shared_ptr<FakeDoor> meadow = std::make_shared<FakeDoor>("meadow");
   FakeDirectory directory{{volcano, meadow}};
-  SessionEnvironment environment{directory, limits, traffic, timekeeper, "woodlouse test", make_log(log)};
+  SessionEnvironment environment{directory, limits, traffic, timekeeper, "woodlouse a.b.c", make_log(log)};
   std::shared_ptr<FarEnd> far = std::make_shared<FarEnd>(io.get_executor());
   std::shared_ptr<Session> session =
       std::make_shared<Session>(kId, std::make_unique<MemoryWire>(far), environment);

@@ -6,7 +6,6 @@
 #include <string>
 #include <variant>
 
-#include "server/room/version.h"
 #include "shared/core/stable_hash.h"
 #include "shared/match/match.h"
 #include "shared/protocol/codes.h"
@@ -43,7 +42,7 @@ TEST_CASE("a session says hello first, and all of it") {
   stage.start();
   protocol::Hello hello;
   hello.behavior = match::kBehavior;
-  hello.server = kServerName;
+  hello.server = "woodlouse a.b.c";
   hello.session = core::to_hex(Stage::kId);
   hello.rooms = {"volcano", "meadow"};
   hello.features = {"quantized", "exact", "fields", "delta", "get_map"};
