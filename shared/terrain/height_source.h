@@ -1,7 +1,7 @@
 // Where a big map's heights come from: a grid that is read piece by piece, when a surface needs it.
 //
-// Implemented by GridHeights over a grid in memory, and by whoever reads files (map/flt_grid_file.h). Called only
-// when a tile is built, never per evaluation, so the indirect call costs nothing.
+// Implemented by GridHeights over a grid in memory, and by whoever reads files (map/flt_grid_file.h). Called
+// only when a tile is built, never per evaluation, so the indirect call costs nothing.
 #pragma once
 
 #include <cassert>

@@ -10,10 +10,13 @@ using namespace woodlouse::json;
 
 namespace {
 
+/// A value, and the text that it is read from.
 struct Parsed {
-  explicit Parsed(const std::string& text)
-      : document(parse_file("{\"v\":" + text + "}", "t", {8, 100}).value()),
+  explicit Parsed(const std::string& of)
+      : text("{\"v\":" + of + "}"),
+        document(parse_file(text, "t", {8, 100}).value()),
         value(*document.root().find("v")) {}
+  std::string text;
   Document document;
   Value value;
 };

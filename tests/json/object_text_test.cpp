@@ -23,7 +23,7 @@ TEST_CASE(
   text.end();
   CHECK(
       out ==
-      R"(before {"name":"a \"b\"\n","count":-3,"half":0.5,"yes":true,"hash":"0000000000000abc","place":[1.0,-0.0],)"
+      R"(before {"name":"a \"b\"\n","count":-3,"half":0.5,"yes":true,"hash":"0000000000000abc","place":[1,-0.0],)"
       R"("given":[1,{}],"list":[1,2],"none":[],"inner":{"deep":1,"er":"x"},"empty":{},"rows":[{"v":7},{"v":8}]})");
   CHECK(nlohmann::json::accept(out.substr(7)));
 }

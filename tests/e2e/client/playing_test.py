@@ -116,13 +116,8 @@ class Playing(InATerminal):
         wait_for("the shell's screen", lambda: self.terminal.state() == "0 1")
 
     def test_colour_and_half_blocks_draw_too(self):
-        global LOOK
-        before, LOOK = LOOK, "--color 256 --glyphs half"
-        try:
-            self.start()
-            wait_for("half blocks", lambda: "\N{LOWER HALF BLOCK}" in self.terminal.screen())
-        finally:
-            LOOK = before
+        self.start(look="--color 256 --glyphs half")
+        wait_for("half blocks", lambda: "\N{LOWER HALF BLOCK}" in self.terminal.screen())
 
 
     def test_the_introduction_takes_a_question_mark_for_help_and_q_for_leaving(self):

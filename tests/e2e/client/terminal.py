@@ -116,11 +116,11 @@ class InATerminal(unittest.TestCase):
         self.terminal = Terminal()
         self.addCleanup(self.terminal.close)
 
-    def start(self, arguments="--name mara"):
+    def start(self, arguments="--name mara", look=LOOK):
         """Starts the client with a server of its own; waits until it plays. Returns (client, server) pids.
         The Space that ends the introduction is nothing to the game."""
         self.before = self.terminal.stty()
-        self.terminal.run(f"{BIN}/woodlouse {LOOK} {arguments}")
+        self.terminal.run(f"{BIN}/woodlouse {look} {arguments}")
         self.terminal.shows(r"Any key starts")
         self.terminal.keys("Space")
         self.terminal.shows("(YOU|ROOM) [-\N{BOX DRAWINGS LIGHT HORIZONTAL}]")

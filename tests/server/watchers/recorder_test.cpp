@@ -35,7 +35,8 @@ std::unique_ptr<match::Match> new_match() {
 replay::Header header() { return replay::make_header(*new_match(), "test", "maps/volcano.json"); }
 
 /// Plays a short game into a recording, as a room does. What it announces is kept.
-std::vector<protocol::Notice> play(Recorder& recorder, boost::asio::thread_pool& disk, int ticks) {
+std::vector<protocol::Notice> play(Recorder& recorder, boost::asio::thread_pool& disk, int ticks,
+                                   int chats = 1) {
   std::vector<protocol::Notice> announced;
   const auto game = new_match();
   match::Match& match = *game;
@@ -50,6 +51,7 @@ std::vector<protocol::Notice> play(Recorder& recorder, boost::asio::thread_pool&
     const InputMargin margin{player, static_cast<std::uint32_t>(tick), 1000};
     recorder.step(step, {&margin, 1}, match);
   }
+  for (int k = 1; k < chats; ++k) recorder.chat(match.tick(), player, "mara", std::string(4000, 'x'));
   recorder.chat(match.tick(), player, "mara", "over \"and\" out");
   recorder.finish("test over", [] {});
   disk.join();
@@ -142,8 +144,8 @@ TEST_CASE("a recording whose sink fails at any call is given up once, and what w
     const bool fails_to_close = failing_write == 0;
     Recorder recorder(std::make_unique<FailingSink>(kept, failing_write, fails_to_close), "game.ndjson",
                       header(), disk, log.logger);
-    // Long enough to be written in two parts at least.
-    const std::vector<protocol::Notice> told = play(recorder, disk, 6000);
+    // So much that it is written in several parts.
+    const std::vector<protocol::Notice> told = play(recorder, disk, 300, 200);
     INFO("write " << failing_write);
     REQUIRE(told.size() == 1);
     CHECK_THAT(told[0].text, Catch::Contains("the disk is gone"));
