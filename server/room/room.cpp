@@ -125,8 +125,10 @@ void Room::leave(SessionId session) {
 }
 
 void Room::await_tick() {
-  alarm_->set(clock_->deadline(), [self = shared_from_this(), this](bool cancelled) {
-    if (!cancelled && state_ == State::kRunning) on_tick_due();
+  // Weakly: the room owns the alarm.
+  alarm_->set(clock_->deadline(), [room = weak_from_this()](bool cancelled) {
+    const auto self = room.lock();
+    if (self && !cancelled && self->state_ == State::kRunning) self->on_tick_due();
   });
 }
 

@@ -1,4 +1,4 @@
-"""Fails on a folder of more than 25 nouns and on a source file of more than 350 lines.
+"""Fails on a folder of more than 25 nouns, on a source file of more than 350 lines, and on a test case that would not run.
 
 Usage: rooms_test.py SOURCE_DIR
 
@@ -7,12 +7,16 @@ themselves, without those in them.
 """
 import collections
 import pathlib
+import re
 import sys
 
 FOLDERS = ("shared", "server", "client", "bench", "tests", "bots")
 ENDINGS = (".h", ".cpp", ".py")
 MOST_NOUNS = 25
 MOST_LINES = 350
+# Of a test case, over several lines too. CTest keeps names in a list, whose separator is the semicolon: a name with one is
+# asked for by its first half, and nothing runs.
+TEST_NAME = re.compile(r'TEST_CASE\(\s*((?:"(?:[^"\\]|\\.)*"\s*)+)')
 
 
 def sources(root):
@@ -27,7 +31,10 @@ def main(root):
     faults = []
     for path in sources(root):
         nouns[path.parent].add(path.stem)
-        lines = len((root / path).read_text().splitlines())
+        text = (root / path).read_text()
+        lines = len(text.splitlines())
+        faults += [f"{path}: a semicolon in the name of {name[:40]}...: CTest would not run it"
+                   for name in TEST_NAME.findall(text) if ";" in name]
         if lines > MOST_LINES:
             faults.append(f"{path}: {lines} lines, at most {MOST_LINES}: split it by what it does")
     for folder, names in sorted(nouns.items()):

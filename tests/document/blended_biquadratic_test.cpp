@@ -30,7 +30,7 @@ TEST_CASE("the blended biquadratic equals the document's, chapter 4.3, to 1e-12,
 }
 
 TEST_CASE(
-    "the consistent gradient is the derivative of the blended height, up to the rim; the document's is not") {
+    "the consistent gradient is the derivative of the blended height, up to the rim, the document's is not") {
   const HeightGrid grid = tests::random_grid(12, 9, 5);
   const Blended surface(grid);
   const BlendedDocument document(grid);

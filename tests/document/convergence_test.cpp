@@ -82,7 +82,7 @@ void check_orders(Interpolation interpolation, double half_side, double of_z, do
 }  // namespace
 
 TEST_CASE(
-    "splines converge with order 4 in the height and 3 in the gradient; natural ends lose two of each at the "
+    "splines converge with order 4 in the height and 3 in the gradient, natural ends lose two of each at the "
     "rim") {
   check_orders(Interpolation::kNotAKnot, 1.0, 4.0, 3.0);
   check_orders(Interpolation::kBSpline, 1.0, 4.0, 3.0);

@@ -53,7 +53,7 @@ TEST_CASE("a louse of random fields gives the same fields back, bit for bit") {
   }
 }
 
-TEST_CASE("names are distinct and found; quanta are powers of two") {
+TEST_CASE("names are distinct and found, quanta are powers of two") {
   std::set<std::string_view> names;
   for (const LouseField& field : kLouseFields) {
     CHECK(names.insert(field.name).second);

@@ -249,7 +249,7 @@ TEST_CASE("a cell's polynomial goes on where a neighbour's begins, and is the sa
 }
 
 TEST_CASE(
-    "a map of 10,001 x 10,001 knots opens without reading it; only what is visited is read, within 200 MB") {
+    "a map of 10,001 x 10,001 knots opens without reading it, only what is visited is read, within 200 MB") {
   const auto source = std::make_shared<CountedWaves>();
   const TiledBSpline surface{std::shared_ptr<const HeightSource>(source)};
   CHECK(source->heights_read == 0);

@@ -160,7 +160,7 @@ TEST_CASE("three lines running that are no JSON end the session, and the rest of
   CHECK(stage.volcano->joins.empty());
 }
 
-TEST_CASE("a line past the rate is refused with the time to wait; who waits it out is heard again") {
+TEST_CASE("a line past the rate is refused with the time to wait, who waits it out is heard again") {
   Stage stage(limits_of_rate(10, 2));
   stage.start();
   stage.send(std::string(kPing) + std::string(kPing) + std::string(kPing));
@@ -185,7 +185,7 @@ TEST_CASE("what goes out to a room weighs ten lines, and who keeps flooding is e
         text_of(protocol::Bye{"flood", "messages kept coming long after rate_limited", false}));
 }
 
-TEST_CASE("one write runs at a time; what is said meanwhile goes out together in its order") {
+TEST_CASE("one write runs at a time, what is said meanwhile goes out together in its order") {
   Stage stage;
   stage.start_joined();
   stage.far->holds_writes = true;

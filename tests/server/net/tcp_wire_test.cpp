@@ -84,7 +84,7 @@ TEST_CASE("a wire over TCP reads what there is, then the other side's end") {
   CHECK(read.error == asio::error::eof);
 }
 
-TEST_CASE("closing a wire over TCP ends its read; afterwards every call fails") {
+TEST_CASE("closing a wire over TCP ends its read, afterwards every call fails") {
   Pair pair;
   std::array<char, 100> into{};
   Outcome read;

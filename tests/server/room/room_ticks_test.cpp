@@ -92,14 +92,14 @@ class Witness final : public TickWatcher {
 }  // namespace
 
 TEST_CASE(
-    "a watcher sees who is there, then each step and what was said, and the end; what it announces is "
+    "a watcher sees who is there, then each step and what was said, and the end, what it announces is "
     "heard") {
   std::vector<std::string> seen;
   Watchers watchers;
   watchers.push_back(std::make_unique<Witness>(seen));
   House house(settings(8), went_on(), std::move(watchers));
   house.room->start([] {});
-  house.settle();
+  house.tick();
   const auto eve = house.join(1, named("eve"));
   protocol::Input input;
   input.thrust.value = {1.0, 0.0};
