@@ -47,7 +47,7 @@ def main(root):
         if not said or not measured:
             faults.append(f"{document}: no figure for /{sentence}/" if not said else f"{table}: no row /{row}/")
             continue
-        for quoted, exact in zip(said.groups(), measured.groups()):
+        for quoted, exact in zip(said.groups(), measured.groups(), strict=True):
             if abs(float(quoted) - float(exact)) > rounding(quoted):
                 faults.append(f"{document} says {quoted} ({said.group(0)}), bench/results/{table} says {exact}")
     linked = re.findall(r"\]\((?:\.\./)?(bench/results/[^)#]+)\)", (root / "README.md").read_text())
