@@ -141,8 +141,10 @@ core::Expected<void> Server::open_room(const ServeConfig& config, const std::str
   auto watchers = make_watchers(config, name, start);
   if (!watchers) return tl::unexpected(watchers.error());
   log_opened(name, config, start);
-  const bool is_new = lobby_.open(Room::make(ticks_, io_, std::move(settings), std::move(start),
-                                             std::move(*watchers), timekeeper_, log_));
+  ++rooms_running_;
+  const bool is_new = lobby_.open(
+      Room::make(ticks_, io_, std::move(settings), std::move(start), std::move(*watchers), timekeeper_, log_),
+      [this] { asio::post(strand_, [this] { room_ended(); }); });
   assert(is_new);
   static_cast<void>(is_new);
   return {};
@@ -176,7 +178,8 @@ core::Expected<Watchers> Server::make_watchers(const ServeConfig& config, const 
                                                 dump_of_shadow(config, room), *shadows_, log_));
   if (std::holds_alternative<map::TiledTerrain>(start.map->definition.terrain)) {
     if (!ground_) ground_.emplace(1);
-    watchers.push_back(GroundAhead::make(room, *start.map, start.map_file, *ground_, log_));
+    if (auto ahead = GroundAhead::make(room, *start.map, start.map_file, *ground_, log_))
+      watchers.push_back(std::move(ahead));
   }
   return watchers;
 }
@@ -185,13 +188,11 @@ void Server::run() {
   auto ticks_work = asio::make_work_guard(ticks_);
   auto io_work = asio::make_work_guard(io_);
   await_signal();
-  const auto rooms = lobby_.rooms();
-  rooms_running_ = rooms.size();
-  for (const auto& room : rooms) room->start([this] { asio::post(strand_, [this] { room_ended(); }); });
+  const std::size_t rooms = lobby_.rooms().size();  // their first ticks are due when the threads run
   acceptor_.start();
 
   std::vector<std::jthread> threads;
-  for (std::size_t i = 0; i < tick_threads(rooms.size()); ++i) threads.emplace_back([this] { ticks_.run(); });
+  for (std::size_t i = 0; i < tick_threads(rooms); ++i) threads.emplace_back([this] { ticks_.run(); });
   for (std::size_t i = 0; i < kIoThreads; ++i) threads.emplace_back([this] { io_.run(); });
   threads.clear();
   disk_.join();

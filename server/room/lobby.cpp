@@ -13,10 +13,11 @@ auto find_in(auto& rooms, std::string_view name) {
 
 }  // namespace
 
-bool Lobby::open(std::shared_ptr<Room> room) {
+bool Lobby::open(std::shared_ptr<Room> room, std::function<void()> ended) {
   assert(room != nullptr && !room->name().empty());
   const std::lock_guard lock(mutex_);
   if (stopped_ || find_in(rooms_, room->name()) != rooms_.end()) return false;
+  room->start(std::move(ended));
   rooms_.push_back(std::move(room));
   return true;
 }
@@ -27,11 +28,18 @@ bool Lobby::close(std::string_view name, const protocol::Bye& bye, const std::st
   {
     const std::lock_guard lock(mutex_);
     const auto found = find_in(rooms_, name);
-    if (found == rooms_.end()) return false;
+    if (stopped_ || found == rooms_.end()) return false;
     room = std::move(*found);
     rooms_.erase(found);
+    closing_.push_back(room);
   }
-  room->stop(bye, reason, std::move(closed));
+  room->stop(bye, reason, [this, closing = room.get(), closed = std::move(closed)] {
+    {
+      const std::lock_guard lock(mutex_);
+      std::erase_if(closing_, [closing](const auto& other) { return other.get() == closing; });
+    }
+    closed();
+  });
   return true;
 }
 
@@ -42,6 +50,7 @@ std::size_t Lobby::stop(const protocol::Bye& bye, const std::string& reason,
     const std::lock_guard lock(mutex_);
     stopped_ = true;
     rooms = rooms_;
+    rooms.insert(rooms.end(), closing_.begin(), closing_.end());
   }
   for (const auto& room : rooms) room->stop(bye, reason, stopped);
   return rooms.size();

@@ -14,20 +14,20 @@
 
 namespace woodlouse::server {
 
-/// Any thread, every function: a lock is held for a look-up. A room is in memory until it is closed, its
-/// watchers are done and what it posted has run; a door that somebody still holds then refuses.
+/// Any thread, every function: a lock is held for a look-up. It outlives the run of its rooms' context. A
+/// room is in memory until it is closed, its watchers are done and what it posted has run; a door that
+/// somebody still holds then refuses.
 class Lobby final : public Directory {
  public:
-  /// Behind the rooms that are there. Starting it is the caller's. False, and nothing done, where one has its
-  /// name, or after stop().
-  [[nodiscard]] bool open(std::shared_ptr<Room> room);
+  /// Starts the room, then puts it behind those that are there: who finds it finds it started. ended:
+  /// Room::start()'s. False, and nothing done, where one has its name, or after stop().
+  [[nodiscard]] bool open(std::shared_ptr<Room> room, std::function<void()> ended);
   /// Nobody finds the room any more, its members hear `bye`, its recording ends with `reason`; then `closed`
-  /// is called, on some thread. False where there is none of that name.
+  /// is called, on the room's strand. False where there is none of that name, or after stop().
   [[nodiscard]] bool close(std::string_view name, const protocol::Bye& bye, const std::string& reason,
                            std::function<void()> closed);
-
   /// Stops every room, which stays in the list, and opens no further one. `stopped` is called once for each,
-  /// on some thread; how many that will be.
+  /// those that are still closing among them; how many that will be.
   std::size_t stop(const protocol::Bye& bye, const std::string& reason, const std::function<void()>& stopped);
 
   [[nodiscard]] std::shared_ptr<Door> find(std::string_view name) const override;
@@ -39,6 +39,7 @@ class Lobby final : public Directory {
  private:
   mutable std::mutex mutex_;
   std::vector<std::shared_ptr<Room>> rooms_;
+  std::vector<std::shared_ptr<Room>> closing_;  ///< found by nobody, not at their end yet
   bool stopped_ = false;
 };
 

@@ -75,35 +75,47 @@ void Room::start(std::function<void()> ended) {
 }
 
 void Room::begin_watching() {
-  members_.introduce_unclaimed();
   const auto announce = [room = weak_from_this()](const protocol::Notice& notice) {
     const auto self = room.lock();
     if (!self) return;
     asio::post(self->strand_, [self, notice] { self->members_.announce(notice); });
   };
-  for (const auto& watcher : watchers_) watcher->begin(*game_, announce);
+  for (const auto& watcher : watchers_) watcher->attach(announce);
+  members_.introduce_unclaimed();
+  for (const auto& watcher : watchers_) watcher->begin(*game_);
 }
 
 void Room::stop(const protocol::Bye& bye, const std::string& reason, std::function<void()> stopped) {
   asio::post(strand_, [self = shared_from_this(), this, bye, reason, stopped = std::move(stopped)]() mutable {
+    if (has_ended_) return stopped();
+    const bool is_first = awaiting_end_.empty();
+    awaiting_end_.push_back(std::move(stopped));
+    if (!is_first) return;
+    const bool was_watched = state_ != State::kWaiting;
     state_ = State::kStopped;
     alarm_->cancel();
     members_.dismiss(bye);
     post_figures();  // should the watchers take too long for whoever waits
-    finish_watching(reason, std::move(stopped));
+    if (!was_watched) return end();
+    finish_watching(reason);
   });
 }
 
 /// All at once: a shadow that is behind must not keep the recording from its end.
-void Room::finish_watching(const std::string& reason, std::function<void()> stopped) {
+void Room::finish_watching(const std::string& reason) {
   auto parts = std::make_shared<std::atomic<std::size_t>>(1 + watchers_.size());
-  const auto part_done = [self = shared_from_this(), this, parts, stopped = std::move(stopped)] {
-    if (parts->fetch_sub(1) != 1) return;
-    post_figures();
-    stopped();
+  const auto part_done = [self = shared_from_this(), this, parts] {
+    if (parts->fetch_sub(1) == 1) asio::post(strand_, [self, this] { end(); });
   };
   for (const auto& watcher : watchers_) watcher->finish(reason, part_done);
   part_done();
+}
+
+void Room::end() {
+  assert(!has_ended_ && state_ == State::kStopped);
+  has_ended_ = true;
+  post_figures();
+  for (const auto& stopped : std::exchange(awaiting_end_, {})) stopped();
 }
 
 void Room::join(SessionId session, std::shared_ptr<Subscriber> subscriber, protocol::Join join) {
@@ -162,7 +174,6 @@ void Room::tick(Time now) {
   for (const auto& watcher : watchers_) watcher->rest(*game_);
 }
 
-/// On the strand while ticks run; on whose work ended last, once they have stopped.
 void Room::post_figures() {
   working_.frames_encoded = members_.frames_encoded();
   if (clock_) working_.clock_moves = clock_->moves();

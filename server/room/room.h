@@ -15,6 +15,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "server/room/clock.h"
 #include "server/room/door.h"
@@ -39,10 +40,11 @@ class Room : public std::enable_shared_from_this<Room> {
 
   // Any thread. Calls of one thread take effect in their order.
 
-  /// The first tick is due now. ended: called once, on the room's strand, when the tick limit is reached.
+  /// The first tick is due now. Before anybody joins a room that is watched: what a recording begins with has
+  /// nobody on the way. ended: called once, on the room's strand, when the tick limit is reached.
   void start(std::function<void()> ended);
-  /// Ends the ticks, says bye to the members, finishes the watchers' work; then calls `stopped`, on some
-  /// thread. A room that has stopped takes nobody more.
+  /// Ends the ticks, says bye to the members, finishes the watchers' work; then calls `stopped`, on the
+  /// room's strand. A room that has stopped takes nobody more; whoever stops it again only hears of its end.
   void stop(const protocol::Bye& bye, const std::string& reason, std::function<void()> stopped);
   /// What sessions hold. It does not keep the room.
   [[nodiscard]] std::shared_ptr<Door> door();
@@ -68,7 +70,8 @@ class Room : public std::enable_shared_from_this<Room> {
   void await_tick();
   void on_tick_due();
   void tick(Time now);
-  void finish_watching(const std::string& reason, std::function<void()> stopped);
+  void finish_watching(const std::string& reason);
+  void end();
   void post_figures();
 
   RoomSettings settings_;
@@ -84,6 +87,8 @@ class Room : public std::enable_shared_from_this<Room> {
   std::function<void()> ended_;
   enum class State { kWaiting, kRunning, kStopped } state_ = State::kWaiting;
   RoomFigures working_;
+  std::vector<std::function<void()>> awaiting_end_;  ///< who asked for the stop
+  bool has_ended_ = false;
 
   mutable std::mutex figures_mutex_;  ///< held to swap the pointer
   std::shared_ptr<const RoomFigures> figures_ = std::make_shared<const RoomFigures>();

@@ -40,7 +40,7 @@ class GroundAhead final : public TickWatcher {
   /// Ends the batch at work with the tile it is at.
   ~GroundAhead() override;
 
-  void begin(const match::Match&, Announce) override {}
+  void begin(const match::Match&) override {}
   void rest(const match::Match& game) override;
   void finish(const std::string&, std::function<void()> done) override { done(); }
   void add_figures(RoomFigures& figures) const override { figures.ground = this->figures(); }

@@ -39,9 +39,8 @@ Recorder::Recorder(std::unique_ptr<core::ByteSink> out, std::string name, replay
   assert(out_ != nullptr);
 }
 
-void Recorder::begin(const match::Match& game, Announce announce) {
+void Recorder::begin(const match::Match& game) {
   assert(game.settings().tick_hz == header_.tick_hz);
-  announce_ = std::move(announce);
   enqueue([this, first = game.state()](std::string& out) {
     writer_.append_header(out, header_);
     writer_.append_keyframe(out, first);
@@ -76,6 +75,7 @@ void Recorder::step(const match::StepRecord& record, std::span<const InputMargin
 void Recorder::finish(const std::string& reason, std::function<void()> done) {
   boost::asio::post(disk_, [this, reason, done = std::move(done)] {
     flush_timer_.cancel();
+    finished_ = true;
     if (!failed_) {
       writer_.append_end(bytes_, reason);
       write_out();
@@ -103,7 +103,7 @@ void Recorder::await_flush() {
   flush_timer_.expires_after(kFlushEvery);
   flush_timer_.async_wait([this](const boost::system::error_code& error) {
     will_flush_ = false;
-    if (error || failed_) return;
+    if (error || failed_ || finished_) return;
     writer_.flush(bytes_);
     write_out();
   });

@@ -16,6 +16,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "server/room/tick_watcher.h"
@@ -45,7 +46,8 @@ class Recorder final : public TickWatcher {
            boost::asio::thread_pool& disk, std::shared_ptr<spdlog::logger> log);
 
   /// announce: told why, once, when the recording ends before its time.
-  void begin(const match::Match& game, Announce announce) override;
+  void attach(Announce announce) override { announce_ = std::move(announce); }
+  void begin(const match::Match& game) override;
   void player(match::PlayerId player, const std::string& name, protocol::Role role) override;
   void chat(std::uint64_t tick, match::PlayerId player, const std::string& name,
             const std::string& text) override;
@@ -75,6 +77,7 @@ class Recorder final : public TickWatcher {
   std::unique_ptr<core::ByteSink> out_;
   replay::ReplayWriter writer_;
   boost::asio::steady_timer flush_timer_;
+  bool finished_ = false;
   bool will_flush_ = false;  ///< the timer runs
   std::string bytes_;        ///< not yet in the file
 };

@@ -22,7 +22,7 @@ Shadow::Shadow(std::string room, std::shared_ptr<const map::Map> map, replay::He
       log_(std::move(log)),
       header_(std::move(header)) {}
 
-void Shadow::begin(const match::Match& game, Announce) {
+void Shadow::begin(const match::Match& game) {
   // Only values go along: the game itself goes on meanwhile.
   boost::asio::post(strand_, [this, state = game.state()]() mutable {
     if (const auto followed = follow(std::move(state)); !followed) end(followed.error().text());

@@ -37,7 +37,7 @@ class Shadow final : public TickWatcher {
   Shadow(std::string room, std::shared_ptr<const map::Map> map, replay::Header header,
          std::filesystem::path dump, boost::asio::thread_pool& pool, std::shared_ptr<spdlog::logger> log);
 
-  void begin(const match::Match& game, Announce announce) override;
+  void begin(const match::Match& game) override;
   void step(const match::StepRecord& record, std::span<const InputMargin> margins,
             const match::Match& game) override;
   /// `done` is called on the shadow's thread.

@@ -13,5 +13,7 @@ TEST_CASE("a logged text cannot leave its JSON string") {
 TEST_CASE("bytes that are no UTF-8 are logged as question marks") {
   CHECK(json_escaped("\xff\xfe") == "??");
   CHECK(json_escaped("a\xc3") == "a?");
+  CHECK(json_escaped("\xc0\xaf") == "??");       // overlong
+  CHECK(json_escaped("\xed\xa0\x80") == "???");  // a surrogate
   CHECK(json_escaped("\xe2\x82 x") == "?? x");
 }

@@ -86,7 +86,7 @@ struct House {
     }
   }
 
-  boost::asio::io_context ticks{1}, io{1};
+  boost::asio::io_context io{1}, ticks{1};  // rooms, which ticks may hold, end before io
   ManualTimekeeper timekeeper;
   std::shared_ptr<spdlog::logger> log =
       std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::null_sink_mt>());

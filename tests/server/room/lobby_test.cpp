@@ -3,15 +3,23 @@
 #include <catch2/catch.hpp>
 
 #include <spdlog/sinks/null_sink.h>
+#include <unistd.h>
 
 #include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/thread_pool.hpp>
 
 #include <atomic>
+#include <chrono>
+#include <filesystem>
 #include <thread>
 #include <vector>
 
 #include "server/room/steady_timekeeper.h"
+#include "server/watchers/recorder.h"
+#include "server/watchers/shadow.h"
 #include "shared/map/map_file.h"
+#include "shared/replay/source_file.h"
+#include "shared/replay/verify.h"
 
 using namespace woodlouse;
 using namespace woodlouse::server;
@@ -45,6 +53,24 @@ struct House {
         *map, std::make_unique<match::Match>(*map, match::MatchSettings{60, 0}), "volcano.json", {}, {}};
     return Room::make(ticks, io, std::move(settings), std::move(start), {}, timekeeper, log);
   }
+  /// Recorded and shadowed, as the server makes one.
+  std::shared_ptr<Room> make_watched(const std::string& name, const std::filesystem::path& file,
+                                     boost::asio::thread_pool& disk, boost::asio::thread_pool& shadows) {
+    const auto map = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/volcano.json");
+    REQUIRE(map);
+    RoomSettings settings;
+    settings.name = name;
+    settings.bots = 2;
+    Start start{
+        *map, std::make_unique<match::Match>(*map, match::MatchSettings{60, 0}), "volcano.json", {}, {}};
+    const replay::Header header = replay::make_header(*start.match, "test", "volcano.json");
+    Watchers watchers;
+    auto recorder = Recorder::open(file, header, disk, log);
+    REQUIRE(recorder);
+    watchers.push_back(std::move(*recorder));
+    watchers.push_back(std::make_unique<Shadow>(name, *map, header, file, shadows, log));
+    return Room::make(ticks, io, std::move(settings), std::move(start), std::move(watchers), timekeeper, log);
+  }
   std::shared_ptr<Guest> join(Door& door, SessionId session) {
     auto guest = std::make_shared<Guest>();
     protocol::Join join;
@@ -76,9 +102,9 @@ struct House {
 TEST_CASE("rooms are found by name, the first one without, in the order they were opened") {
   House house;
   CHECK(house.lobby.find("") == nullptr);
-  REQUIRE(house.lobby.open(house.make("hills")));
-  REQUIRE(house.lobby.open(house.make("arena")));
-  CHECK_FALSE(house.lobby.open(house.make("hills")));
+  REQUIRE(house.lobby.open(house.make("hills"), [] {}));
+  REQUIRE(house.lobby.open(house.make("arena"), [] {}));
+  CHECK_FALSE(house.lobby.open(house.make("hills"), [] {}));
   CHECK(house.lobby.names() == std::vector<std::string>{"hills", "arena"});
   CHECK(house.lobby.find("")->name() == "hills");
   CHECK(house.lobby.find("arena")->name() == "arena");
@@ -93,8 +119,8 @@ TEST_CASE("rooms are found by name, the first one without, in the order they wer
 
 TEST_CASE("a room that closes says bye to its members, and the doors that are held refuse") {
   House house;
-  REQUIRE(house.lobby.open(house.make("hills")));
-  REQUIRE(house.lobby.open(house.make("arena")));
+  REQUIRE(house.lobby.open(house.make("hills"), [] {}));
+  REQUIRE(house.lobby.open(house.make("arena"), [] {}));
   const auto door = house.lobby.find("hills");
   const auto inside = house.join(*door, 1);
   const auto elsewhere = house.join(*house.lobby.find("arena"), 2);
@@ -126,8 +152,7 @@ TEST_CASE("a closed room leaves memory though its door is held") {
   {
     const auto made = house.make("hills");
     room = made;
-    REQUIRE(house.lobby.open(made));
-    made->start([] {});
+    REQUIRE(house.lobby.open(made, [] {}));
   }
   const auto door = house.lobby.find("hills");
   const auto guest = house.join(*door, 1);
@@ -138,10 +163,41 @@ TEST_CASE("a closed room leaves memory though its door is held") {
   CHECK(guest.use_count() == 1);
 }
 
+TEST_CASE(
+    "a recorded and shadowed room that closes leaves memory, its recording whole, and a stop waits for it") {
+  House house;
+  const auto file = std::filesystem::temp_directory_path() /
+                    ("woodlouse_lobby_test_" + std::to_string(::getpid()) + ".ndjson");
+  boost::asio::thread_pool disk(1);
+  boost::asio::thread_pool shadows(1);
+  std::weak_ptr<Room> room;
+  {
+    const auto made = house.make_watched("hills", file, disk, shadows);
+    room = made;
+    REQUIRE(house.lobby.open(made, [] {}));
+  }
+  const auto door = house.lobby.find("hills");
+  CHECK(house.join(*door, 1)->welcomes.size() == 1);
+  house.ticks.run_for(std::chrono::milliseconds(100));
+  bool closed = false;
+  bool stopped = false;
+  REQUIRE(house.lobby.close("hills", {}, "closed", [&] { closed = true; }));
+  CHECK(house.lobby.stop({}, "test", [&] { stopped = true; }) == 1);  // it is closing still
+  while (!closed || !stopped || !room.expired()) house.settle();
+  disk.join();
+  shadows.join();
+  const auto verdict = replay::verify(replay::source_of_file(file));
+  REQUIRE(verdict);
+  CHECK(verdict->ok());
+  CHECK_FALSE(verdict->cut_off);
+  CHECK(verdict->ticks > 0);
+  std::filesystem::remove(file);
+}
+
 TEST_CASE("a lobby that stops ends every room once, keeps them in its list and opens none any more") {
   House house;
-  REQUIRE(house.lobby.open(house.make("hills")));
-  REQUIRE(house.lobby.open(house.make("arena")));
+  REQUIRE(house.lobby.open(house.make("hills"), [] {}));
+  REQUIRE(house.lobby.open(house.make("arena"), [] {}));
   const auto guest = house.join(*house.lobby.find("arena"), 1);
   int stopped = 0;
   CHECK(house.lobby.stop({"shutdown", "the server stops", false}, "test", [&] { ++stopped; }) == 2);
@@ -149,14 +205,14 @@ TEST_CASE("a lobby that stops ends every room once, keeps them in its list and o
   CHECK(stopped == 2);
   CHECK(guest->byes.size() == 1);
   CHECK(house.lobby.names().size() == 2);
-  CHECK_FALSE(house.lobby.open(house.make("late")));
+  CHECK_FALSE(house.lobby.open(house.make("late"), [] {}));
   CHECK(house.join(*house.lobby.find("hills"), 2)->refusals.size() == 1);
 }
 
-TEST_CASE("a room may close before it started, and a name may be opened again") {
+TEST_CASE("a name may be opened again once its room is closed") {
   House house;
   for (int round = 0; round < 3; ++round) {
-    REQUIRE(house.lobby.open(house.make("hills")));
+    REQUIRE(house.lobby.open(house.make("hills"), [] {}));
     const auto guest = house.join(*house.lobby.find("hills"), 1);
     CHECK(guest->welcomes.size() == 1);
     bool closed = false;
@@ -168,7 +224,7 @@ TEST_CASE("a room may close before it started, and a name may be opened again") 
 
 TEST_CASE("rooms open and close while others look, join and leave") {
   House house;
-  REQUIRE(house.lobby.open(house.make("steady")));
+  REQUIRE(house.lobby.open(house.make("steady"), [] {}));
   auto work_ticks = boost::asio::make_work_guard(house.ticks);
   auto work_io = boost::asio::make_work_guard(house.io);
   std::thread ticking([&] { house.ticks.run(); });
@@ -199,8 +255,7 @@ TEST_CASE("rooms open and close while others look, join and leave") {
   int opened = 0;
   for (; opened < 50 || visits < 200; ++opened) {
     auto room = house.make("guest room");
-    room->start([] {});
-    REQUIRE(house.lobby.open(std::move(room)));
+    REQUIRE(house.lobby.open(std::move(room), [] {}));
     std::this_thread::yield();
     REQUIRE(house.lobby.close("guest room", {}, "closed", [&] { ++closed; }));
   }

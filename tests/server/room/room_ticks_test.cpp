@@ -63,10 +63,8 @@ namespace {
 class Witness final : public TickWatcher {
  public:
   explicit Witness(std::vector<std::string>& seen) : seen_(seen) {}
-  void begin(const match::Match&, Announce announce) override {
-    announce_ = std::move(announce);
-    seen_.push_back("begin");
-  }
+  void attach(Announce announce) override { announce_ = std::move(announce); }
+  void begin(const match::Match&) override { seen_.push_back("begin"); }
   void player(match::PlayerId player, const std::string& name, protocol::Role) override {
     seen_.push_back("player " + std::to_string(player) + " " + name);
   }
@@ -114,4 +112,71 @@ TEST_CASE(
   CHECK(seen == std::vector<std::string>{"player 1 mara", "player 2 Rolly", "begin", "step 1 margins 0",
                                          "rest 2", "player 3 eve", "chat 2 hi", "step 2 margins 1", "rest 3",
                                          "finish test"});
+}
+
+namespace {
+
+/// Its work takes until a test lets it end.
+class SlowWatcher final : public TickWatcher {
+ public:
+  explicit SlowWatcher(std::vector<std::function<void()>>& ends) : ends_(ends) {}
+  void begin(const match::Match&) override {}
+  void finish(const std::string&, std::function<void()> done) override { ends_.push_back(std::move(done)); }
+
+ private:
+  std::vector<std::function<void()>>& ends_;
+};
+
+}  // namespace
+
+TEST_CASE(
+    "a room that is stopped twice finishes its watchers once, and both hear of its end when the last is "
+    "done") {
+  std::vector<std::function<void()>> ends;
+  Watchers watchers;
+  watchers.push_back(std::make_unique<SlowWatcher>(ends));
+  watchers.push_back(std::make_unique<SlowWatcher>(ends));
+  House house(settings(8), House::open(), std::move(watchers));
+  house.room->start([] {});
+  house.tick(3);
+  int heard = 0;
+  for (int k = 0; k < 2; ++k)
+    house.room->stop({"shutdown", "the server stops", false}, "test", [&] { ++heard; });
+  house.settle();
+  REQUIRE(ends.size() == 2);
+  CHECK(heard == 0);
+  CHECK(house.room->figures()->ticks == 3);  // told before its watchers end
+  std::exchange(ends[0], nullptr)();
+  house.settle();
+  CHECK(heard == 0);
+  std::exchange(ends[1], nullptr)();
+  house.settle();
+  CHECK(heard == 2);
+  house.room->stop({}, "test", [&] { ++heard; });
+  house.settle();
+  CHECK(heard == 3);
+  CHECK(ends.size() == 2);
+}
+
+TEST_CASE("a room that never started ends without its watchers, which never began") {
+  std::vector<std::function<void()>> ends;
+  Watchers watchers;
+  watchers.push_back(std::make_unique<SlowWatcher>(ends));
+  House house(settings(8), House::open(), std::move(watchers));
+  bool stopped = false;
+  house.room->stop({}, "test", [&] { stopped = true; });
+  house.settle();
+  CHECK(stopped);
+  CHECK(ends.empty());
+}
+
+TEST_CASE("after its tick limit a room refuses who would join") {
+  RoomSettings limited = settings(8);
+  limited.tick_limit = 2;
+  House house(limited);
+  house.room->start([] {});
+  house.tick(5);
+  const auto late = house.join(1);
+  REQUIRE(late->refusals.size() == 1);
+  CHECK(late->refusals[0].code == "shutdown");
 }

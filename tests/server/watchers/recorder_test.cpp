@@ -40,7 +40,8 @@ std::vector<protocol::Notice> play(Recorder& recorder, boost::asio::thread_pool&
   std::vector<protocol::Notice> announced;
   const auto game = new_match();
   match::Match& match = *game;
-  recorder.begin(match, [&announced](const protocol::Notice& notice) { announced.push_back(notice); });
+  recorder.attach([&announced](const protocol::Notice& notice) { announced.push_back(notice); });
+  recorder.begin(match);
   const match::PlayerId player = match.join();
   recorder.player(player, "mara", protocol::Role::kPlayer);
   for (int tick = 0; tick < ticks; ++tick) {

@@ -31,7 +31,7 @@ class Stage {
     fs::create_directory(folder_);
     for (int player = 0; player < 2; ++player) game.join();
     game.advance();
-    shadow.begin(game, {});
+    shadow.begin(game);
   }
   ~Stage() { fs::remove_all(folder_); }
   Stage(const Stage&) = delete;
