@@ -1,19 +1,9 @@
 #!/usr/bin/env bash
 # bench/replay_size_table.sh BIN FOLDER: records 100 bots that push ten times a second, and tells what the parts take.
 set -euo pipefail
-programs=$1 folder=$2
-said=$folder/said.txt
-recording=$folder/game.ndjson.zst
-server=
-trap '[[ -z $server ]] || kill "$server" 2>/dev/null || true' EXIT
-"$programs/woodlouse-server" --map maps/volcano.json --listen 127.0.0.1:0 --seed 1 --record "$recording" > "$said" 2>/dev/null &
-server=$!
-for _ in $(seq 100); do
-  address=$(sed -n 's/^listening //p' "$said")
-  [[ -z $address ]] || break
-  sleep 0.1
-done
-[[ -n $address ]] || { echo "the server did not listen" >&2; exit 1; }
+programs=$1 recording=$2/game.ndjson.zst
+source "$(dirname "$0")/serve_for_table.sh"
+serve "$programs" --seed 1 --record "$recording"
 "$programs/woodlouse-swarm" "$address" --bots 100 --seconds 40 --inputs-per-second 10 > /dev/null
 kill "$server"
 wait "$server" || true

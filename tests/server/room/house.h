@@ -40,13 +40,8 @@ class Guest final : public Subscriber {
   std::uint32_t divisor = 0;
 };
 
-/// A room whose timer has not begun: what it does between two ticks.
-struct House {
-  explicit House(RoomSettings settings, Start start = open(), Watchers watchers = {})
-      : room(Room::make(ticks, io, std::move(settings), std::move(start), std::move(watchers), timekeeper,
-                        log)),
-        door(room->door()) {}
-
+/// What rooms run on, by hand.
+struct Contexts {
   static std::shared_ptr<const map::Map> load() {
     auto map = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/volcano.json");
     REQUIRE(map);
@@ -59,15 +54,7 @@ struct House {
         map, std::make_unique<match::Match>(map, match::MatchSettings{60, 0}), "maps/volcano.json", {}, {}};
   }
 
-  std::shared_ptr<Guest> join(SessionId session, protocol::Join join = {}) {
-    auto guest = std::make_shared<Guest>();
-    if (join.fields.empty()) join.fields = protocol::default_columns();
-    if (join.name.empty()) join.name = "guest" + std::to_string(session);
-    door->join(session, guest, join);
-    settle();
-    return guest;
-  }
-
+  /// Until nothing is left to do now.
   void settle() {
     while (ticks.poll() + io.poll() > 0) {
       ticks.restart();
@@ -75,6 +62,31 @@ struct House {
     }
     ticks.restart();
     io.restart();
+  }
+
+  std::shared_ptr<Guest> join(Door& door, SessionId session, protocol::Join join = {}) {
+    auto guest = std::make_shared<Guest>();
+    if (join.fields.empty()) join.fields = protocol::default_columns();
+    if (join.name.empty()) join.name = "guest" + std::to_string(session);
+    door.join(session, guest, join);
+    settle();
+    return guest;
+  }
+
+  boost::asio::io_context io{1}, ticks{1};  // rooms, which ticks may hold, end before io
+  std::shared_ptr<spdlog::logger> log =
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::null_sink_mt>());
+};
+
+/// A room whose timer has not begun: what it does between two ticks.
+struct House : Contexts {
+  explicit House(RoomSettings settings, Start start = open(), Watchers watchers = {})
+      : room(Room::make(ticks, io, std::move(settings), std::move(start), std::move(watchers), timekeeper,
+                        log)),
+        door(room->door()) {}
+
+  std::shared_ptr<Guest> join(SessionId session, protocol::Join wanted = {}) {
+    return Contexts::join(*door, session, std::move(wanted));
   }
 
   /// So many ticks of 60 a second; the first one after start() is due at once.
@@ -86,10 +98,7 @@ struct House {
     }
   }
 
-  boost::asio::io_context io{1}, ticks{1};  // rooms, which ticks may hold, end before io
   ManualTimekeeper timekeeper;
-  std::shared_ptr<spdlog::logger> log =
-      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::null_sink_mt>());
   std::shared_ptr<Room> room;
   std::shared_ptr<Door> door;
 

@@ -2,7 +2,6 @@
 
 #include <catch2/catch.hpp>
 
-#include <spdlog/sinks/null_sink.h>
 #include <unistd.h>
 
 #include <boost/asio/executor_work_guard.hpp>
@@ -17,90 +16,45 @@
 #include "server/room/steady_timekeeper.h"
 #include "server/watchers/recorder.h"
 #include "server/watchers/shadow.h"
-#include "shared/map/map_file.h"
 #include "shared/replay/source_file.h"
 #include "shared/replay/verify.h"
+#include "tests/server/room/house.h"
 
 using namespace woodlouse;
 using namespace woodlouse::server;
+using namespace woodlouse::server::test;
 
 namespace {
 
-class Guest final : public Subscriber {
- public:
-  void deliver(Line) override {}
-  void answer(protocol::ServerMessage) override {}
-  void show(const Frame&) override {}
-  void show_again(const Frame&) override {}
-  void deliver_map(Line) override {}
-  void refuse_join(protocol::ErrorMessage error) override { refusals.push_back(std::move(error)); }
-  void welcome(protocol::Welcome message, std::uint32_t) override { welcomes.push_back(std::move(message)); }
-  void end(protocol::Bye bye) override { byes.push_back(std::move(bye)); }
-
-  std::vector<protocol::ErrorMessage> refusals;
-  std::vector<protocol::Welcome> welcomes;
-  std::vector<protocol::Bye> byes;
-};
-
 /// A server's lobby without a port.
-struct House {
-  std::shared_ptr<Room> make(const std::string& name) {
-    static const auto map = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/volcano.json");
-    REQUIRE(map);
+struct LobbyHouse : Contexts {
+  std::shared_ptr<Room> make(const std::string& name, Watchers watchers = {}, Start start = open()) {
     RoomSettings settings;
     settings.name = name;
-    Start start{
-        *map, std::make_unique<match::Match>(*map, match::MatchSettings{60, 0}), "volcano.json", {}, {}};
-    return Room::make(ticks, io, std::move(settings), std::move(start), {}, timekeeper, log);
+    settings.bots = watchers.empty() ? 0 : 2;
+    return Room::make(ticks, io, std::move(settings), std::move(start), std::move(watchers), timekeeper, log);
   }
   /// Recorded and shadowed, as the server makes one.
   std::shared_ptr<Room> make_watched(const std::string& name, const std::filesystem::path& file,
                                      boost::asio::thread_pool& disk, boost::asio::thread_pool& shadows) {
-    const auto map = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/volcano.json");
-    REQUIRE(map);
-    RoomSettings settings;
-    settings.name = name;
-    settings.bots = 2;
-    Start start{
-        *map, std::make_unique<match::Match>(*map, match::MatchSettings{60, 0}), "volcano.json", {}, {}};
-    const replay::Header header = replay::make_header(*start.match, "test", "volcano.json");
+    Start start = open();
+    const replay::Header header = replay::make_header(*start.match, "test", start.map_file);
     Watchers watchers;
     auto recorder = Recorder::open(file, header, disk, log);
     REQUIRE(recorder);
     watchers.push_back(std::move(*recorder));
-    watchers.push_back(std::make_unique<Shadow>(name, *map, header, file, shadows, log));
-    return Room::make(ticks, io, std::move(settings), std::move(start), std::move(watchers), timekeeper, log);
-  }
-  std::shared_ptr<Guest> join(Door& door, SessionId session) {
-    auto guest = std::make_shared<Guest>();
-    protocol::Join join;
-    join.name = "guest";
-    join.fields = protocol::default_columns();
-    door.join(session, guest, join);
-    settle();
-    return guest;
-  }
-  void settle() {
-    while (ticks.poll() + io.poll() > 0) {
-      ticks.restart();
-      io.restart();
-    }
-    ticks.restart();
-    io.restart();
+    watchers.push_back(std::make_unique<Shadow>(name, start.map, header, file, shadows, log));
+    return make(name, std::move(watchers), std::move(start));
   }
 
-  boost::asio::io_context io{1};
-  boost::asio::io_context ticks{1};
   SteadyTimekeeper timekeeper;
-  std::shared_ptr<spdlog::logger> log =
-      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::null_sink_mt>());
   Lobby lobby;
 };
 
 }  // namespace
 
 TEST_CASE("rooms are found by name, the first one without, in the order they were opened") {
-  House house;
+  LobbyHouse house;
   CHECK(house.lobby.find("") == nullptr);
   REQUIRE(house.lobby.open(house.make("hills"), [] {}));
   REQUIRE(house.lobby.open(house.make("arena"), [] {}));
@@ -118,7 +72,7 @@ TEST_CASE("rooms are found by name, the first one without, in the order they wer
 }
 
 TEST_CASE("a room that closes says bye to its members, and the doors that are held refuse") {
-  House house;
+  LobbyHouse house;
   REQUIRE(house.lobby.open(house.make("hills"), [] {}));
   REQUIRE(house.lobby.open(house.make("arena"), [] {}));
   const auto door = house.lobby.find("hills");
@@ -147,7 +101,7 @@ TEST_CASE("a room that closes says bye to its members, and the doors that are he
 }
 
 TEST_CASE("a closed room leaves memory though its door is held") {
-  House house;
+  LobbyHouse house;
   std::weak_ptr<Room> room;
   {
     const auto made = house.make("hills");
@@ -165,7 +119,7 @@ TEST_CASE("a closed room leaves memory though its door is held") {
 
 TEST_CASE(
     "a recorded and shadowed room that closes leaves memory, its recording whole, and a stop waits for it") {
-  House house;
+  LobbyHouse house;
   const auto file = std::filesystem::temp_directory_path() /
                     ("woodlouse_lobby_test_" + std::to_string(::getpid()) + ".ndjson");
   boost::asio::thread_pool disk(1);
@@ -195,7 +149,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a lobby that stops ends every room once, keeps them in its list and opens none any more") {
-  House house;
+  LobbyHouse house;
   REQUIRE(house.lobby.open(house.make("hills"), [] {}));
   REQUIRE(house.lobby.open(house.make("arena"), [] {}));
   const auto guest = house.join(*house.lobby.find("arena"), 1);
@@ -210,7 +164,7 @@ TEST_CASE("a lobby that stops ends every room once, keeps them in its list and o
 }
 
 TEST_CASE("a name may be opened again once its room is closed") {
-  House house;
+  LobbyHouse house;
   for (int round = 0; round < 3; ++round) {
     REQUIRE(house.lobby.open(house.make("hills"), [] {}));
     const auto guest = house.join(*house.lobby.find("hills"), 1);
@@ -223,7 +177,7 @@ TEST_CASE("a name may be opened again once its room is closed") {
 }
 
 TEST_CASE("rooms open and close while others look, join and leave") {
-  House house;
+  LobbyHouse house;
   REQUIRE(house.lobby.open(house.make("steady"), [] {}));
   auto work_ticks = boost::asio::make_work_guard(house.ticks);
   auto work_io = boost::asio::make_work_guard(house.io);
