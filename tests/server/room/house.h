@@ -20,8 +20,14 @@ namespace woodlouse::server::test {
 class Guest final : public Subscriber {
  public:
   void deliver(Line line) override { lines.push_back(*line); }
-  void answer(protocol::ServerMessage message) override { answers.push_back(std::move(message)); }
-  void show(const Frame& frame) override { frames.push_back(frame); }
+  void answer(protocol::ServerMessage message) override {
+    if (std::holds_alternative<protocol::Ack>(message)) order.push_back('a');
+    answers.push_back(std::move(message));
+  }
+  void show(const Frame& frame) override {
+    order.push_back('f');
+    frames.push_back(frame);
+  }
   void show_again(const Frame& frame) override { frames.push_back(frame); }
   void deliver_map(Line line) override { maps.push_back(*line); }
   void refuse_join(protocol::ErrorMessage error) override { refusals.push_back(std::move(error)); }
@@ -38,6 +44,7 @@ class Guest final : public Subscriber {
   std::vector<protocol::Welcome> welcomes;
   std::vector<protocol::Bye> byes;
   std::uint32_t divisor = 0;
+  std::string order;  ///< of acks (a) and frames (f)
 };
 
 /// What rooms run on, by hand.

@@ -57,6 +57,22 @@ TEST_CASE("a room ends at its tick limit, once, and ticks no more") {
   CHECK(house.room->figures()->ticks == 3);
 }
 
+TEST_CASE("within a tick inputs are acknowledged before the frame that shows what they did") {
+  House house(settings(8));
+  house.room->start([] {});
+  house.tick();
+  const auto guest = house.join(1);
+  guest->order.clear();
+  for (std::uint32_t seq = 1; seq <= 6; ++seq) {
+    protocol::Input input;
+    input.seq = seq;
+    house.door->submit(1, input, house.timekeeper.now());
+    house.tick();
+  }
+  // A frame after each third step: of the steps 2 to 7 the second and the fifth.
+  CHECK(guest->order == "aafaaafa");
+}
+
 namespace {
 
 /// Writes down what it is told, in order.
