@@ -4,19 +4,18 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <initializer_list>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
+#include "shared/core/whole_file.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::client {
 namespace {
 
-constexpr std::string_view kVersion = "woodlouse 0.1.0";
+constexpr std::string_view kVersion = "woodlouse " WOODLOUSE_VERSION;
 constexpr int kUsage = 2;
 
 std::string environment(const char* name) {
@@ -74,7 +73,7 @@ const Words<std::optional<View>>& view_words() {
 
 /// Everything as it is written, before it is understood.
 struct Raw {
-  std::string server, map, name, room, recording, color, glyphs, view;
+  std::string server, map, name, room, recording, maps, color, glyphs, view;
   int fps = 30;
   bool watch = false;
   bool verify = false;
@@ -86,6 +85,7 @@ Raw raw_of(const Config& config) {
           .name = config.name,
           .room = config.room,
           .recording = config.recording,
+          .maps = config.maps,
           .color = color_words().word(config.color),
           .glyphs = glyph_words().word(config.glyphs),
           .view = view_words().word(config.view),
@@ -118,6 +118,7 @@ core::Expected<Config> understood(const Raw& raw) {
   config.room = raw.room;
   config.part = !raw.recording.empty() ? Part::kReplay : raw.watch ? Part::kWatch : Part::kPlay;
   config.recording = raw.recording;
+  config.maps = raw.maps;
   config.hashes = raw.verify ? Hashes::kVerified : Hashes::kIgnored;
   config.color = *color;
   config.glyphs = *glyphs;
@@ -148,10 +149,10 @@ core::Expected<Config> defaults() {
   const std::filesystem::path file = config_file();
   std::error_code error;
   if (file.empty() || !std::filesystem::exists(file, error)) return config;
-  std::ifstream stream(file);
-  const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (!stream) return core::fail(file.string(), "it can't be read");
-  return read_config_file(text, file.string(), config);
+  constexpr std::size_t kMaxBytes = 1u << 20;
+  const auto text = core::read_whole_file(file, kMaxBytes);
+  if (!text) return tl::unexpected(text.error());
+  return read_config_file(*text, file.string(), config);
 }
 
 Parsed mistake(const core::Error& error) {
@@ -189,6 +190,8 @@ void add_options(CLI::App& app, Raw& raw) {
   CLI::App* const replay =
       app.add_subcommand("replay", "watch a recording: play, pause, jump, follow; ? shows the keys");
   replay->add_option("FILE", raw.recording, "what woodlouse-server --record wrote; .zst too")->required();
+  replay->add_option("--maps", raw.maps,
+                     "folder of the map, where the recording only names it and it is not beside it");
   replay->footer(
       "For example:  woodlouse replay game.ndjson\n"
       "Keys: Space play/pause, < > 5 s, comma and full stop one tick, [ ] speed, 0-9 jump, F Shift-F "

@@ -25,6 +25,7 @@ struct Config {
   std::string name;               ///< at most 24 bytes
   std::string room;               ///< empty: the server's first
   std::string recording;          ///< of Part::kReplay: its file
+  std::string maps;               ///< of Part::kReplay: where its map may be, besides beside it
   Part part = Part::kPlay;
   Hashes hashes = Hashes::kIgnored;
   ColorChoice color = ColorChoice::kAuto;

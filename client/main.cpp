@@ -1,6 +1,7 @@
 // The terminal client: parse, run.
 #include <exception>
 #include <iostream>
+#include <new>
 
 #include "client/config.h"
 #include "client/startup.h"
@@ -15,6 +16,9 @@ int main(int argc, char** argv) {
   }
   try {
     return run_client(parsed.config);
+  } catch (const std::bad_alloc&) {
+    std::cerr << "woodlouse: out of memory\n";
+    return kExitIo;
   } catch (const std::exception& error) {  // the terminal is restored on the way here
     std::cerr << "woodlouse: " << error.what() << "\n      this is a bug; please report it\n";
     return kExitIo;

@@ -45,7 +45,8 @@ std::string describe(const Look& look) {
 
 void introduce(const Config& config, const Session& session, const Look& look) {
   const RoomView& room = session.room();
-  std::cout << "woodlouse 0.1.0 - wood-lice on a spline hill.   (no server given: started here)\n\n"
+  std::cout << "woodlouse " WOODLOUSE_VERSION
+               " - wood-lice on a spline hill.   (no server given: started here)\n\n"
             << "  server   listening " << session.connection().address().text() << "\n"
             << "  map      " << room.welcome()->map_name << "   3 bots\n";
   if (config.part == Part::kPlay)

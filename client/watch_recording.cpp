@@ -42,7 +42,7 @@ Outcome show(const Config& config, RecordingView& recording) {
 }  // namespace
 
 Outcome watch_recording(const Config& config) {
-  const auto recording = RecordingView::open(replay::source_of_file(config.recording));
+  const auto recording = RecordingView::open(replay::source_of_file(config.recording, config.maps));
   if (!recording) return no_recording(recording.error());
   const Outcome outcome = show(config, **recording);
   const auto& difference = (*recording)->proof().difference();

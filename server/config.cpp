@@ -3,18 +3,18 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <map>
 #include <utility>
 
 #include "server/config_file.h"
+#include "server/option_checks.h"
 #include "server/version.h"
 
 namespace woodlouse::server {
 namespace {
 
-constexpr std::uint32_t kMaxTickHz = 1000;
-constexpr std::uint32_t kMaxBots = 1000;
-constexpr unsigned kMaxJobs = 256;
+constexpr std::uint64_t kMaxTickHz = 1000;
+constexpr std::uint64_t kMaxBots = 1000;
+constexpr std::uint64_t kMaxJobs = 256;
 
 constexpr const char* kExamples = R"(Examples:
   woodlouse-server --map maps/volcano.json --bots 3 --record game.ndjson --shadow
@@ -33,6 +33,7 @@ Examples:
 struct TypedServe {
   ServeConfig serve;
   std::string listen = "127.0.0.1:7777";
+  std::string log_format = "text";
   std::string config_file;
 };
 
@@ -50,15 +51,14 @@ void add_game_options(CLI::App& app, ServeConfig& serve) {
   app.add_option("--map", serve.maps, "Map file; several make several rooms")->envname("WOODLOUSE_MAP");
   app.add_option("--tick-hz", serve.tick_hz, "Steps a second")
       ->envname("WOODLOUSE_TICK_HZ")
-      ->check(CLI::Range(1u, kMaxTickHz))
+      ->check(whole_number(1, kMaxTickHz))
       ->capture_default_str();
   app.add_option("--seed", serve.seed, "Seed of spawns and bots; another one each time when left out")
-      ->envname("WOODLOUSE_SEED");
+      ->envname("WOODLOUSE_SEED")
+      ->check(whole_number(0));
 }
 
 void add_serve_options(CLI::App& app, TypedServe& typed) {
-  static const std::map<std::string, LogFormat> kLogFormats = {{"text", LogFormat::kText},
-                                                               {"json", LogFormat::kJson}};
   ServeConfig& serve = typed.serve;
   app.add_option("--listen", typed.listen,
                  "HOST:PORT; port 0 picks a free one, printed as `listening HOST:PORT`")
@@ -66,45 +66,72 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
       ->capture_default_str();
   app.add_option("--state-hz", serve.state_hz, "Frames a second; divides the tick rate")
       ->envname("WOODLOUSE_STATE_HZ")
-      ->check(CLI::Range(1u, kMaxTickHz))
+      ->check(whole_number(1, kMaxTickHz))
       ->capture_default_str();
-  app.add_option("--record", serve.record, "Write a recording; with several rooms one file each, by room")
+  app.add_option("--record", serve.record,
+                 "Write a recording; with several rooms one file each, by room. One that is there is never "
+                 "written over")
       ->envname("WOODLOUSE_RECORD");
   app.add_flag("--shadow", serve.shadow,
                "Re-run every tick beside the game and compare; a difference is logged and kept")
       ->envname("WOODLOUSE_SHADOW");
   app.add_option("--ticks", serve.ticks, "Stop after so many ticks")
       ->envname("WOODLOUSE_TICKS")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1));
   app.add_option("--bots", serve.bots, "The house's own bots, in every room")
       ->envname("WOODLOUSE_BOTS")
-      ->check(CLI::Range(0u, kMaxBots))
+      ->check(whole_number(0, kMaxBots))
       ->capture_default_str();
-  app.add_option("--log-format", serve.log_format, "text or json, on standard error")
+  app.add_option("--log-format", typed.log_format, "On standard error")
       ->envname("WOODLOUSE_LOG_FORMAT")
-      ->transform(CLI::CheckedTransformer(kLogFormats))
-      ->default_str("text");
+      ->check(CLI::IsMember({"text", "json"}))
+      ->capture_default_str();
   app.add_option("--config", typed.config_file, "JSON file with any of these options")
       ->envname("WOODLOUSE_CONFIG");
+}
+
+void add_maps(CLI::App& command, std::filesystem::path& maps) {
+  command
+      .add_option("--maps", maps,
+                  "Folder of the map, where the recording only names it and it is not beside it")
+      ->check(CLI::ExistingDirectory);
 }
 
 CLI::App* add_fork(CLI::App& app, Typed& typed) {
   CLI::App* fork = app.add_subcommand("fork", "Serve a live room that goes on from a tick of a recording");
   fork->add_option("file", typed.fork_point.recording, "A recording")->required();
-  fork->add_option("--tick", typed.fork_point.tick, "Where to go on")->required();
+  fork->add_option("--tick", typed.fork_point.tick, "Where to go on")->required()->check(whole_number(0));
+  add_maps(*fork, typed.fork_point.maps);
   add_serve_options(*fork, typed.fork);
   fork->footer(kForkExamples);
   return fork;
+}
+
+CLI::App* add_verify(CLI::App& app, VerifyRequest& request) {
+  CLI::App* verify = app.add_subcommand(
+      "verify",
+      "Re-run a recording and compare: places and hashes, inputs, who joined and left; names and chat are "
+      "what the file says");
+  verify->add_option("file", request.files, "Recordings")->required();
+  verify->add_option("--jobs", request.jobs, "Threads; each takes a stretch between keyframes")
+      ->check(whole_number(1, kMaxJobs))
+      ->capture_default_str();
+  verify->add_flag("--from-start", request.from_start, "Fail where the start is taken on trust");
+  verify->add_flag("--complete", request.complete, "Fail where the end is missing");
+  add_maps(*verify, request.maps);
+  return verify;
 }
 
 CLI::App* add_inspect(CLI::App& app, InspectRequest& request) {
   CLI::App* inspect =
       app.add_subcommand("inspect", "Say what a recording holds, or the exact state at a tick");
   inspect->add_option("file", request.file, "A recording")->required();
-  CLI::Option* tick = inspect->add_option("--tick", request.tick, "The state at this tick, as JSON");
+  CLI::Option* tick =
+      inspect->add_option("--tick", request.tick, "The state at this tick, as JSON")->check(whole_number(0));
   inspect->add_option("--at", request.seconds, "The same, by seconds since the game began")
-      ->check(CLI::NonNegativeNumber)
+      ->check(seconds())
       ->excludes(tick);
+  add_maps(*inspect, request.maps);
   inspect->add_flag("--summary", request.summary,
                     "Players, inputs, events, and who was late; also without an option");
   return inspect;
@@ -144,6 +171,7 @@ core::Expected<Config> checked(CLI::App& app, TypedServe& typed) {
   auto listen = parse_listen_address(typed.listen);
   if (!listen) return tl::unexpected(listen.error());
   serve.listen = std::move(*listen);
+  serve.log_format = typed.log_format == "json" ? LogFormat::kJson : LogFormat::kText;
   return Config{std::move(serve)};
 }
 
@@ -165,11 +193,7 @@ core::Expected<Config> parse_config(int argc, const char* const* argv) {
   add_serve_options(app, typed.serve);
   CLI::App* check = app.add_subcommand("check", "Say what is wrong with map files");
   check->add_option("map", typed.check.maps, "Map files")->required();
-  CLI::App* verify = app.add_subcommand("verify", "Re-run a recording and compare");
-  verify->add_option("file", typed.verify.files, "Recordings")->required();
-  verify->add_option("--jobs", typed.verify.jobs, "Threads; each takes a stretch between keyframes")
-      ->check(CLI::Range(1u, kMaxJobs))
-      ->capture_default_str();
+  CLI::App* verify = add_verify(app, typed.verify.request);
   CLI::App* inspect = add_inspect(app, typed.inspect.request);
   CLI::App* fork = add_fork(app, typed);
   app.require_subcommand(0, 1);

@@ -11,6 +11,7 @@
 
 #include "server/commands/fork.h"
 #include "server/commands/inspect.h"
+#include "server/commands/verify.h"
 #include "server/log.h"
 #include "server/net/listen_address.h"
 #include "shared/core/error.h"
@@ -35,8 +36,7 @@ struct CheckConfig {
   std::vector<std::filesystem::path> maps;
 };
 struct VerifyConfig {
-  std::vector<std::filesystem::path> files;
-  unsigned jobs = 1;  ///< threads, 1..256
+  VerifyRequest request;  ///< jobs: 1..256
 };
 struct InspectConfig {
   InspectRequest request;

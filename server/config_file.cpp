@@ -3,14 +3,15 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+
+#include "shared/core/whole_file.h"
 
 namespace woodlouse::server {
 namespace {
 
 using Json = nlohmann::json;
+
+constexpr std::size_t kMaxConfigBytes = 1u << 20;
 
 core::Expected<std::string> as_typed(const Json& value, const std::string& where) {
   if (value.is_string()) return value.get<std::string>();
@@ -22,12 +23,11 @@ core::Expected<std::string> as_typed(const Json& value, const std::string& where
 }  // namespace
 
 core::Expected<std::vector<FileOption>> read_config_file(const std::filesystem::path& file) {
-  errno = 0;
-  std::ifstream in(file);
-  if (!in) return core::fail("--config " + file.string(), std::strerror(errno));
+  const auto bytes = core::read_whole_file(file, kMaxConfigBytes);
+  if (!bytes) return core::fail("--config " + bytes.error().where, bytes.error().what, bytes.error().hint);
   Json document;
   try {
-    document = Json::parse(in);
+    document = Json::parse(*bytes);
   } catch (const Json::parse_error& error) {
     return core::fail("--config " + file.string(), error.what());
   }

@@ -9,6 +9,7 @@
 #include "server/config.h"
 #include "server/log.h"
 #include "server/server.h"
+#include "shared/core/allocation.h"
 
 namespace {
 
@@ -31,7 +32,7 @@ int run(const PrintConfig& config) {
 }
 
 int run(const CheckConfig& config) { return check_command(config.maps, std::cout); }
-int run(const VerifyConfig& config) { return verify_command(config.files, config.jobs, std::cout); }
+int run(const VerifyConfig& config) { return verify_command(config.request, std::cout); }
 int run(const InspectConfig& config) { return inspect_command(config.request, std::cout, std::cerr); }
 
 int run(const ServeConfig& config) {
@@ -48,6 +49,7 @@ int run(const ServeConfig& config) {
 int main(int argc, char** argv) {
   // A closed pipe behind standard output or error is no reason to end a game.
   std::signal(SIGPIPE, SIG_IGN);
+  core::end_when_out_of_memory("woodlouse-server: out of memory\n");
   const auto config = parse_config(argc, argv);
   if (!config) return report(config.error(), kUsage);
   return std::visit([](const auto& chosen) { return run(chosen); }, *config);

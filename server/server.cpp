@@ -55,10 +55,6 @@ std::size_t tick_threads(std::size_t rooms) {
 
 /// Takes over what the recording decides.
 core::Expected<Start> begin_fork(ServeConfig& config) {
-  std::error_code ignored;  // a file that is not there yet is no other one's equal
-  if (config.record && fs::equivalent(*config.record, config.fork->recording, ignored))
-    return core::fail("--record " + config.record->string(), "is the recording to go on from",
-                      "a fork writes a recording of its own: name another file");
   auto start = open_fork(*config.fork);
   if (!start) return start;
   config.tick_hz = start->match->settings().tick_hz;

@@ -1,7 +1,9 @@
 #include "bench/swarm/options.h"
 
 #include <CLI/CLI.hpp>
-#include <map>
+#include <iostream>
+
+#include "server/option_checks.h"
 
 namespace woodlouse::swarm {
 
@@ -17,17 +19,20 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   app.add_option("--inputs-per-second", options.inputs_per_second, "that each bot sends")
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
-  const std::map<std::string, protocol::Format> formats{{"quantized", protocol::Format::kQuantized},
-                                                        {"exact", protocol::Format::kExact}};
-  app.add_option("--format", options.format, "of the rows: quantized or exact")
-      ->transform(CLI::CheckedTransformer(formats));
+  std::string format = "quantized";
+  app.add_option("--format", format, "of the rows")
+      ->check(CLI::IsMember({"quantized", "exact"}))
+      ->capture_default_str();
   app.add_option("--room", options.room, "to join; the server's first when left out");
-  app.add_option("--seed", options.seed, "of the steering")->capture_default_str();
+  app.add_option("--seed", options.seed, "of the steering")
+      ->check(server::whole_number(0))
+      ->capture_default_str();
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
+  options.format = format == "exact" ? protocol::Format::kExact : protocol::Format::kQuantized;
   const std::size_t colon = address.rfind(':');
   if (colon == std::string::npos || colon == 0 || colon + 1 == address.size()) {
     std::cerr << "woodlouse-swarm: the address \"" << address << "\" is not HOST:PORT\n"

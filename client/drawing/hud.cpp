@@ -138,7 +138,7 @@ std::string proof_text(const StateProof& proof) {
   if (proof.differs) return "state DIFFERS at tick " + std::to_string(*proof.differs);
   if (!proof.total) return "state ok " + std::to_string(proof.verified);
   return "state ok " + core::to_hex(proof.hash).substr(12) + " " + std::to_string(proof.verified) + "/" +
-         std::to_string(*proof.total);
+         std::to_string(*proof.total) + (proof.cut_off ? ", cut off" : "");
 }
 
 void draw_status_line(const Scene& scene, CellBuffer& cells) {

@@ -10,7 +10,8 @@
 
 namespace woodlouse::client {
 
-/// "state ok 12" of a server's keys, "state ok 9f3a 600/11544" of a recording's ticks, or where it differs.
+/// "state ok 12" of a server's keys, "state ok 9f3a 600/11544" of a recording's ticks (", cut off" where it
+/// has no end), or where it differs.
 std::string proof_text(const StateProof& proof);
 
 /// Game, map, lice, rank, round-trip time, rates.

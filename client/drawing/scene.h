@@ -95,6 +95,7 @@ struct StateProof {
   std::optional<std::uint64_t> total;    ///< ticks of the recording; empty: a server's
   std::uint64_t hash = 0;                ///< the newest that was right
   std::optional<std::uint64_t> differs;  ///< the first tick whose hash is not what was stated
+  bool cut_off = false;                  ///< the recording has no end
 };
 
 enum class EventSign : std::uint8_t { kJoined, kLeft, kRespawned, kChat };

@@ -141,7 +141,8 @@ Scene Screening::scene(const FrameFacts& facts) const {
   scene.chat = recording_.chat();
   scene.replay = bar();
   const RecordingProof& proof = recording_.proof();
-  scene.proof = StateProof{proof.proven(), proof.total(), proof.hash(), std::nullopt};
+  scene.proof = StateProof{proof.proven(), proof.total(), proof.hash(), std::nullopt,
+                           recording_.archive().is_cut_off()};
   scene.notice = damage_;
   if (proof.difference()) {
     scene.proof->differs = proof.difference()->tick;

@@ -1,5 +1,7 @@
 #include "client/watch/recording_proof.h"
 
+#include <iterator>
+
 #include "shared/core/stable_hash.h"
 
 namespace woodlouse::client {
@@ -17,10 +19,19 @@ void RecordingProof::take(const replay::PlayedStep& step) {
     return;
   }
   hash_ = step.hash;
-  const std::uint64_t place = tick - first_ - 1;
-  if (place >= proven_.size() || proven_[place]) return;
-  proven_[place] = true;
+  if (tick <= first_ || tick > last_) return;
+  auto after = proven_.upper_bound(tick);
+  const auto before = after == proven_.begin() ? proven_.end() : std::prev(after);
+  if (before != proven_.end() && tick < before->second) return;
   ++count_;
+  const bool joins_next = after != proven_.end() && after->first == tick + 1;
+  const std::uint64_t end = joins_next ? after->second : tick + 1;
+  if (joins_next) proven_.erase(after);
+  if (before != proven_.end() && before->second == tick) {
+    before->second = end;
+  } else {
+    proven_[tick] = end;
+  }
 }
 
 }  // namespace woodlouse::client

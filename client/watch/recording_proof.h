@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "shared/replay/playback.h"
 
@@ -23,13 +23,13 @@ std::string to_text(const TickDifference& difference);
 class RecordingProof {
  public:
   /// Of the ticks after `first` up to `last`.
-  RecordingProof(std::uint64_t first, std::uint64_t last) : first_(first), proven_(last - first) {}
+  RecordingProof(std::uint64_t first, std::uint64_t last) : first_(first), last_(last) {}
 
   /// A tick that is re-run twice counts once.
   void take(const replay::PlayedStep& step);
 
   [[nodiscard]] std::uint64_t proven() const { return count_; }
-  [[nodiscard]] std::uint64_t total() const { return proven_.size(); }
+  [[nodiscard]] std::uint64_t total() const { return last_ - first_; }
   /// Of the tick proven last; 0 before any.
   [[nodiscard]] std::uint64_t hash() const { return hash_; }
   /// The earliest that is known.
@@ -37,7 +37,9 @@ class RecordingProof {
 
  private:
   std::uint64_t first_;
-  std::vector<bool> proven_;  ///< by tick, the one after first_ first
+  std::uint64_t last_;
+  std::map<std::uint64_t, std::uint64_t>
+      proven_;  ///< stretches of ticks: the first, and the one after the last
   std::uint64_t count_ = 0;
   std::uint64_t hash_ = 0;
   std::optional<TickDifference> difference_;

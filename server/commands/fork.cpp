@@ -51,7 +51,7 @@ core::Error with_advice(core::Error error, const ForkPoint& point) {
 }  // namespace
 
 core::Expected<Start> open_fork(const ForkPoint& point) {
-  const auto archive = ReplayArchive::open(replay::source_of_file(point.recording));
+  const auto archive = ReplayArchive::open(replay::source_of_file(point.recording, point.maps));
   if (!archive) return tl::unexpected(with_advice(archive.error(), point));
   if (point.tick < (*archive)->first_tick() || point.tick > (*archive)->last_tick())
     return tl::unexpected(without_tick(**archive, point));
@@ -70,7 +70,8 @@ core::Expected<Start> open_fork(const ForkPoint& point) {
   Start start;
   start.map = (*archive)->map();
   start.match = match::Match::restore(start.map, (*playback)->match().settings(), state);
-  start.map_file = replay::map_file_of((*archive)->header(), point.recording.parent_path()).string();
+  start.map_file =
+      replay::map_file_of((*archive)->header(), {point.recording.parent_path(), point.maps}).string();
   start.unclaimed = unclaimed_seats(**archive, *start.match);
   start.parent = replay::Parent{point.recording.string(), state.tick, state.hash};
   return start;

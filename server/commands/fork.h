@@ -12,6 +12,7 @@ namespace woodlouse::server {
 struct ForkPoint {
   std::filesystem::path recording;
   std::uint64_t tick = 0;
+  std::filesystem::path maps{};  ///< where its map is, if it is only named; empty: beside the recording
 };
 
 /// The match at that tick, proven up to there since the keyframe before it; inputs that waited for a later

@@ -18,7 +18,7 @@ int report(const core::Error& error, std::ostream& errors) {
 }  // namespace
 
 int inspect_command(const InspectRequest& request, std::ostream& out, std::ostream& errors) {
-  const auto archive = replay::ReplayArchive::open(replay::source_of_file(request.file));
+  const auto archive = replay::ReplayArchive::open(replay::source_of_file(request.file, request.maps));
   if (!archive) return report(archive.error(), errors);
   const bool wants_state = request.tick || request.seconds;
   if (request.summary || !wants_state) {

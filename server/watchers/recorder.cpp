@@ -19,11 +19,13 @@ core::Expected<std::unique_ptr<Recorder>> Recorder::open(const std::filesystem::
                                                          replay::Header header,
                                                          boost::asio::thread_pool& disk,
                                                          std::shared_ptr<spdlog::logger> log) {
-  auto out = core::open_file_sink(file);
+  auto out = core::create_file(file);
   if (!out)
     return core::fail("cannot write the recording " + file.string(), out.error().what,
                       "does its folder exist, and may you write there?");
-  return std::make_unique<Recorder>(std::move(*out), file.string(), std::move(header), disk, std::move(log));
+  if (out->path != file) log->warn("{} is there already: recording to {}", file.string(), out->path.string());
+  return std::make_unique<Recorder>(std::move(out->sink), out->path.string(), std::move(header), disk,
+                                    std::move(log));
 }
 
 Recorder::Recorder(std::unique_ptr<core::ByteSink> out, std::string name, replay::Header header,
@@ -54,7 +56,10 @@ void Recorder::player(match::PlayerId player, const std::string& name, protocol:
 void Recorder::chat(std::uint64_t tick, match::PlayerId player, const std::string& name,
                     const std::string& text) {
   enqueue([this, tick, player, name, text](std::string& out) {
-    writer_.append_chat(out, tick, player, name, text);
+    const bool fits = writer_.append_chat(out, tick, player, name, text);
+    if (!fits && std::exchange(left_out_at_, tick) != tick)
+      log_->warn("{}: more was said at tick {} than a recording holds, the rest of it is left out", name_,
+                 tick);
   });
 }
 

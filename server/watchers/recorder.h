@@ -34,8 +34,9 @@ class Recorder final : public TickWatcher {
   /// Half of what a killed server may lose, so that a busy machine keeps the promise too.
   static constexpr std::chrono::milliseconds kFlushEvery{500};
 
-  /// Creates the file, over one that is there; named .zst it is compressed. header: of the game that it will
-  /// watch. disk: a pool of one thread, so that lines keep their order; it outlives the recording.
+  /// Creates the file, under a number where one is there (core/sink_file.h), which the log says; named .zst
+  /// it is compressed. header: of the game that it will watch. disk: a pool of one thread, so that lines keep
+  /// their order; it outlives the recording.
   static core::Expected<std::unique_ptr<Recorder>> open(const std::filesystem::path& file,
                                                         replay::Header header, boost::asio::thread_pool& disk,
                                                         std::shared_ptr<spdlog::logger> log);
@@ -78,8 +79,9 @@ class Recorder final : public TickWatcher {
   replay::ReplayWriter writer_;
   boost::asio::steady_timer flush_timer_;
   bool finished_ = false;
-  bool will_flush_ = false;  ///< the timer runs
-  std::string bytes_;        ///< not yet in the file
+  bool will_flush_ = false;                 ///< the timer runs
+  std::string bytes_;                       ///< not yet in the file
+  std::uint64_t left_out_at_ = UINT64_MAX;  ///< the last tick at which chat was left out
 };
 
 }  // namespace woodlouse::server

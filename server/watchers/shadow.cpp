@@ -92,11 +92,11 @@ core::Expected<std::string> Shadow::dump_side(const char* side, const match::Ste
   writer.append_keyframe(bytes, after);
   writer.append_end(bytes, "the shadow differs");
   const std::string file = joined({dump_.string(), ".", std::to_string(after.tick), ".", side, ".ndjson"});
-  const auto out = core::open_file_sink(file);
-  auto written = out ? (*out)->write(bytes) : core::Expected<void>(tl::unexpected(out.error()));
-  if (written) written = (*out)->close();
+  const auto out = core::create_file(file);
+  auto written = out ? out->sink->write(bytes) : core::Expected<void>(tl::unexpected(out.error()));
+  if (written) written = out->sink->close();
   if (!written) return core::fail(file, joined({"can't be written: ", written.error().what}));
-  return file;
+  return out->path.string();
 }
 
 void Shadow::finish(const std::string&, std::function<void()> done) {

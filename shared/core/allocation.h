@@ -1,18 +1,32 @@
-// What a library that allocates by itself, and could not, leads to.
+// What becomes of a program that gets no memory.
 #pragma once
 
+#include <cstdio>
 #include <cstdlib>
 #include <new>
 
 namespace woodlouse::core {
 
-/// As operator new does; where there are no exceptions, the end.
+/// What a library that allocates by itself, and could not, leads to: as operator new does; where there are no
+/// exceptions, the end.
 [[noreturn]] inline void out_of_memory() {
 #ifdef __cpp_exceptions
   throw std::bad_alloc();
 #else
   std::abort();
 #endif
+}
+
+/// From now on, in any thread, a request for memory that is not met ends the program with this line on
+/// standard error and exit code 1. REQUIRES a text that outlives the program. Not for who has a terminal to
+/// put right first.
+inline void end_when_out_of_memory(const char* line) {
+  static const char* text;
+  text = line;
+  std::set_new_handler([] {
+    std::fputs(text, stderr);
+    std::_Exit(1);
+  });
 }
 
 }  // namespace woodlouse::core

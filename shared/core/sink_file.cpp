@@ -1,47 +1,87 @@
 #include "shared/core/sink_file.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cassert>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <string>
+#include <system_error>
 #include <utility>
 
 namespace woodlouse::core {
 namespace {
 
+namespace fs = std::filesystem;
+
 class FileSink final : public ByteSink {
  public:
-  FileSink(std::ofstream out, std::string name) : out_(std::move(out)), name_(std::move(name)) {}
+  FileSink(int descriptor, std::string name) : descriptor_(descriptor), name_(std::move(name)) {
+    assert(descriptor >= 0);
+  }
+  ~FileSink() override {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
 
   Expected<void> write(std::string_view bytes) override {
-    errno = 0;
-    out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out_.flush();
-    return outcome();
+    assert(descriptor_ >= 0);
+    while (!bytes.empty()) {
+      const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) return fail(name_, std::strerror(errno));
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+    return {};
   }
   Expected<void> close() override {
-    errno = 0;
-    out_.close();
-    return outcome();
-  }
-
- private:
-  Expected<void> outcome() const {
-    if (!out_) return fail(name_, std::strerror(errno));
+    assert(descriptor_ >= 0);
+    if (::close(std::exchange(descriptor_, -1)) != 0) return fail(name_, std::strerror(errno));
     return {};
   }
 
-  std::ofstream out_;
+ private:
+  int descriptor_;
   std::string name_;
 };
 
+/// -1: see errno. One that is there is opened only if it is no file: EEXIST otherwise.
+int open_for_writing(const fs::path& file) {
+  constexpr mode_t kMode = 0666;  // less the umask
+  std::error_code error;
+  const bool is_other = fs::is_other(file, error);
+  // Not waiting: a pipe that nobody reads is an error, not a server that stands still.
+  const int flags = O_WRONLY | O_CLOEXEC | (is_other ? O_NONBLOCK : O_CREAT | O_EXCL);
+  const int descriptor = ::open(file.c_str(), flags, kMode);
+  if (descriptor >= 0 && is_other) ::fcntl(descriptor, F_SETFL, 0);
+  return descriptor;
+}
+
 }  // namespace
 
-Expected<std::unique_ptr<ByteSink>> open_file_sink(const std::filesystem::path& file) {
-  errno = 0;
-  std::ofstream out(file, std::ios::binary | std::ios::trunc);
-  if (!out) return fail(file.string(), std::strerror(errno));
-  return std::make_unique<FileSink>(std::move(out), file.string());
+fs::path numbered(const fs::path& file, std::size_t number) {
+  fs::path stem = file.filename();
+  std::string extension;
+  if (stem.extension() == ".zst") {
+    extension = stem.extension().string();
+    stem = stem.stem();
+  }
+  extension.insert(0, stem.extension().string());
+  return fs::path(file).replace_filename(stem.stem().string() + '.' + std::to_string(number) + extension);
+}
+
+Expected<NewFile> create_file(const fs::path& file) {
+  if (std::error_code error; fs::is_directory(file, error)) return fail(file.string(), std::strerror(EISDIR));
+  for (std::size_t number = 0; number <= kMaxFileNumber; ++number) {
+    fs::path name = number == 0 ? file : numbered(file, number);
+    const int descriptor = open_for_writing(name);
+    if (descriptor >= 0) {
+      auto sink = std::make_unique<FileSink>(descriptor, name.string());
+      return NewFile{std::move(sink), std::move(name)};
+    }
+    if (errno != EEXIST) return fail(name.string(), std::strerror(errno));
+  }
+  return fail(file.string(), "is there, and so is every numbered one of it");
 }
 
 }  // namespace woodlouse::core

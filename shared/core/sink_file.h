@@ -1,6 +1,7 @@
-// Bytes into a file.
+// Bytes into a file that was not there before.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 
@@ -8,7 +9,20 @@
 
 namespace woodlouse::core {
 
-/// Creates the file, over one that is there. Errors: where = the file, what = the system's words.
-Expected<std::unique_ptr<ByteSink>> open_file_sink(const std::filesystem::path& file);
+struct NewFile {
+  std::unique_ptr<ByteSink> sink;
+  std::filesystem::path path;  ///< what it is called: as asked for, or numbered
+};
+
+inline constexpr std::size_t kMaxFileNumber = 9999;
+
+/// game.ndjson.zst and 2: game.2.ndjson.zst. The number stands before the extension, and .zst is not all of
+/// it.
+std::filesystem::path numbered(const std::filesystem::path& file, std::size_t number);
+
+/// Creates the file; where one of that name is there already, the first of numbered(file, 1), (file, 2), ...
+/// that is not: nothing is ever written over. A device or a pipe that somebody reads is written into as it
+/// is. Errors: where = the file, what = the system's words, or that all numbers are taken.
+Expected<NewFile> create_file(const std::filesystem::path& file);
 
 }  // namespace woodlouse::core

@@ -9,17 +9,23 @@
 
 namespace woodlouse::core {
 
-Expected<std::string> read_whole_file(const std::filesystem::path& file, std::size_t max_bytes) {
+Expected<void> check_regular_file(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) {
     return fail(file.string(), "no such file", "check the path, and the folder it starts from");
   }
   if (std::filesystem::is_directory(status)) return fail(file.string(), "is a folder, not a file");
+  if (!std::filesystem::is_regular_file(status))
+    return fail(file.string(), "is no regular file", "pipes, devices and sockets are not read");
+  return {};
+}
 
+Expected<std::string> read_whole_file(const std::filesystem::path& file, std::size_t max_bytes) {
+  if (auto regular = check_regular_file(file); !regular) return tl::unexpected(regular.error());
   std::ifstream in(file, std::ios::binary);
   if (!in) return fail(file.string(), std::string("can't be opened: ") + std::strerror(errno));
-  // Read rather than trust a size: a pipe has none.
+  // Read rather than trust a size: it may grow, and files of /proc have none.
   std::string bytes;
   constexpr std::size_t kChunk = 1u << 16;
   while (in && bytes.size() <= max_bytes) {

@@ -65,6 +65,9 @@ core::Expected<std::shared_ptr<const FltGrid>> FltGrid::open(const std::filesyst
   const auto header = parse_flt_header(*text, header_file.string());
   if (!header) return tl::unexpected(header.error());
 
+  if (std::error_code error; std::filesystem::exists(file, error)) {
+    if (auto regular = core::check_regular_file(file); !regular) return tl::unexpected(regular.error());
+  }
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0)
     return core::fail(

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "shared/replay/line_reader.h"
 #include "shared/replay/rerun.h"
 
 namespace woodlouse::replay {

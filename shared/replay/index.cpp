@@ -4,6 +4,8 @@
 #include <cassert>
 #include <iterator>
 
+#include "shared/replay/line_reader.h"
+
 namespace woodlouse::replay {
 
 std::string_view to_text(MarkKind kind) {
@@ -88,8 +90,6 @@ core::Expected<ReplayIndex> scan_index(std::istream& in, const std::string& sour
     if (!line) return tl::unexpected(line.error());
     if (!*line) break;
     if (const auto* keyframe = std::get_if<Keyframe>(&**line)) {
-      const bool is_next = index.keyframes.empty() || keyframe->state.tick > index.keyframes.back().tick;
-      if (!is_next) return core::fail(reader.place(), "a keyframe that does not follow the one before it");
       index.add({keyframe->state.tick, reader.line_offset(), reader.line_number()}, *keyframe);
     }
     if (const auto* step = std::get_if<StepLine>(&**line)) index.add(*step);

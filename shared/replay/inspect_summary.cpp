@@ -5,12 +5,18 @@
 
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
+#include "shared/protocol/text_cleaning.h"
 #include "shared/replay/inspect.h"
+#include "shared/replay/line_fields.h"
+#include "shared/replay/line_reader.h"
 
 namespace woodlouse::replay {
 namespace {
 
 constexpr std::int64_t kLongestMargin = 10'000;  // [ms]; more counts as this
+/// So many margins, of all players, are told apart by the millisecond, later ones by the second: bounded
+/// memory.
+constexpr std::size_t kExactMargins = 1'000'000;
 
 /// What a player's inputs were.
 struct Punctuality {
@@ -19,12 +25,13 @@ struct Punctuality {
   std::uint64_t known = 0;                        ///< with a margin
   std::map<std::int64_t, std::uint64_t> margins;  ///< how many of each [ms]
 
-  void add(const std::optional<std::int64_t>& margin) {
+  /// step: margins count in multiples of it [ms]. Whether a margin is one that had not come before.
+  bool add(const std::optional<std::int64_t>& margin, std::int64_t step) {
     ++inputs;
-    if (!margin) return;
+    if (!margin) return false;
     ++known;
     if (*margin < 0) ++late;
-    ++margins[std::clamp(*margin, -kLongestMargin, kLongestMargin)];
+    return ++margins[std::clamp(*margin, -kLongestMargin, kLongestMargin) / step * step] == 1;
   }
   /// The margin that this share of the inputs did not reach.
   [[nodiscard]] std::int64_t quantile(double share) const {
@@ -45,6 +52,8 @@ core::Expected<ByPlayer> read_margins(const ReplayArchive& archive) {
   ReplayReader reader(**stream, archive.source().name);
   if (const auto header = reader.read_header(); !header) return tl::unexpected(header.error());
   ByPlayer players;
+  for (const PlayerSpan& player : archive.players()) players[player.player];  // nobody else is told of
+  std::size_t margins = 0;
   for (;;) {
     const core::Expected<std::optional<Line>> line = reader.next();
     if (!line) return tl::unexpected(line.error());
@@ -52,7 +61,10 @@ core::Expected<ByPlayer> read_margins(const ReplayArchive& archive) {
     const auto* step = std::get_if<StepLine>(&**line);
     if (step == nullptr) continue;
     for (std::size_t k = 0; k < step->step.inputs.size(); ++k) {
-      players[step->step.inputs[k].player].add(step->margins_ms[k]);
+      const auto player = players.find(step->step.inputs[k].player);
+      if (player != players.end() &&
+          player->second.add(step->margins_ms[k], margins < kExactMargins ? 1 : 1000))
+        ++margins;
     }
   }
 }
@@ -65,22 +77,25 @@ std::string formatted(const char* format, Values... values) {
       text, std::clamp<std::size_t>(static_cast<std::size_t>(std::max(size, 0)), 0, sizeof text - 1));
 }
 
+/// What came in a file, for a terminal.
+std::string shown(std::string_view text) { return protocol::clean_text(text, kMaxTextBytes); }
+
 std::string head(const ReplayArchive& archive) {
   const Header& header = archive.header();
-  std::string out =
-      core::joined({archive.source().name, "\nmap      ", header.map_name, " ", core::to_hex(header.map_hash),
-                    "\nplayed   by ", header.build, ", behavior ", std::to_string(header.behavior), ", seed ",
-                    std::to_string(header.seed), ", ", std::to_string(header.tick_hz), " ticks/s\n"});
+  std::string out = core::joined(
+      {archive.source().name, "\nmap      ", shown(header.map_name), " ", core::to_hex(header.map_hash),
+       "\nplayed   by ", shown(header.build), ", behavior ", std::to_string(header.behavior), ", seed ",
+       std::to_string(header.seed), ", ", std::to_string(header.tick_hz), " ticks/s\n"});
   if (header.parent) {
-    out += core::joined(
-        {"forked   from ", header.parent->file, " at tick ", std::to_string(header.parent->tick), "\n"});
+    out += core::joined({"forked   from ", shown(header.parent->file), " at tick ",
+                         std::to_string(header.parent->tick), "\n"});
   }
   const std::uint64_t ticks = archive.last_tick() - archive.first_tick();
   out += core::joined({"ticks    ", std::to_string(archive.first_tick()), " to ",
                        std::to_string(archive.last_tick()),
                        formatted(", %.1f s; ", static_cast<double>(ticks) / header.tick_hz),
                        archive.is_cut_off() ? std::string("cut off, without an end")
-                                            : core::joined({"ended: ", archive.end_reason()}),
+                                            : core::joined({"ended: ", shown(archive.end_reason())}),
                        "\n"});
   std::uint64_t counts[4] = {};
   for (const Mark& mark : archive.marks()) ++counts[static_cast<std::size_t>(mark.kind)];
@@ -103,7 +118,7 @@ std::string row(const PlayerSpan& player, const Punctuality& inputs) {
                      static_cast<long>(inputs.quantile(0.5)), static_cast<long>(inputs.quantile(0.01)),
                      static_cast<long>(inputs.margins.begin()->first));
   }
-  return core::joined({out, "  ", player.label.name, "\n"});
+  return core::joined({out, "  ", shown(player.label.name), "\n"});
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include "shared/replay/line_reader.h"
+
 #include <algorithm>
 #include <istream>
 #include <limits>
@@ -7,7 +9,6 @@
 #include "shared/core/joined.h"
 #include "shared/json/document.h"
 #include "shared/json/fields.h"
-#include "shared/replay/format.h"
 #include "shared/replay/header_reader.h"
 #include "shared/replay/line_fields.h"
 #include "shared/replay/zstd_input.h"
@@ -295,6 +296,7 @@ core::Expected<Header> ReplayReader::read_header() {
   Problems problems(source_);
   Header header = replay::read_header(document->root(), problems);
   if (problems.count() != 0) return tl::unexpected(problems.errors().front());
+  order_.begin();
   return header;
 }
 
@@ -307,6 +309,11 @@ core::Expected<std::optional<Line>> ReplayReader::next() {
   Problems problems(source_);
   Line line = read_object(document->root(), problems);
   if (problems.count() != 0) return tl::unexpected(problems.errors().front());
+  if (auto fits = order_.follow(line); !fits) {
+    core::Error error = std::move(fits.error());
+    error.where = error.where.empty() ? place() : joined({place(), ": ", error.where});
+    return tl::unexpected(std::move(error));
+  }
   return std::optional<Line>(std::move(line));
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "shared/replay/archive.h"
+#include "shared/replay/line_reader.h"
 #include "shared/replay/segment.h"
 
 namespace woodlouse::replay {
@@ -45,6 +46,7 @@ class Plan {
   /// After all work: the verdict, or nothing when the index misled.
   std::optional<core::Expected<Verification>> verdict() {
     Verification verification;
+    verification.first_tick = archive_->first_tick();
     for (std::optional<Finding>& finding : findings_) {
       if (!finding || !finding->is_where_planned) return std::nullopt;
       if (!finding->segment) return tl::unexpected(finding->segment.error());

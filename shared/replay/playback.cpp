@@ -1,4 +1,5 @@
 #include "shared/replay/playback.h"
+#include "shared/replay/line_reader.h"
 
 #include <utility>
 

@@ -10,7 +10,7 @@
 
 #include "shared/core/error.h"
 #include "shared/match/match.h"
-#include "shared/replay/format.h"
+#include "shared/replay/line_reader.h"
 
 namespace woodlouse::replay {
 

@@ -7,20 +7,23 @@
 
 namespace woodlouse::replay {
 
-std::filesystem::path map_file_of(const Header& header, const std::filesystem::path& folder) {
+namespace fs = std::filesystem;
+
+fs::path map_file_of(const Header& header, const MapPlaces& places) {
   if (header.map_file.empty()) return {};
-  const std::filesystem::path recorded(header.map_file);
+  const fs::path name = fs::path(header.map_file).filename();
+  const fs::path beside = places.recording / name;
   std::error_code error;
-  const std::filesystem::path beside = folder / recorded.filename();
-  return std::filesystem::exists(beside, error) ? beside : recorded;
+  return places.maps.empty() || fs::exists(beside, error) ? beside : places.maps / name;
 }
 
-core::Expected<MapPointer> load_named_map(const Header& header, const std::filesystem::path& folder) {
+core::Expected<MapPointer> load_named_map(const Header& header, const MapPlaces& places) {
   assert(header.map_definition.empty());
-  const std::filesystem::path file = map_file_of(header, folder);
+  const fs::path file = map_file_of(header, places);
   std::error_code error;
-  if (!file.empty() && !std::filesystem::exists(file, error)) {
-    return core::fail(file.string(), "no such file", "put the map it was played on beside the recording");
+  if (!file.has_filename() || !fs::exists(file, error)) {
+    return core::fail(file.string(), "no such file",
+                      "put the map it was played on beside the recording, or say --maps FOLDER");
   }
   return map::load_map(file);
 }

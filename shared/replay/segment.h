@@ -7,7 +7,7 @@
 
 #include "shared/core/error.h"
 #include "shared/map/map_definition.h"
-#include "shared/replay/format.h"
+#include "shared/replay/line_reader.h"
 #include "shared/replay/rerun.h"
 
 namespace woodlouse::replay {

@@ -3,9 +3,9 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <system_error>
 #include <utility>
 
+#include "shared/core/whole_file.h"
 #include "shared/replay/recorded_map_file.h"
 
 namespace woodlouse::replay {
@@ -14,9 +14,7 @@ namespace {
 using Stream = std::unique_ptr<std::istream>;
 
 core::Expected<Stream> open_file(const std::filesystem::path& file) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error))
-    return core::fail(file.string(), "is a folder, not a recording");
+  if (auto regular = core::check_regular_file(file); !regular) return tl::unexpected(regular.error());
   errno = 0;
   auto in = std::make_unique<std::ifstream>(file, std::ios::binary);
   if (!*in) return core::fail(file.string(), std::string("can't be opened: ") + std::strerror(errno));
@@ -25,9 +23,11 @@ core::Expected<Stream> open_file(const std::filesystem::path& file) {
 
 }  // namespace
 
-ReplaySource source_of_file(const std::filesystem::path& file) {
+ReplaySource source_of_file(const std::filesystem::path& file, const std::filesystem::path& maps) {
   return {file.string(), [file] { return open_file(file); },
-          [folder = file.parent_path()](const Header& header) { return load_named_map(header, folder); }};
+          [places = MapPlaces{file.parent_path(), maps}](const Header& header) {
+            return load_named_map(header, places);
+          }};
 }
 
 }  // namespace woodlouse::replay

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "shared/core/joined.h"
-#include "shared/replay/format.h"
+#include "shared/replay/line_reader.h"
 #include "shared/replay/segment.h"
 
 namespace woodlouse::replay {
@@ -21,11 +21,9 @@ core::Expected<Verification> verify(const ReplaySource& source) {
   core::Expected<std::optional<Line>> first = reader.next();
   if (!first) return tl::unexpected(first.error());
   if (!*first) return core::fail(source.name, "was cut off before its first keyframe");
-  if (!std::holds_alternative<Keyframe>(**first)) {
-    return core::fail(reader.place(), "is no keyframe", "one stands behind the header");
-  }
   std::optional<Keyframe> start = std::get<Keyframe>(std::move(**first));
   Verification verification;
+  verification.first_tick = start->state.tick;
   bool has_end = false;
   while (start && !verification.difference) {
     core::Expected<Segment> segment =
@@ -41,10 +39,11 @@ core::Expected<Verification> verify(const ReplaySource& source) {
 }
 
 std::string to_text(const Verification& verification) {
-  const std::string ticks = std::to_string(verification.ticks);
   if (verification.ok()) {
-    if (!verification.cut_off) return joined({"ok ", ticks, " ticks\n"});
-    return joined({"ok ", ticks, " ticks, then the recording is cut off: it has no end line\n"});
+    return joined({"ok ticks ", std::to_string(verification.first_tick), " to ",
+                   std::to_string(verification.first_tick + verification.ticks),
+                   verification.from_start() ? "" : ", the start is taken on trust",
+                   verification.cut_off ? ", then the recording is cut off: it has no end line" : "", "\n"});
   }
   const Difference& difference = *verification.difference;
   return joined({"differs at tick ", std::to_string(difference.tick), ": ", difference.what, "\n",

@@ -18,8 +18,13 @@
 namespace woodlouse::replay {
 
 struct Verification {
-  std::uint64_t ticks = 0;  ///< steps re-run up to the end, or to where the first difference showed
-  bool cut_off = false;     ///< the recording has no end line: the server did not finish it
+  std::uint64_t first_tick = 0;  ///< where it begins
+  std::uint64_t ticks = 0;       ///< steps re-run up to the end, or to where the first difference showed
+  /// It begins at tick 0, of which map and seed say all (match::why_not). Else whoever wrote the first
+  /// keyframe may have made it up, and what follows from it alone is proven: a fork's, or a recording whose
+  /// beginning is missing.
+  [[nodiscard]] bool from_start() const { return first_tick == 0; }
+  bool cut_off = false;                  ///< the recording has no end line: the server did not finish it
   std::optional<Difference> difference;  ///< empty: the same bits throughout
   [[nodiscard]] bool ok() const { return !difference.has_value(); }
 };
@@ -29,7 +34,8 @@ struct Verification {
 /// threads.
 core::Expected<Verification> verify(const ReplaySource& source);
 
-/// One or two lines for people, newline included: `ok N ticks`, or where and how it differs.
+/// One or two lines for people, newline included: `ok ticks 0 to 400`, and what of it is not proven, or where
+/// and how it differs.
 std::string to_text(const Verification& verification);
 
 }  // namespace woodlouse::replay

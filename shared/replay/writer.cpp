@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "shared/replay/line_order.h"
+
 namespace woodlouse::replay {
 namespace {
 
@@ -65,6 +67,7 @@ void ReplayWriter::note_margin(match::PlayerId player, std::uint32_t seq, std::i
 void ReplayWriter::append_step(std::string& out, const match::StepRecord& step) {
   replay::append_step(line_, step, labels_, margins_);
   put(out);
+  chats_ = 0;
   StepLine line;
   line.step = step;
   for (const match::RosterChange& change : step.roster) {
@@ -86,12 +89,14 @@ void ReplayWriter::forget_notes(const match::StepRecord& step) {
   }
 }
 
-void ReplayWriter::append_chat(std::string& out, std::uint64_t tick, match::PlayerId player,
+bool ReplayWriter::append_chat(std::string& out, std::uint64_t tick, match::PlayerId player,
                                std::string_view name, std::string_view text) {
+  if (++chats_ > kMaxChatsAStep) return false;
   const ChatLine line{tick, player, std::string(name), std::string(text)};
   replay::append_chat(line_, line);
   put(out);
   index_.add(line);
+  return true;
 }
 
 void ReplayWriter::append_end(std::string& out, std::string_view reason) {

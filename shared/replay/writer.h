@@ -44,7 +44,8 @@ class ReplayWriter {
   void note_margin(match::PlayerId player, std::uint32_t seq, std::int64_t margin_us);
 
   void append_step(std::string& out, const match::StepRecord& step);
-  void append_chat(std::string& out, std::uint64_t tick, match::PlayerId player, std::string_view name,
+  /// False: it was left out, for there are kMaxChatsAStep since the last step (line_order.h).
+  bool append_chat(std::string& out, std::uint64_t tick, match::PlayerId player, std::string_view name,
                    std::string_view text);
   /// The index and the last line. `reason`: for people ("SIGTERM", "ticks done").
   void append_end(std::string& out, std::string_view reason);
@@ -60,8 +61,9 @@ class ReplayWriter {
   std::string line_;
   std::uint64_t offset_ = 0;  ///< bytes of text so far
   std::uint64_t lines_ = 0;
-  PlayerLabels labels_;  ///< of who plays, or is about to
-  Margins margins_;      ///< of inputs not yet written
+  std::size_t chats_ = 0;  ///< since the last step
+  PlayerLabels labels_;    ///< of who plays, or is about to
+  Margins margins_;        ///< of inputs not yet written
   ReplayIndex index_;
 };
 

@@ -61,6 +61,11 @@ bool ZstdInput::unpack_some() {
                              " MiB: no recording"});
       return false;
     }
+    if (unpacked_end_ > kMaxFrameBytes + kMaxRatio * packed_read_) {
+      fault_ = core::joined({"unpacks to more than ", std::to_string(kMaxRatio), " times ",
+                             std::to_string(packed_read_), " bytes: no recording"});
+      return false;
+    }
     setg(out_.data(), out_.data(), out_.data() + out.pos);
     if (out.pos > 0) return true;
     if (!has_more) is_drained_ = true;

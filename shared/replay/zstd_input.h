@@ -3,7 +3,8 @@
 // Frames are independent. A finished recording ends with a table of them, in zstd's own seekable format (a
 // skippable frame, which zstd passes over); where it is missing they are found by unpacking the file once.
 // A file that was cut off gives what its last frame holds. Bombs are refused: a window past kMaxWindow, a
-// frame that unpacks to more than kMaxFrameBytes.
+// frame that unpacks to more than kMaxFrameBytes, more than kMaxRatio bytes of text for each byte of the
+// file.
 #pragma once
 
 #include <zstd.h>
@@ -28,6 +29,9 @@ class ZstdInput : public std::streambuf {
  public:
   static constexpr int kMaxWindowLog = 23;                                  ///< 8 MiB
   static constexpr std::uint64_t kMaxFrameBytes = std::uint64_t{64} << 20;  ///< unpacked
+
+  static constexpr std::uint64_t kMaxRatio =
+      100;  ///< but for kMaxFrameBytes; a step's hash alone keeps it below 10
 
   explicit ZstdInput(std::unique_ptr<std::istream> packed);
 

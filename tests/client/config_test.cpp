@@ -116,7 +116,7 @@ TEST_CASE("help and version end it with 0") {
   Environment environment;
   REQUIRE(parse({"--help"}).exit_code == 0);
   REQUIRE(parse({"--help"}).output.find("--watch") != std::string::npos);
-  REQUIRE(parse({"--version"}).output == "woodlouse 0.1.0\n");
+  REQUIRE(parse({"--version"}).output == "woodlouse " WOODLOUSE_VERSION "\n");
 }
 
 TEST_CASE("a bad config file is named with its field") {

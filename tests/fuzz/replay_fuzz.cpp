@@ -1,7 +1,7 @@
 // Recordings, plain or compressed: each line reads back the same once written anew or is refused with its
 // place; the archive opens, plays to its end and jumps, or says why not; and a keyframe that was altered, but
-// whose hash was made to fit, is refused or can be gone on from. The re-run is as long as the file, which the
-// fuzzer bounds.
+// whose hash was made to fit, is refused or can be gone on from; it can be inspected, forked and viewed. The
+// re-run is as long as the file, which the fuzzer bounds.
 //
 // Input: the file.
 #include <cmath>
@@ -14,10 +14,12 @@
 #include <variant>
 #include <vector>
 
+#include "client/watch/recording_view.h"
 #include "shared/core/error.h"
 #include "shared/core/stable_hash.h"
 #include "shared/replay/archive.h"
-#include "shared/replay/format.h"
+#include "shared/replay/inspect.h"
+#include "shared/replay/line_reader.h"
 #include "shared/replay/line_writer.h"
 #include "shared/replay/rerun.h"
 #include "shared/replay/source.h"
@@ -198,6 +200,53 @@ void check_playback(Playback& playback, const ReplayArchive& archive) {
   }
 }
 
+std::uint64_t middle_of(const ReplayArchive& archive) {
+  return archive.first_tick() + (archive.last_tick() - archive.first_tick()) / 2;
+}
+
+void check_inspection(const ReplayArchive& archive) {
+  const auto summary = inspect_summary(archive);
+  if (!summary) {
+    check(summary.error());
+  } else {
+    std::istringstream lines(*summary);
+    for (std::string line; std::getline(lines, line);)
+      demand(fuzz::is_plain_line(line), "a summary is lines of plain text", line);
+  }
+  for (const std::uint64_t tick : {archive.first_tick(), middle_of(archive), archive.last_tick()}) {
+    const auto state = inspect_state(archive, tick);
+    if (!state) return check(state.error());
+    demand(state->json.find('\n') == state->json.size() - 1, "an inspected state is one line", state->json);
+  }
+}
+
+/// What `fork` goes on from: the match at a tick, restored anew.
+void check_fork(const ReplayArchive& archive) {
+  const auto playback = archive.play(middle_of(archive));
+  if (!playback) return check(playback.error());
+  const match::Match& recorded = (*playback)->match();
+  const match::MatchState state = recorded.state();
+  if (!state.roster.empty()) return;
+  const auto fork = match::Match::restore(archive.map(), recorded.settings(), state);
+  const match::PlayerId newcomer = fork->join();
+  for (int k = 0; k < 3; ++k) fork->advance();
+  demand(fork->contains(newcomer), "whoever joins a fork is in it");
+  check_finite(*fork);
+}
+
+/// What the viewer shows and proves.
+void check_view(const ReplaySource& source) {
+  const auto view = client::RecordingView::open(source);
+  if (!view) return check(view.error());
+  const ReplayArchive& archive = (*view)->archive();
+  for (const std::uint64_t tick : {archive.last_tick(), middle_of(archive), archive.first_tick()}) {
+    if (const auto shown = (*view)->show(tick); !shown) return check(shown.error());
+    demand((*view)->chat().size() < 1000, "the viewer keeps a screen's worth of chat");
+  }
+  (*view)->prove(core::Time::max());
+  demand((*view)->proof().proven() <= (*view)->proof().total(), "no more is proven than there is");
+}
+
 void check_archive(const ReplaySource& source) {
   const auto archive = ReplayArchive::open(source);
   if (!archive) return check(archive.error());
@@ -205,6 +254,9 @@ void check_archive(const ReplaySource& source) {
   const auto playback = (*archive)->play((*archive)->first_tick());
   if (!playback) return check(playback.error());
   check_playback(**playback, **archive);
+  check_inspection(**archive);
+  check_fork(**archive);
+  check_view(source);
 }
 
 }  // namespace

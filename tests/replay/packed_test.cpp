@@ -112,6 +112,28 @@ TEST_CASE("an altered bit of a packed recording is an error, never another game"
   CHECK(refused > 200);
 }
 
+TEST_CASE("a frame, and a file for its size, unpack to so much and no more") {
+  const auto fault_of = [](const std::string& packed, std::size_t& size) {
+    ZstdInput buffer(std::make_unique<std::istringstream>(packed));
+    size = 0;
+    std::string chunk(1u << 16, '\0');
+    for (std::streamsize count = 1; count > 0; size += static_cast<std::size_t>(count))
+      count = buffer.sgetn(chunk.data(), static_cast<std::streamsize>(chunk.size()));
+    return buffer.fault();
+  };
+  std::size_t size = 0;
+  CHECK(fault_of(packed_by_zstd(std::string(65u << 20, ' ')), size).find("unpacks to more than 64 MiB") !=
+        std::string::npos);
+  CHECK(size <= ZstdInput::kMaxFrameBytes);
+  const std::string frame = packed_by_zstd(std::string(8u << 20, ' '));
+  std::string frames;
+  for (int k = 0; k < 20; ++k) frames += frame;
+  CHECK(fault_of(frames, size).find("unpacks to more than 100 times ") == 0);
+  CHECK(size <= ZstdInput::kMaxFrameBytes + ZstdInput::kMaxRatio * frames.size());
+  CHECK(fault_of(frames.substr(0, 8 * frame.size()), size).empty());
+  CHECK(size == ZstdInput::kMaxFrameBytes);
+}
+
 TEST_CASE("bombs are refused in one line") {
   const Recording recording = record({.steps = 1});
   const std::string start = recording.lines[0] + recording.lines[1];
@@ -129,9 +151,8 @@ TEST_CASE("bombs are refused in one line") {
   std::string chats;
   const std::string chat =
       "{\"chat\":0,\"player\":1,\"name\":\"\",\"text\":\"" + std::string(4000, 'x') + "\"}\n";
-  while (chats.size() < (65u << 20)) chats += chat;
-  CHECK(error(packed_by_zstd(start + chats)).find("unpacks to more than 64 MiB: no recording") !=
-        std::string::npos);
+  for (int k = 0; k < 5000; ++k) chats += chat;
+  CHECK(error(packed_by_zstd(start + chats)).find("r.zst:4099: chat: more than 4096 lines") == 0);
   CHECK(error(packed_by_zstd(start + std::string(100000, '[') + "\n")).find("r.zst:3: nested more than") ==
         0);
   CHECK(error(packed_by_zstd(start) + "garbage").find("compressed data is damaged at byte ") !=

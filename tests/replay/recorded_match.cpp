@@ -150,7 +150,7 @@ std::size_t Recording::line_of_step(std::uint64_t step) const {
 
 core::Expected<Verification> verify_text(const std::string& text, const std::filesystem::path& folder) {
   ReplaySource source = ReplaySource::of_bytes(text, "r.jsonl");
-  source.find_map = [folder](const Header& header) { return load_named_map(header, folder); };
+  source.find_map = [folder](const Header& header) { return load_named_map(header, {folder, {}}); };
   return verify(source);
 }
 

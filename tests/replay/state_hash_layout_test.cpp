@@ -6,7 +6,7 @@
 #include <string>
 
 #include "shared/core/stable_hash.h"
-#include "shared/replay/format.h"
+#include "shared/replay/line_reader.h"
 #include "shared/state/louse_fields.h"
 #include "tests/replay/recorded_match.h"
 

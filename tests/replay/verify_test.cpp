@@ -6,7 +6,7 @@
 #include <string>
 
 #include "shared/map/map_file.h"
-#include "shared/replay/verify.h"
+#include "shared/replay/parallel_verify.h"
 #include "shared/replay/writer.h"
 #include "tests/replay/recorded_match.h"
 
@@ -37,7 +37,7 @@ TEST_CASE("a recorded match verifies, on every kind of surface, whoever came, we
       CHECK(recording.leaves > 0);
       CHECK(recording.respawns > 0);
       const Verification verification = verdict(recording.text());
-      CHECK(to_text(verification) == "ok 400 ticks\n");
+      CHECK(to_text(verification) == "ok ticks 0 to 400\n");
       CHECK(verification.ticks == 400);
       CHECK_FALSE(verification.cut_off);
     }
@@ -45,7 +45,30 @@ TEST_CASE("a recorded match verifies, on every kind of surface, whoever came, we
 }
 
 TEST_CASE("a match of no steps verifies") {
-  CHECK(to_text(verdict(record({.steps = 0}).text())) == "ok 0 ticks\n");
+  CHECK(to_text(verdict(record({.steps = 0}).text())) == "ok ticks 0 to 0\n");
+}
+
+TEST_CASE("a start that a game does not begin with is taken on trust, and said to be") {
+  const Recording recording = record({.steps = 130});
+  const std::size_t keyframe = recording.line_of_step(59) + 1;
+  Recording late = recording;  // the first sixty steps and the keyframe before them cut away
+  late.lines.erase(late.lines.begin() + 1, late.lines.begin() + static_cast<std::ptrdiff_t>(keyframe));
+  for (const unsigned jobs : {1u, 3u}) {
+    const auto found = verify(ReplaySource::of_bytes(late.text(), "r.jsonl"), jobs);
+    REQUIRE(found);
+    CHECK_FALSE(found->from_start());
+    CHECK(to_text(*found) == "ok ticks 60 to 130, the start is taken on trust\n");
+  }
+  late.lines.resize(2);
+  CHECK(
+      to_text(verdict(late.text())) ==
+      "ok ticks 60 to 60, the start is taken on trust, then the recording is cut off: it has no end line\n");
+  // Tick 0 is no way around it: a game of that seed begins with nobody there.
+  Recording other = recording;
+  std::string& header = other.lines.front();
+  header.replace(header.find("\"seed\":\"1\""), 10, "\"seed\":\"2\"");
+  CHECK(verify_text(other.text()).error().text().find("at tick 0 there are no lice") != std::string::npos);
+  CHECK(verdict(recording.text()).from_start());
 }
 
 TEST_CASE("a recording that breaks off at any byte is good up to its last whole line") {
@@ -63,9 +86,9 @@ TEST_CASE("a recording that breaks off at any byte is good up to its last whole 
     CHECK(verification.ticks == whole_steps(recording, length));
   }
   CHECK(to_text(verdict(text.substr(0, text.size() - 1))) ==
-        "ok 61 ticks, then the recording is cut off: it has no end line\n");
+        "ok ticks 0 to 61, then the recording is cut off: it has no end line\n");
   CHECK(to_text(verdict(text.substr(0, first))) ==
-        "ok 0 ticks, then the recording is cut off: it has no end line\n");
+        "ok ticks 0 to 0, then the recording is cut off: it has no end line\n");
   CHECK(verify_text(text.substr(0, first - 1)).error().text() ==
         "r.jsonl: was cut off before its first keyframe");
   CHECK_FALSE(verify_text(""));
@@ -155,11 +178,11 @@ TEST_CASE("a large map is named by its hash and found beside the recording") {
 
   const auto missing = verify_text(text, folder);
   REQUIRE_FALSE(missing);
-  CHECK(missing.error().text().find("somewhere/else/large.json: no such file") == 0);
+  CHECK(missing.error().text().find((folder / "large.json").string() + ": no such file") == 0);
   write("large.json", map_text);
   const auto found = verify_text(text, folder);
   REQUIRE(found);
-  CHECK(to_text(*found) == "ok 100 ticks\n");
+  CHECK(to_text(*found) == "ok ticks 0 to 100\n");
   write("large.json", R"({"name":"large","terrain":{"function":"hills","grid":161,"scale":20}})");
   const auto other = verify_text(text, folder);
   REQUIRE_FALSE(other);

@@ -172,8 +172,8 @@ TEST_CASE("check and verify take their files, help and version are texts") {
   CHECK(std::get<CheckConfig>(*parse({"check", "a.json", "b.json"})).maps.size() == 2);
   const auto verify =
       std::get<VerifyConfig>(*parse({"verify", "game.ndjson", "other.ndjson.zst", "--jobs", "4"}));
-  CHECK(verify.files == std::vector<std::filesystem::path>{"game.ndjson", "other.ndjson.zst"});
-  CHECK(verify.jobs == 4);
+  CHECK(verify.request.files == std::vector<std::filesystem::path>{"game.ndjson", "other.ndjson.zst"});
+  CHECK(verify.request.jobs == 4);
   const auto inspect = std::get<InspectConfig>(*parse({"inspect", "game.ndjson", "--at", "41.7"}));
   CHECK(inspect.request.file == "game.ndjson");
   CHECK(inspect.request.seconds == 41.7);

@@ -208,7 +208,7 @@ class AtTheReplay(InATerminal):
 
     def test_what_is_no_recording_is_told_before_the_screen_is_touched(self):
         self.terminal.run(f"{BIN}/woodlouse replay {BIN}/nothing")
-        self.terminal.shows(r"woodlouse: \S+/nothing: can't be opened")
+        self.terminal.shows(r"woodlouse: \S+/nothing: no such file")
         self.assertEqual(self.exit_code(), 74)
         self.terminal.run(f"{BIN}/woodlouse replay {MAPS}/volcano.json")
         self.terminal.shows(r"woodlouse: \S+volcano\.json")

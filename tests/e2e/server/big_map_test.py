@@ -62,19 +62,22 @@ class BigMap(unittest.TestCase):
         for _, x, y, z in rows:  # the file's first row is the north
             i, j = x + 199.5, ROWS - 1 - (y + 149.5)
             self.assertAlmostEqual(z, 2 * math.sin(0.11 * i) * math.cos(0.07 * j), places=2)
-        self.assertEqual(run("verify", self.path("game.ndjson"))[:2], (0, "ok 420 ticks\n"))
+        self.assertEqual(run("verify", self.path("game.ndjson"))[:2], (0, "ok ticks 0 to 420\n"))
         self.assertLess(os.path.getsize(self.path("game.ndjson")), 2_000_000)
 
-    def test_the_recording_finds_its_map_beside_it_and_refuses_another_file(self):
+    def test_the_recording_finds_its_map_beside_it_or_where_it_is_told_and_refuses_another_file(self):
         self.play()
         elsewhere = self.path("elsewhere")
         os.mkdir(elsewhere)
         shutil.move(self.path("game.ndjson"), elsewhere)
         recording = os.path.join(elsewhere, "game.ndjson")
-        self.assertEqual(run("verify", recording)[:2], (0, "ok 420 ticks\n"))  # under the path it was played from
+        code, verdict, _ = run("verify", recording)  # where it was played from has no say
+        self.assertEqual((code, verdict), (1, f"{elsewhere}/alps.json: no such file (put the map it was played on beside "
+                                              "the recording, or say --maps FOLDER)\n"))
+        self.assertEqual(run("verify", recording, "--maps", self.folder.name)[:2], (0, "ok ticks 0 to 420\n"))
         for name in ("alps.json", "alps.hdr", "alps.flt"):
             shutil.move(self.path(name), elsewhere)
-        self.assertEqual(run("verify", recording)[:2], (0, "ok 420 ticks\n"))
+        self.assertEqual(run("verify", recording)[:2], (0, "ok ticks 0 to 420\n"))
         with open(os.path.join(elsewhere, "alps.flt"), "r+b") as grid:
             grid.write(b"\0\0\x40\x40")  # 3 m in the north-western corner
         code, verdict, _ = run("verify", recording)

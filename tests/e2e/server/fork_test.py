@@ -71,7 +71,7 @@ class Fork(unittest.TestCase):
         _, tick = self.play()
         with Server("--record", self.fork, "--ticks", "40", fork=(self.game, tick)) as server:
             self.assertEqual(server.finish()[0], 0)
-        self.assertEqual(run("verify", self.fork)[:2], (0, "ok 40 ticks\n"))
+        self.assertEqual(run("verify", self.fork)[:2], (0, f"ok ticks {tick} to {tick + 40}, the start is taken on trust\n"))
 
     def test_what_can_not_go_on_is_told_in_one_line_of_what_and_one_of_what_to_do(self):
         _, tick = self.play()
@@ -82,7 +82,7 @@ class Fork(unittest.TestCase):
             ((self.game, "--tick", "100000"), "has no tick 100000, only 0 to "),
             ((damaged, "--tick", str(tick)), damaged + ":"),
             (("/no/such/file", "--tick", "3"), "/no/such/file"),
-            ((self.game, "--tick", "3", "--record", self.game), "is the recording to go on from"),
+            ((self.game, "--tick", "-1"), "a whole number from 0 on is wanted, not -1"),
             ((self.game, "--tick", "3", "--state-hz", "25"), "--state-hz 25"),
             ((self.game,), "--tick"),
         ):

@@ -107,7 +107,8 @@ TEST_CASE(
 TEST_CASE("a map that a recording only names is named on by its fork, where it was found") {
   const std::string map_file = WOODLOUSE_SOURCE_DIR "/maps/volcano.json";
   const Played played(map_file);
-  CHECK(open_fork({played.file, 3})->map_file == map_file);
+  CHECK_FALSE(open_fork({played.file, 3}));  // it is not beside the recording
+  CHECK(open_fork({played.file, 3, WOODLOUSE_SOURCE_DIR "/maps"})->map_file == map_file);
 }
 
 TEST_CASE("a fork that nobody joins goes on as the recording does while that has no inputs") {
@@ -126,7 +127,7 @@ TEST_CASE("a fork of what is not there is refused with what to do") {
                                          Catch::Contains("try:  woodlouse-server fork "));
   SECTION("no file") {
     fs::remove(played.file);
-    CHECK_THAT(played.failure_at(3), Catch::Contains("No such file"));
+    CHECK_THAT(played.failure_at(3), Catch::Contains("no such file"));
   }
   SECTION("an altered input") {
     played.alter("\"inputs\":[[1,303,[64,32]", "\"inputs\":[[1,303,[64,31]");
@@ -141,6 +142,6 @@ TEST_CASE("a fork of what is not there is refused with what to do") {
   SECTION("a map that is not found") {
     const Played other("/no/such/map.json");
     CHECK_THAT(other.failure_at(3),
-               Catch::Contains("/no/such/map.json") && Catch::Contains("beside the recording"));
+               Catch::Contains("map.json: no such file") && Catch::Contains("beside the recording"));
   }
 }

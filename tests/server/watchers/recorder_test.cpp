@@ -93,7 +93,7 @@ TEST_CASE("a recording named .zst is packed and verifies") {
   }
   const auto result = replay::verify(replay::source_of_file(file), 2);
   REQUIRE(result);
-  CHECK(replay::to_text(*result) == "ok 700 ticks\n");
+  CHECK(replay::to_text(*result) == "ok ticks 0 to 700\n");
   CHECK(log.text.str().empty());
   std::filesystem::remove(file);
 }

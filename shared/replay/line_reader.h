@@ -1,0 +1,54 @@
+// A recording's lines, read back and checked.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <iosfwd>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "shared/core/error.h"
+#include "shared/replay/format.h"
+#include "shared/replay/line_order.h"
+
+namespace woodlouse::replay {
+
+/// Reads a recording line by line; memory is bounded by one line. Every field is checked here, and which line
+/// may follow which (line_order.h): what passes is in range and in its place, so that a re-run may trust it
+/// (but not that a state fits its map, or a step the one before: that is whoever's re-runs it).
+class ReplayReader {
+ public:
+  /// `in` outlives the reader; `source` names it in errors ("FILE:LINE: field: what"). `line`: how many lines
+  /// stand before where `in` is.
+  ReplayReader(std::istream& in, std::string source, std::size_t line = 0)
+      : in_(in), source_(std::move(source)), line_number_(line) {}
+
+  /// The first line. Refuses another format, version or behavior, naming both.
+  core::Expected<Header> read_header();
+  /// The next line; nothing at the end of the file, or after a last line that was cut off.
+  core::Expected<std::optional<Line>> next();
+
+  /// The file's last line has no newline: whoever wrote it was interrupted. Known once next() gave nothing.
+  [[nodiscard]] bool is_cut_off() const { return cut_off_; }
+  /// The line read last, from 1.
+  [[nodiscard]] std::size_t line_number() const { return line_number_; }
+  [[nodiscard]] const std::string& source() const { return source_; }
+  /// The bytes this reader took before that line.
+  [[nodiscard]] std::uint64_t line_offset() const { return line_offset_; }
+  /// "FILE:LINE", of the line read last.
+  [[nodiscard]] std::string place() const;
+
+ private:
+  core::Expected<bool> read_line();  ///< false: no further whole line
+
+  std::istream& in_;
+  std::string source_;
+  std::string line_;
+  std::size_t line_number_ = 0;
+  std::uint64_t line_offset_ = 0;
+  bool cut_off_ = false;
+  LineOrder order_;
+};
+
+}  // namespace woodlouse::replay

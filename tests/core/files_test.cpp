@@ -1,0 +1,96 @@
+#include <catch2/catch.hpp>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "shared/core/sink_file.h"
+#include "shared/core/whole_file.h"
+
+using namespace woodlouse::core;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// An empty folder, gone afterwards.
+struct Folder {
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  fs::path path = fs::temp_directory_path() / ("woodlouse_files_test_" + std::to_string(::getpid()));
+};
+
+std::string text_of(const fs::path& file) { return read_whole_file(file, 1u << 20).value(); }
+
+void write(const fs::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+
+}  // namespace
+
+TEST_CASE("what is no regular file is refused before it is opened") {
+  const Folder folder;
+  const fs::path pipe = folder.path / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const auto refusal = [](const fs::path& file) { return read_whole_file(file, 10).error().text(); };
+  CHECK(refusal(pipe) == pipe.string() + ": is no regular file (pipes, devices and sockets are not read)");
+  CHECK(refusal("/dev/zero").find("/dev/zero: is no regular file") == 0);
+  CHECK(refusal(folder.path) == folder.path.string() + ": is a folder, not a file");
+  CHECK(refusal(folder.path / "none").find("none: no such file") != std::string::npos);
+  write(folder.path / "good", "0123456789");
+  CHECK(text_of(folder.path / "good") == "0123456789");
+  write(folder.path / "long", "0123456789a");
+  CHECK(refusal(folder.path / "long").find("longer than") != std::string::npos);
+  fs::create_symlink(pipe, folder.path / "link");
+  CHECK(refusal(folder.path / "link").find("is no regular file") != std::string::npos);
+}
+
+TEST_CASE("a number stands before the extension, packed or not") {
+  CHECK(numbered("game.ndjson", 1) == "game.1.ndjson");
+  CHECK(numbered("nights/game.volcano.ndjson.zst", 12) == "nights/game.volcano.12.ndjson.zst");
+  CHECK(numbered("game", 3) == "game.3");
+  CHECK(numbered("game.zst", 3) == "game.3.zst");
+}
+
+TEST_CASE("a file that is there is never written over: the next one is numbered") {
+  const Folder folder;
+  const fs::path file = folder.path / "game.ndjson";
+  const char* const names[] = {"game.ndjson", "game.1.ndjson", "game.2.ndjson"};
+  for (const char* name : names) {
+    const auto created = create_file(file);
+    REQUIRE(created);
+    CHECK(created->path == folder.path / name);
+    CHECK(created->sink->write(name).has_value());
+    CHECK(created->sink->write("!").has_value());
+    CHECK(created->sink->close().has_value());
+  }
+  for (const char* name : names) CHECK(text_of(folder.path / name) == std::string(name) + "!");
+  fs::remove(folder.path / "game.1.ndjson");
+  fs::create_symlink(folder.path / "nowhere", folder.path / "game.1.ndjson");  // a name that is taken, too
+  CHECK(create_file(file)->path == folder.path / "game.3.ndjson");
+  CHECK_FALSE(fs::exists(folder.path / "nowhere"));
+}
+
+TEST_CASE("what can't be written into is told, and nobody waits for a pipe's reader") {
+  const Folder folder;
+  CHECK(create_file(folder.path).error().text() == folder.path.string() + ": Is a directory");
+  CHECK(create_file(folder.path / "none" / "game").error().what == "No such file or directory");
+  const fs::path pipe = folder.path / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK_FALSE(create_file(pipe));
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  REQUIRE(reader >= 0);
+  const auto created = create_file(pipe);
+  REQUIRE(created);
+  CHECK(created->sink->write("heard").has_value());
+  char bytes[8] = {};
+  CHECK(::read(reader, bytes, sizeof bytes) == 5);
+  ::close(reader);
+  const auto full = create_file("/dev/full");
+  REQUIRE(full);
+  CHECK(full->sink->write("x").error().text() == "/dev/full: No space left on device");
+}
