@@ -11,20 +11,24 @@ endif()
 find_path(ZSTD_INCLUDE_DIR zstd.h REQUIRED)
 find_library(ZSTD_LIBRARY zstd REQUIRED)
 add_library(woodlouse_zstd INTERFACE)
-target_include_directories(woodlouse_zstd SYSTEM INTERFACE ${ZSTD_INCLUDE_DIR})
-target_link_libraries(woodlouse_zstd INTERFACE ${ZSTD_LIBRARY})
+target_include_directories(woodlouse_zstd SYSTEM INTERFACE $<BUILD_INTERFACE:${ZSTD_INCLUDE_DIR}>)
+target_link_libraries(woodlouse_zstd INTERFACE $<BUILD_INTERFACE:${ZSTD_LIBRARY}> $<INSTALL_INTERFACE:zstd>)
 find_package(Boost 1.81 REQUIRED)
-find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(spdlog REQUIRED)
-find_package(benchmark REQUIRED)
+# What tests and measures need, players don't.
+if(NOT WOODLOUSE_ONLY STREQUAL "play")
+  find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+  find_package(benchmark REQUIRED)
+endif()
 
-# Asio with C++20 coroutines, header only. The separate target keeps Boost out of shared/.
-add_library(woodlouse_asio INTERFACE)
-target_link_libraries(woodlouse_asio INTERFACE Boost::headers Threads::Threads)
-target_compile_definitions(woodlouse_asio INTERFACE BOOST_ASIO_NO_DEPRECATED BOOST_ASIO_DISABLE_BOOST_COROUTINE)
+# Asio with C++20 coroutines. The separate target keeps Boost out of shared/.
+add_library(woodlouse_asio STATIC ${CMAKE_CURRENT_LIST_DIR}/asio.cpp)
+target_link_libraries(woodlouse_asio PUBLIC woodlouse_flags Boost::headers Threads::Threads)
+target_compile_definitions(woodlouse_asio PUBLIC
+  BOOST_ASIO_SEPARATE_COMPILATION BOOST_ASIO_NO_DEPRECATED BOOST_ASIO_DISABLE_BOOST_COROUTINE)
 if(WOODLOUSE_SANITIZE MATCHES "thread")
   # The thread sanitizer does not see stand-alone fences. Asio does without most of them; the one left guards
   # reference counts, whose own atomics the sanitizer sees.
-  target_compile_definitions(woodlouse_asio INTERFACE BOOST_ASIO_DISABLE_FENCED_BLOCK)
-  target_compile_options(woodlouse_asio INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-tsan>)
+  target_compile_definitions(woodlouse_asio PUBLIC BOOST_ASIO_DISABLE_FENCED_BLOCK)
+  target_compile_options(woodlouse_asio PUBLIC $<$<CXX_COMPILER_ID:GNU>:-Wno-tsan>)
 endif()
