@@ -33,7 +33,11 @@ bool Session::read_registers() {
   for (const Scenario& scenario : scenarios_) {
     const std::filesystem::path folder = scenario.file.parent_path();
     std::error_code error;
-    if (registers_.contains(folder) || !std::filesystem::exists(folder / kRegisterName, error)) continue;
+    if (registers_.contains(folder)) continue;
+    if (!std::filesystem::exists(folder / kRegisterName, error)) {
+      if (options_.goldens == Goldens::kUpdate) registers_.emplace(folder, GoldenRegister{});
+      continue;
+    }
     auto read = GoldenRegister::read(folder / kRegisterName);
     if (!read) {
       tell(read.error());

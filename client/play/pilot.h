@@ -43,9 +43,8 @@ class Lead {
 
 class Pilot {
  public:
-  /// terrain: the one that is played on; null where it is not known exactly: nothing is predicted.
-  Pilot(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters,
-        std::uint32_t tick_hz, std::uint32_t id);
+  /// Of a map that is an overview nothing is predicted: it is not the ground that is played on.
+  Pilot(const map::Map& map, std::uint32_t tick_hz, std::uint32_t id);
 
   /// Runs the prediction on to now and says what to send, at most one input a tick.
   std::optional<protocol::Input> update(core::Time now, ServerClock& clock, double rtt_seconds);

@@ -4,10 +4,12 @@
 #include <cassert>
 #include <utility>
 
+#include "shared/map/map_world.h"
+
 namespace woodlouse::client {
-Prediction::Prediction(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters,
-                       std::uint32_t tick_hz)
-    : ways_(terrain->domain(), parameters.edges), world_(std::move(terrain), parameters, 1.0 / tick_hz) {}
+Prediction::Prediction(const map::Map& map, std::uint32_t tick_hz)
+    : ways_(map.terrain->domain(), map.definition.physics.edges),
+      world_(map::make_world(map, 1.0 / tick_hz)) {}
 
 void Prediction::sent(std::uint32_t seq, std::uint64_t tick, const ThrustOrder& order) {
   assert(pending_.empty() || (pending_.back().seq < seq && pending_.back().tick < tick));

@@ -7,11 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <memory>
 #include <optional>
 
 #include "client/play/shortest_way.h"
 #include "client/play/steering.h"
+#include "shared/map/map_definition.h"
 #include "shared/physics/world.h"
 #include "shared/protocol/messages.h"
 
@@ -24,8 +24,8 @@ class Prediction {
       600;  ///< further than this from the base nothing is run: start anew
   static constexpr std::size_t kHistory = 256;  ///< ticks whose positions are remembered
 
-  Prediction(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters,
-             std::uint32_t tick_hz);
+  /// REQUIRES a map in full detail.
+  Prediction(const map::Map& map, std::uint32_t tick_hz);
 
   /// An input was sent, asking for step `tick`. REQUIRES seq and tick above those before.
   void sent(std::uint32_t seq, std::uint64_t tick, const ThrustOrder& order);

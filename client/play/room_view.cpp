@@ -105,9 +105,7 @@ core::Expected<void> RoomView::take(const protocol::MapMessage& message) {
 
 void RoomView::begin_piloting() {
   if (welcome_->id == 0) return;
-  // An overview is not the ground that is played on.
-  const auto ground = map_->detail == map::Detail::kExact ? map_->terrain : nullptr;
-  pilot_.emplace(ground, map_->definition.physics, welcome_->tick_hz, welcome_->id);
+  pilot_.emplace(*map_, welcome_->tick_hz, welcome_->id);
 }
 
 void RoomView::take(const protocol::Frame& frame, core::Time now) {

@@ -1,24 +1,13 @@
 #include "shared/map/canonical_map.h"
 
+#include <array>
 #include <cassert>
+#include <utility>
 
 #include "shared/json/object_text.h"
 
 namespace woodlouse::map {
 namespace {
-
-std::string_view to_text(SurfaceKind kind) {
-  switch (kind) {
-    case SurfaceKind::kSpline:
-      return "spline";
-    case SurfaceKind::kNaturalSpline:
-      return "natural_spline";
-    case SurfaceKind::kFunction:
-      return "function";
-  }
-  assert(false);
-  return {};
-}
 
 void add_heights(json::ObjectText& terrain, const terrain::HeightGrid& grid) {
   terrain.pair("origin", {grid.x_origin, grid.y_origin}).pair("spacing", {grid.dx, grid.dy});
@@ -53,10 +42,35 @@ void add_physics(json::ObjectText& text, const state::Parameters& physics) {
   if (physics.central_gravity != usual.central_gravity)
     text.number("central_gravity", physics.central_gravity);
   if (physics.contact != usual.contact) text.text("contact", state::to_text(physics.contact));
+  if (physics.equations != usual.equations) text.text("equations", state::to_text(physics.equations));
   if (physics.method != usual.method) text.text("method", state::to_text(physics.method));
 }
 
+constexpr std::array<std::pair<SurfaceKind, std::string_view>, 8> kSurfaces = {{
+    {SurfaceKind::kSpline, "spline"},
+    {SurfaceKind::kNaturalSpline, "natural_spline"},
+    {SurfaceKind::kFunction, "function"},
+    {SurfaceKind::kBiquadratic, "biquadratic"},
+    {SurfaceKind::kBlended, "blended"},
+    {SurfaceKind::kBlendedDocument, "blended_document"},
+    {SurfaceKind::kGauss, "gauss"},
+    {SurfaceKind::kDocumentSpline, "document_spline"},
+}};
+
 }  // namespace
+
+std::string_view to_text(SurfaceKind kind) {
+  const auto& [own, text] = kSurfaces[static_cast<std::size_t>(kind)];
+  assert(own == kind);
+  return text;
+}
+
+std::optional<SurfaceKind> surface_from_text(std::string_view text) {
+  for (const auto& [kind, name] : kSurfaces) {
+    if (name == text) return kind;
+  }
+  return std::nullopt;
+}
 
 terrain::HeightGrid knots_of(const MapDefinition& definition) {
   if (const auto* grid = std::get_if<terrain::HeightGrid>(&definition.terrain)) return *grid;

@@ -63,6 +63,10 @@ state::Edges read_edges(const json::Value& value, const MapDefinition& definitio
     problems.add(value, "a natural spline has ends, and edges that wrap have none",
                  "take the surface spline");
   }
+  if (is_of_document(definition.surface)) {
+    problems.add(value, "the paper's surfaces have rims, and edges that wrap have none",
+                 "take the surface spline");
+  }
   if (definition.physics.central_gravity != 0.0) {
     problems.add(value, "central gravity jumps where the edges wrap",
                  "leave central_gravity out, or take walls");

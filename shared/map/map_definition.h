@@ -3,13 +3,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
 #include "shared/core/vec2.h"
+#include "shared/physics/ground_steps.h"
 #include "shared/state/parameters.h"
 #include "shared/terrain/function_surface.h"
 #include "shared/terrain/height_grid.h"
@@ -24,7 +27,19 @@ enum class SurfaceKind {
   kSpline,         ///< "spline": bicubic, not-a-knot ends (default)
   kNaturalSpline,  ///< "natural_spline": bicubic, the document's natural ends
   kFunction,       ///< "function": the named function itself; only with a function terrain
+  // The paper's, for its equations alone (document/surface_catalogue.h):
+  kBiquadratic,      ///< "biquadratic"
+  kBlended,          ///< "blended"
+  kBlendedDocument,  ///< "blended_document": as its source code has it
+  kGauss,            ///< "gauss": the gradient by least squares
+  kDocumentSpline,   ///< "document_spline": the global spline, evaluated as its source code does
 };
+
+/// By name, "spline" and so on.
+std::string_view to_text(SurfaceKind kind);
+std::optional<SurfaceKind> surface_from_text(std::string_view text);
+/// Of the paper: no curvature for the exact equations.
+constexpr bool is_of_document(SurfaceKind kind) { return kind >= SurfaceKind::kBiquadratic; }
 
 /// A named function, sampled at (2 grid + 1)^2 knots (for SurfaceKind::kFunction only drawn from them).
 struct FunctionTerrain {
@@ -73,6 +88,9 @@ struct Map {
   std::string canonical;
   std::uint64_t hash = 0;  ///< stable_hash(canonical)
   std::shared_ptr<const terrain::Terrain> terrain;
+  /// Of a map with the paper's equations; empty: the exact ones (map_world.h). They refer to the map's
+  /// surface.
+  std::function<std::unique_ptr<const physics::GroundSteps>(const physics::StepRules&)> make_steps;
 };
 
 }  // namespace woodlouse::map

@@ -7,6 +7,8 @@
 #include "shared/core/joined.h"
 #include "shared/core/portable_trigonometry.h"
 #include "shared/json/text.h"
+#include "shared/map/canonical_map.h"
+#include "shared/map/document_surface.h"
 #include "shared/map/edges_reader.h"
 #include "shared/map/terrain_reader.h"
 
@@ -25,17 +27,21 @@ constexpr json::Range kCoordinate{-1e12, 1e12, "m"};
 constexpr json::Range kHeadingComponent{-1e6, 1e6, ""};
 constexpr std::size_t kMaxNameBytes = 64;
 constexpr std::size_t kMaxSpawns = 1024;
+constexpr std::size_t kMaxDocumentSplineKnots = 64;  ///< each way: 1.3 us a look, of which a step takes one
 /// A pair this near to length 1 is taken as it stands, so that a written unit vector reads back bit for bit.
 constexpr double kUnitTolerance = 1e-14;
 
 SurfaceKind read_surface(const json::Value& value, json::Problems& problems) {
   if (value.is(json::Kind::kString)) {
     const std::string_view text = value.text();
-    if (text == "spline") return SurfaceKind::kSpline;
-    if (text == "natural_spline") return SurfaceKind::kNaturalSpline;
-    if (text == "function") return SurfaceKind::kFunction;
-    const std::string hint = json::did_you_mean(text, {"spline", "natural_spline", "function"});
-    problems.add(value, "is no kind of surface", hint.empty() ? "spline, natural_spline or function" : hint);
+    if (const auto kind = surface_from_text(text)) return *kind;
+    const std::string hint =
+        json::did_you_mean(text, {"spline", "natural_spline", "function", "biquadratic", "blended",
+                                  "blended_document", "gauss", "document_spline"});
+    problems.add(value, "is no kind of surface",
+                 hint.empty() ? "spline, natural_spline or function; with the paper's equations biquadratic, "
+                                "blended, blended_document, gauss or document_spline"
+                              : hint);
   } else {
     problems.add(value, "the name of a surface is wanted", "spline, natural_spline or function");
   }
@@ -56,10 +62,30 @@ void read_choice(const json::Fields& fields, std::string_view key, E& out, FromT
   }
 }
 
+/// What goes with the paper's equations and what does not.
+void check_equations(const json::Value& physics, const state::Parameters& p, json::Problems& problems) {
+  const bool is_exact = p.equations == state::Equations::kExact;
+  const bool is_false_euler = p.method == state::Method::kFalseEuler;
+  if (!is_exact && !is_false_euler) {
+    problems.add(physics, "the paper's equations are integrated by its own method",
+                 "add \"method\": \"false_euler\"");
+  }
+  if (is_exact && is_false_euler) {
+    problems.add(physics, "false_euler goes with the paper's equations",
+                 "add \"equations\": \"local_plane\" or \"as_printed\"");
+  }
+  if (!is_exact && p.central_gravity > 0.0) {
+    problems.add(physics, "the paper's equations of the surface know no central gravity", "leave it out");
+  }
+  if (!is_exact && p.contact == state::SurfaceContact::kUnilateral) {
+    problems.add(physics, "in the paper's equations a louse never leaves the surface", "take bilateral");
+  }
+}
+
 state::Parameters read_physics(const json::Value& value, json::Problems& problems) {
   const json::Fields fields(value,
                             {"gravity", "drag", "friction", "thrust_max", "edge_restitution",
-                             "central_gravity", "contact", "method"},
+                             "central_gravity", "contact", "equations", "method"},
                             problems);
   state::Parameters result;
   result.gravity = fields.number_or("gravity", kGravity, result.gravity);
@@ -71,8 +97,11 @@ state::Parameters read_physics(const json::Value& value, json::Problems& problem
   result.central_gravity = fields.number_or("central_gravity", kCentralGravity, result.central_gravity) + 0.0;
   read_choice(fields, "contact", result.contact, state::contact_from_text, "bilateral or unilateral",
               problems);
-  read_choice(fields, "method", result.method, state::method_from_text, "standard, cheap or precise",
-              problems);
+  read_choice(fields, "equations", result.equations, state::equations_from_text,
+              "exact, local_plane or as_printed", problems);
+  read_choice(fields, "method", result.method, state::method_from_text,
+              "standard, cheap or precise; with the paper's equations false_euler", problems);
+  check_equations(value, result, problems);
   if (result.contact == state::SurfaceContact::kUnilateral && result.central_gravity > 0.0) {
     problems.add(*fields.find("contact"), "flight knows no pull but gravity's",
                  "leave central_gravity out, or take bilateral");
@@ -127,6 +156,33 @@ std::vector<SpawnPoint> read_spawns(const json::Value& value, const terrain::Rec
     if (problems.is_full()) break;
   }
   return result;
+}
+
+/// Whether the surface and the terrain suit the paper's equations, or one of its surfaces the terrain.
+void check_document(const json::Value& root, const MapDefinition& definition, json::Problems& problems) {
+  const bool is_exact = definition.physics.equations == state::Equations::kExact;
+  const std::string_view name = to_text(definition.surface);
+  if (is_of_document(definition.surface) && is_exact) {
+    problems.add(root, core::joined({"the surface ", name, " has no curvature for the exact equations"}),
+                 "add \"physics\": {\"equations\": \"local_plane\", \"method\": \"false_euler\"}");
+  }
+  if (std::holds_alternative<TiledTerrain>(definition.terrain)) {
+    if (!is_exact)
+      problems.add(root, "the paper's equations don't run on a terrain that is read tile by tile");
+    return;
+  }
+  if (!is_of_document(definition.surface)) return;
+  const terrain::HeightGrid knots = knots_of(definition);
+  if (definition.surface == SurfaceKind::kDocumentSpline &&
+      std::max(knots.columns, knots.rows) > kMaxDocumentSplineKnots) {
+    problems.add(root,
+                 core::joined({"document_spline solves a row of knots at each look: at most ",
+                               std::to_string(kMaxDocumentSplineKnots), " a side"}),
+                 "natural_spline is the same surface, prepared once");
+    return;
+  }
+  if (const auto surface = document::interpolate(interpolation_of(definition.surface), knots); !surface)
+    problems.add(root, surface.error().text());
 }
 
 /// The domain the surface will have; a spline's last knot may lie an ulp off the function's square.
@@ -201,6 +257,7 @@ std::optional<MapDefinition> read_definition(const json::Value& root, const Grid
     }
   }
   if (const auto physics = fields.find("physics")) result.physics = read_physics(*physics, problems);
+  if (terrain) check_document(root, result, problems);
   if (const auto edges = fields.find("edges"); edges && terrain) {
     result.physics.edges = read_edges(*edges, result, problems);
   }

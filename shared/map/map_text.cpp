@@ -1,13 +1,16 @@
 #include "shared/map/map_text.h"
 
+#include <cassert>
 #include <string>
 #include <utility>
 
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
+#include "shared/document/game.h"
 #include "shared/json/document.h"
 #include "shared/json/fields.h"
 #include "shared/map/canonical_map.h"
+#include "shared/map/document_surface.h"
 #include "shared/map/map_reader.h"
 
 namespace woodlouse::map {
@@ -24,11 +27,25 @@ terrain::SplineEnds ends_of(const MapDefinition& definition) {
                                                            : terrain::SplineEnds::kNotAKnot;
 }
 
+/// One of the paper's surfaces, and its steps.
+void lay_document_surface(Map& map, const MapDefinition& definition) {
+  auto made = document::interpolate(interpolation_of(definition.surface), knots_of(definition));
+  assert(made.has_value());  // the reader has tried
+  const auto surface = std::make_shared<const document::AnySurface>(std::move(*made));
+  map.terrain =
+      std::make_shared<const terrain::Terrain>(terrain::SharedSurface(document::as_terrain(surface)));
+  map.make_steps = [surface](const physics::StepRules& rules) {
+    return document::make_game_steps(*surface, rules);
+  };
+}
+
 std::shared_ptr<const Map> build(MapDefinition definition) {
   auto map = std::make_shared<Map>();
   map->canonical = canonical_text(definition);
   map->hash = core::stable_hash(map->canonical);
-  if (definition.surface == SurfaceKind::kFunction) {
+  if (is_of_document(definition.surface)) {
+    lay_document_surface(*map, definition);
+  } else if (definition.surface == SurfaceKind::kFunction) {
     const auto& function = std::get<FunctionTerrain>(definition.terrain);
     map->terrain =
         std::make_shared<const terrain::Terrain>(terrain::FunctionSurface(function.function, function.scale));
@@ -43,6 +60,11 @@ std::shared_ptr<const Map> build(MapDefinition definition) {
     map->terrain = std::make_shared<const terrain::Terrain>(
         plane ? terrain::Terrain(*plane)
               : terrain::Terrain(terrain::BicubicSpline(knots, ends_of(definition))));
+  }
+  if (definition.physics.equations != state::Equations::kExact && !map->make_steps) {
+    map->make_steps = [terrain = map->terrain](const physics::StepRules& rules) {
+      return document::make_game_steps(*terrain, rules);
+    };
   }
   map->definition = std::move(definition);
   return map;

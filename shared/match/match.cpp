@@ -4,12 +4,14 @@
 #include <cassert>
 #include <utility>
 
+#include "shared/map/map_world.h"
+
 namespace woodlouse::match {
 
 Match::Match(std::shared_ptr<const map::Map> map, const MatchSettings& settings)
     : map_(std::move(map)),
       settings_(settings),
-      world_(map_->terrain, map_->definition.physics, 1.0 / static_cast<double>(settings.tick_hz)),
+      world_(map::make_world(*map_, 1.0 / static_cast<double>(settings.tick_hz))),
       random_(settings.seed),
       inputs_(kHorizonSeconds * settings.tick_hz) {
   assert(settings.tick_hz >= 1 && settings.tick_hz <= 1000);

@@ -118,6 +118,7 @@ std::unique_ptr<const GroundSteps> steps_with_every_force(const S& ground, const
     case state::Method::kPrecise:
       return with_main_forces<Precise>(ground, rules);
     case state::Method::kStandard:
+    case state::Method::kFalseEuler:  // not of these equations
       break;
   }
   return with_forces<Nystrom4>(ground, rules);

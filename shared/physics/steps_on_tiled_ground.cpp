@@ -10,6 +10,7 @@ std::unique_ptr<const GroundSteps> make_ground_steps(const terrain::TiledGround&
     case state::Method::kPrecise:
       return with_main_forces<Precise>(ground, rules);
     case state::Method::kStandard:
+    case state::Method::kFalseEuler:  // not of these equations
       break;
   }
   return with_main_forces<Nystrom4>(ground, rules);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -27,6 +28,7 @@ List list_of(const state::Louse& louse) {
 /// The lanes' ground for a map, if they can step it: flight, central gravity and the other methods are not in
 /// them.
 std::optional<BatchGround> batch_ground(const terrain::Terrain& terrain, const state::Parameters& p) {
+  if (p.equations != state::Equations::kExact) return std::nullopt;
   if (p.central_gravity > 0.0 || p.method == state::Method::kCheap) return std::nullopt;
   if (p.contact == state::SurfaceContact::kUnilateral) return std::nullopt;
   if (std::holds_alternative<terrain::PlaneSurface>(terrain.surface()))
@@ -35,6 +37,20 @@ std::optional<BatchGround> batch_ground(const terrain::Terrain& terrain, const s
                  std::holds_alternative<terrain::BicubicSpline>(terrain.surface())
              ? std::optional(BatchGround::kBicubicSpline)
              : std::nullopt;
+}
+
+std::unique_ptr<const GroundSteps> exact_steps(const terrain::Terrain& terrain, const StepRules& rules) {
+  assert(rules.parameters.equations == state::Equations::kExact);
+  return std::visit(
+      [&]<typename S>(const S& ground) -> std::unique_ptr<const GroundSteps> {
+        if constexpr (std::is_same_v<S, terrain::SharedSurface>) {
+          assert(false);
+          return nullptr;
+        } else {
+          return make_ground_steps(ground, rules);
+        }
+      },
+      terrain.surface());
 }
 
 void clear_thrust(state::Louse& louse) {
@@ -51,13 +67,16 @@ World::World(std::shared_ptr<const terrain::Terrain> terrain, const state::Param
 
 World::World(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters,
              double step, const terrain::Rectangle& walls)
-    : terrain_(std::move(terrain)), parameters_(parameters), step_(step), walls_(walls) {
-  assert(terrain_ != nullptr && step > 0.0);
-  ground_steps_ = std::visit(
-      [&](const auto& ground) {
-        return make_ground_steps(ground, {parameters_, walls_, step_});
-      },
-      terrain_->surface());
+    : World(terrain, parameters, step, walls, exact_steps(*terrain, {parameters, walls, step})) {}
+
+World::World(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters,
+             double step, const terrain::Rectangle& walls, std::shared_ptr<const GroundSteps> steps)
+    : terrain_(std::move(terrain)),
+      parameters_(parameters),
+      step_(step),
+      walls_(walls),
+      ground_steps_(std::move(steps)) {
+  assert(terrain_ != nullptr && ground_steps_ != nullptr && step > 0.0);
   use(best_instruction_set());
 }
 

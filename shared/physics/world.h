@@ -28,11 +28,16 @@ class GroundSteps;
 
 class World {
  public:
-  /// step: seconds per tick, > 0. Walls stand at the terrain's edge.
+  /// step: seconds per tick, > 0. Walls stand at the terrain's edge. REQUIRES the exact equations and a
+  /// terrain that is no SharedSurface; a map's world: map/map_world.h.
   World(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters, double step);
   /// The same with walls elsewhere; infinite ones keep nobody (laboratory and tests).
   World(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters, double step,
         const terrain::Rectangle& walls);
+  /// The same by steps made elsewhere, for those walls and parameters and that step; the terrain is only
+  /// looked at.
+  World(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters, double step,
+        const terrain::Rectangle& walls, std::shared_ptr<const GroundSteps> steps);
 
   /// Chooses how many lice are stepped at once; every choice gives the same bits. REQUIRES is_available(set).
   /// The best one is chosen from the start.

@@ -114,6 +114,16 @@ Decoded read_welcome(FieldReader& reader, const Context&) {
     physics.number("friction", welcome.physics.friction);
     physics.number("thrust_max", welcome.physics.thrust_max);
     physics.number("edge_restitution", welcome.physics.edge_restitution);
+    // What an older server does not say is not there.
+    constexpr Presence kNewer = Presence::kOptional;
+    physics.number("central_gravity", welcome.physics.central_gravity, kNewer);
+    physics.choice("equations", welcome.physics.equations, "exact, local_plane or as_printed",
+                   state::equations_from_text, kNewer);
+    physics.choice("method", welcome.physics.method, "standard, cheap, precise or false_euler",
+                   state::method_from_text, kNewer);
+    physics.choice("contact", welcome.physics.contact, "bilateral or unilateral", state::contact_from_text,
+                   kNewer);
+    physics.choice("edges", welcome.physics.edges, "walls or wrap", state::edges_from_text, kNewer);
   });
   reader.cleaned_text("mode", welcome.mode, kLabelBytes);
   reader.objects("players", [&](FieldReader& player) {

@@ -43,6 +43,11 @@ std::string line_of(const Welcome& welcome) {
     physics.number("gravity", welcome.physics.gravity).number("drag", welcome.physics.drag);
     physics.number("friction", welcome.physics.friction).number("thrust_max", welcome.physics.thrust_max);
     physics.number("edge_restitution", welcome.physics.edge_restitution);
+    physics.number("central_gravity", welcome.physics.central_gravity);
+    physics.text("equations", state::to_text(welcome.physics.equations));
+    physics.text("method", state::to_text(welcome.physics.method));
+    physics.text("contact", state::to_text(welcome.physics.contact));
+    physics.text("edges", state::to_text(welcome.physics.edges));
   });
   text.text("mode", welcome.mode);
   text.objects("players", welcome.players, [](json::ObjectText& entry, const PlayerEntry& player) {

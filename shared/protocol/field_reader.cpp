@@ -36,8 +36,8 @@ std::optional<std::int64_t> FieldReader::checked_integer(std::string_view name, 
   return std::nullopt;
 }
 
-void FieldReader::number(std::string_view name, double& out) {
-  const auto value = field(name, "a number", Presence::kRequired);
+void FieldReader::number(std::string_view name, double& out, Presence presence) {
+  const auto value = field(name, "a number", presence);
   if (!value) return;
   if (!value->is_number()) return refuse(name, *value, "a number");
   out = value->number();

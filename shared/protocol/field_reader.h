@@ -43,7 +43,7 @@ class FieldReader {
   void integer(std::string_view name, std::optional<T>& out, IntegerRange range) {
     if (const auto value = checked_integer(name, range, Presence::kOptional)) out = static_cast<T>(*value);
   }
-  void number(std::string_view name, double& out);
+  void number(std::string_view name, double& out, Presence presence = Presence::kRequired);
   void boolean(std::string_view name, bool& out);
   /// Two numbers.
   void pair(std::string_view name, core::Vec2& out);

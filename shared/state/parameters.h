@@ -18,18 +18,42 @@ enum class Edges {
   kWrap,   ///< the opposite rim: the map goes on without end; the terrain must be periodic
 };
 
-/// How a tick is integrated (integrators.h, precise.h); the error and cost of each are in docs/physics.md.
+/// What a louse obeys.
+enum class Equations {
+  kExact,       ///< Lagrange's, with the surface's curvature
+  kLocalPlane,  ///< the paper's, Cramer's factors put right (chapter 1.1)
+  kAsPrinted,   ///< the paper's as its source code has them (chapter 2.4)
+};
+
+/// How a tick is integrated (integrators.h, precise.h, document/euler.h); the error and cost of each are in
+/// docs/physics.md. kFalseEuler is the paper's and goes with its equations, the others with the exact ones.
 enum class Method {
-  kStandard,  ///< Nystrom-4: the best accuracy for its time
-  kCheap,     ///< Verlet-Q: one surface call, order 2, no energy trend
-  kPrecise,   ///< Nystrom-4 split at the spline's knot lines: order 4 across cells
+  kStandard,    ///< Nystrom-4: the best accuracy for its time
+  kCheap,       ///< Verlet-Q: one surface call, order 2, no energy trend
+  kPrecise,     ///< Nystrom-4 split at the spline's knot lines: order 4 across cells
+  kFalseEuler,  ///< one surface call, order 1
 };
 
 constexpr std::string_view to_text(SurfaceContact contact) {
   return contact == SurfaceContact::kUnilateral ? "unilateral" : "bilateral";
 }
+constexpr std::string_view to_text(Equations equations) {
+  return equations == Equations::kLocalPlane  ? "local_plane"
+         : equations == Equations::kAsPrinted ? "as_printed"
+                                              : "exact";
+}
 constexpr std::string_view to_text(Method method) {
-  return method == Method::kCheap ? "cheap" : method == Method::kPrecise ? "precise" : "standard";
+  switch (method) {
+    case Method::kCheap:
+      return "cheap";
+    case Method::kPrecise:
+      return "precise";
+    case Method::kFalseEuler:
+      return "false_euler";
+    case Method::kStandard:
+      break;
+  }
+  return "standard";
 }
 constexpr std::string_view to_text(Edges edges) { return edges == Edges::kWrap ? "wrap" : "walls"; }
 constexpr std::optional<Edges> edges_from_text(std::string_view text) {
@@ -44,8 +68,14 @@ constexpr std::optional<SurfaceContact> contact_from_text(std::string_view text)
   }
   return std::nullopt;
 }
+constexpr std::optional<Equations> equations_from_text(std::string_view text) {
+  for (const Equations equations : {Equations::kExact, Equations::kLocalPlane, Equations::kAsPrinted}) {
+    if (to_text(equations) == text) return equations;
+  }
+  return std::nullopt;
+}
 constexpr std::optional<Method> method_from_text(std::string_view text) {
-  for (const Method method : {Method::kStandard, Method::kCheap, Method::kPrecise}) {
+  for (const Method method : {Method::kStandard, Method::kCheap, Method::kPrecise, Method::kFalseEuler}) {
     if (to_text(method) == text) return method;
   }
   return std::nullopt;
@@ -62,6 +92,7 @@ struct Parameters {
       0.0;  ///< pull towards the map's origin, k / r^2 [m^3/s^2], >= 0 (chapter 2.3); 0 costs nothing
   Edges edges = Edges::kWalls;
   SurfaceContact contact = SurfaceContact::kBilateral;
+  Equations equations = Equations::kExact;
   Method method = Method::kStandard;
 
   friend bool operator==(const Parameters&, const Parameters&) = default;

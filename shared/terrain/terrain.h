@@ -8,6 +8,7 @@
 #include "shared/terrain/function_surface.h"
 #include "shared/terrain/height_grid.h"
 #include "shared/terrain/plane_surface.h"
+#include "shared/terrain/shared_surface.h"
 #include "shared/terrain/surface.h"
 #include "shared/terrain/tiled_bspline.h"
 
@@ -17,7 +18,7 @@ namespace woodlouse::terrain {
 /// lock of its own, and never shows in a sample: tile_store.h.)
 class Terrain {
  public:
-  using Alternatives = std::variant<BicubicSpline, FunctionSurface, TiledGround, PlaneSurface>;
+  using Alternatives = std::variant<BicubicSpline, FunctionSurface, TiledGround, PlaneSurface, SharedSurface>;
 
   explicit Terrain(Alternatives surface);
 

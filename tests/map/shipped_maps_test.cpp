@@ -10,8 +10,8 @@ namespace woodlouse::map {
 namespace {
 
 const std::filesystem::path kMaps = WOODLOUSE_SOURCE_DIR "/maps";
-const char* const kNames[] = {"parabolic_pot", "wavy_pot", "volcano", "hills",      "jumps",
-                              "arena",         "kepler",   "torus",   "maunga_whau"};
+const char* const kNames[] = {"parabolic_pot", "wavy_pot", "volcano", "hills",       "jumps",
+                              "arena",         "kepler",   "torus",   "maunga_whau", "hoffmann_2002"};
 
 }  // namespace
 

@@ -43,6 +43,18 @@ TEST_CASE(
   CHECK(written.read("small.json") == text);
 }
 
+TEST_CASE("update begins a register beside scenarios of one's own, which then holds them to their behavior") {
+  const Golden golden;
+  CHECK_THAT(golden.read("goldens.txt"), Contains(std::to_string(match::kBehavior) + " small "));
+  REQUIRE(run({}, golden.file()).exit == Exit::kSame);
+  // Another hash of the same script and behavior is a fault, not an update.
+  const std::string text = golden.read("goldens.txt");
+  golden.write("goldens.txt",
+               text.substr(0, text.size() - 17) + flipped(text.substr(text.size() - 17, 16)) + "\n");
+  CHECK(run({}, golden.file()).exit == Exit::kDiffers);
+  CHECK(update(golden.file()).exit != Exit::kSame);
+}
+
 TEST_CASE("a wrong hash is told with its scenario, tick, line and both hashes") {
   const Golden golden;
   const std::string hash = golden.hash();
@@ -73,6 +85,7 @@ TEST_CASE("hashes of another behavior are refused with a word on what to do") {
 TEST_CASE("the table has a line for each tick, by scenario and tick") {
   const Golden golden;
   golden.write("another.json", golden.read("small.json"));
+  REQUIRE(update(golden.folder()).exit == Exit::kSame);  // registers it
   Options options;
   options.output = Output::kTable;
   const Said said = run(options, golden.folder());

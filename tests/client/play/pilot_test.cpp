@@ -43,7 +43,7 @@ Report drive(const Line& line) {
   match::Match server(*map, {.tick_hz = kTickHz, .seed = 4});
   const match::PlayerId id = server.join();
   server.advance();
-  Pilot pilot((*map)->terrain, (*map)->definition.physics, kTickHz, id);
+  Pilot pilot(**map, kTickHz, id);
   ServerClock clock(kTickHz);
   core::Random random(1);
 

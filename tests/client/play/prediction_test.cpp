@@ -99,7 +99,7 @@ TEST_CASE(
     Game game(map, 9);
     const auto own = over_the_wire(*map);
     REQUIRE(own->hash == map->hash);
-    Prediction prediction(own->terrain, own->definition.physics, kTickHz);
+    Prediction prediction(*own, kTickHz);
     core::Random random(5);
 
     // The first ack comes from a neutral input, as a client's first does.
@@ -140,7 +140,7 @@ TEST_CASE(
 TEST_CASE("inputs that land later than asked are corrected by their ack, to the bit") {
   const auto map = map_of("volcano");
   Game game(map, 4);
-  Prediction prediction(map->terrain, map->definition.physics, kTickHz);
+  Prediction prediction(*map, kTickHz);
   core::Random random(9);
   prediction.sent(1, game.match.tick(), {{state::ThrustKind::kMapVector, {}}, 1});
   game.submit(1, game.match.tick(), {{state::ThrustKind::kMapVector, {}}, 1});
@@ -168,7 +168,7 @@ TEST_CASE("inputs that land later than asked are corrected by their ack, to the 
 TEST_CASE("a dropped input is taken out of the prediction by its ack") {
   const auto map = map_of("parabolic_pot");
   Game game(map, 0);
-  Prediction prediction(map->terrain, map->definition.physics, kTickHz);
+  Prediction prediction(*map, kTickHz);
   prediction.sent(1, game.match.tick(), {{state::ThrustKind::kMapVector, {}}, 1});
   game.submit(1, game.match.tick(), {{state::ThrustKind::kMapVector, {}}, 1});
   game.advance();
@@ -189,7 +189,7 @@ TEST_CASE("a dropped input is taken out of the prediction by its ack") {
 
 TEST_CASE("nothing is believed before the first ack, nor after forgetting") {
   const auto map = map_of("volcano");
-  Prediction prediction(map->terrain, map->definition.physics, kTickHz);
+  Prediction prediction(*map, kTickHz);
   prediction.advance(1000);
   REQUIRE(prediction.louse() == nullptr);
   Game game(map, 0);
@@ -204,7 +204,7 @@ TEST_CASE("nothing is believed before the first ack, nor after forgetting") {
 
 TEST_CASE("a client that was suspended for minutes starts anew instead of running them all") {
   const auto map = map_of("volcano");
-  Prediction prediction(map->terrain, map->definition.physics, kTickHz);
+  Prediction prediction(*map, kTickHz);
   Game game(map, 0);
   protocol::Ack ack;
   ack.you = exact(game.louse(), game.match.tick());
