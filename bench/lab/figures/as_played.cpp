@@ -104,6 +104,13 @@ core::Expected<void> draw_as_played(const Output& output, Findings& findings) {
     const std::string what = dissipates ? "drag and friction" : "no dissipation";
     findings.note("hoffmann_2002", what + ": as played from the exact path at most",
                   furthest(*played, *exact), "m");
+    const auto last_speed = [](const std::vector<PathPoint>& path) {
+      return std::hypot(path.back().velocity.x, path.back().velocity.y);
+    };
+    if (dissipates) {
+      findings.note("hoffmann_2002", what + ": speed at the end, as played", last_speed(*played), "m/s");
+      findings.note("hoffmann_2002", what + ": speed at the end, exact", last_speed(*exact), "m/s");
+    }
     pairs.push_back({dissipates ? "both" : "none",
                      dissipates ? "With drag and friction" : "Without dissipation", std::move(*played),
                      std::move(*exact)});

@@ -1,13 +1,13 @@
 // 2.3: the trajectory of a celestial body, F = -x / r^3, by False Euler and by standard Euler.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "bench/lab/figures/figures.h"
 #include "bench/lab/figures/plotting.h"
+#include "bench/lab/problems/flat_ground.h"
 #include "bench/lab/problems/kepler_ellipse.h"
 
 namespace woodlouse::lab {
@@ -16,16 +16,6 @@ namespace {
 constexpr double kPull = 1.0;      // "without masses and gravitational constant"
 constexpr double kPeriods = 10.0;  // of the ellipse
 constexpr double kWidth = 900, kHeight = 480;
-
-/// The pull acts in the map's plane: flat ground, as the lab's precision has it.
-document::AnySurface flat_ground() {
-  terrain::HeightGrid grid;
-  grid.columns = grid.rows = 5;
-  grid.x_origin = grid.y_origin = -20.0;
-  grid.dx = grid.dy = 10.0;
-  grid.heights.assign(25, 0.0);
-  return terrain::BicubicSpline(grid);
-}
 
 std::vector<std::vector<double>> outline(const KeplerEllipse& ellipse) {
   constexpr int kPoints = 200;
