@@ -61,7 +61,7 @@ std::string picture(const Construction& c, const std::vector<double>& result) {
          << ", y = " << result[1] << "'\n"
          << "set xlabel 'x'\nset ylabel 'y'\nset zlabel 'z' offset 2,0\nset xtics 0.5 offset 0,-0.4\n"
          << "set ytics 0.5 offset 0.6,-0.2\nset ztics 0.5\nset xyplane at -0.1\nset grid lc rgb '#e0e0e0'\n"
-         << "set view 48,26,1.0,1.2\nset key at screen 0.98,0.92 right top samplen 2 spacing 1.1\n"
+         << "set view 50,58,1.0,1.2\nset key at screen 0.98,0.92 right top samplen 2 spacing 1.1\n"
          << "splot $rows with lines lc rgb '#a0a0a0' lw 1 title 'splines along the rows',"
          << " $knots with points pt 7 ps 0.45 lc rgb '#606060' title 'knots',"
          << " $red_row with lines lc rgb '#d02020' lw 2 title 'one of the rows',"

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPull = 1.0;      // "without masses and gravitational constant"
 constexpr double kPeriods = 10.0;  // of the ellipse
-constexpr double kWidth = 900, kHeight = 480;
+constexpr double kWidth = 920, kHeight = 490;
 
 std::vector<std::vector<double>> outline(const KeplerEllipse& ellipse) {
   constexpr int kPoints = 200;
@@ -29,7 +29,7 @@ std::vector<std::vector<double>> outline(const KeplerEllipse& ellipse) {
 
 std::string panel(const std::string& title, const std::vector<PathPoint>& path, double left) {
   std::ostringstream script;
-  script << place(left, 55, 370, 370, kWidth, kHeight) << data_block("$path", plan_of(path)) << "set title '"
+  script << place(left, 70, 370, 370, kWidth, kHeight) << data_block("$path", plan_of(path)) << "set title '"
          << title << "' noenhanced\n"
          << "plot $path using 1:2 with lines lc rgb '#107030' lw 1 title 'body', $ellipse using 1:2 with "
             "lines lc rgb '#c02020' lw 1.2 dt 2 title \"Kepler's ellipse\", $sun using 1:2 with points pt 7 "
@@ -52,7 +52,8 @@ core::Expected<void> draw_planet(const Output& output, Findings& findings) {
   script << data_block("$ellipse", outline(ellipse)) << data_block("$sun", {{0.0, 0.0}})
          << data_block("$start", {{ellipse.start().x, ellipse.start().y}})
          << "set multiplot\nset tics out nomirror\nset xtics 1\nset ytics 1\nset grid lc rgb '#e8e8e8'\n"
-         << "set xlabel 'x [m]'\nset ylabel 'y [m]' offset 1,0\nset key bottom right samplen 2 font ',9'\n";
+         << "set xlabel 'x [m]' offset 0,0.4\nset ylabel 'y [m]' offset 1.5,0\nset key bottom right samplen "
+            "2 font ',9'\n";
   for (const Integrator integrator : {Integrator::kFalseEuler, Integrator::kExplicitEuler}) {
     const bool is_false = integrator == Integrator::kFalseEuler;
     // The document's equations know gravity alone; on flat ground the exact ones add nothing to the pull.
@@ -76,7 +77,7 @@ core::Expected<void> draw_planet(const Output& output, Findings& findings) {
     script << (is_false ? "set xrange [-0.8:1.3]\nset yrange [-1.05:1.05]\nset xtics 0.5\nset ytics 0.5\n"
                         : "set xrange [-2:5]\nset yrange [-3.5:3.5]\nset xtics 1\nset ytics 1\n")
            << panel(name + ", " + short_text(periods) + " periods, steps of 1/85 s", *path,
-                    is_false ? 60 : 510);
+                    is_false ? 75 : 530);
   }
   script << "unset multiplot\n";
   if (auto done = output.draw(script.str(), "document-2.3-planet", static_cast<int>(kWidth),

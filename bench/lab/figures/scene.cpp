@@ -44,7 +44,7 @@ Scene::Scene(std::size_t width, std::size_t height, std::size_t finer, const Vie
   up_ = {-se * ca, -se * sa, ce};
   towards_ = {ce * ca, ce * sa, se};
   // From the viewer's left and behind, low: so a small bend of the normal shows.
-  const Place light{up_.x - 1.2 * right_.x, up_.y - 1.2 * right_.y, 0.9};
+  const Place light{up_.x - 1.2 * right_.x, up_.y - 1.2 * right_.y, 1.7};
   const double length = std::sqrt(dot_of(light, light));
   light_ = {light.x / length, light.y / length, light.z / length};
 }
@@ -88,7 +88,7 @@ Colour Scene::lit(const terrain::SlopeSample& s, Colour colour) const {
     const double angle = std::acos(std::fmin(1.0, diffuse)) * 180.0 / std::numbers::pi;
     return std::fmod(angle, 2.0 * view_.stripes) < view_.stripes ? colour : Colour{0.15, 0.15, 0.2};
   }
-  constexpr double kAmbient = 0.4, kGloss = 0.3, kSharpness = 40.0;
+  constexpr double kAmbient = 0.15, kGloss = 0.3, kSharpness = 40.0;
   const Place half{light_.x + towards_.x, light_.y + towards_.y, light_.z + towards_.z};
   const double gloss = std::pow(std::fmax(0.0, dot_of(n, half) / std::sqrt(dot_of(half, half))), kSharpness);
   const double brightness = kAmbient + (1.0 - kAmbient) * diffuse;
