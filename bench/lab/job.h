@@ -17,5 +17,6 @@ void add_precision(CLI::App& app, Job& job);
 void add_stability(CLI::App& app, Job& job);
 void add_speed(CLI::App& app, Job& job);
 void add_skip(CLI::App& app, Job& job);
+void add_figures(CLI::App& app, Job& job);
 
 }  // namespace woodlouse::lab

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   add_stability(app, job);
   add_speed(app, job);
   add_skip(app, job);
+  add_figures(app, job);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

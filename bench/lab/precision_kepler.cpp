@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/lab/methods/laboratory.h"
+#include "bench/lab/problems/flat_ground.h"
 #include "bench/lab/problems/kepler_ellipse.h"
 #include "bench/lab/problems/motion.h"
 #include "bench/lab/report/progress.h"
@@ -25,16 +26,6 @@ state::Parameters planet() {
   state::Parameters p{0.0, 0.0, 0.0, 0.0, 1.0};
   p.central_gravity = kPull;
   return p;
-}
-
-/// Flat, with lines of knots through the centre as the shipped map has them.
-document::AnySurface flat_ground() {
-  terrain::HeightGrid grid;
-  grid.columns = grid.rows = 5;
-  grid.x_origin = grid.y_origin = -20.0;
-  grid.dx = grid.dy = 10.0;
-  grid.heights.assign(25, 0.0);
-  return terrain::BicubicSpline(grid);
 }
 
 struct Measured {

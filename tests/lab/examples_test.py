@@ -6,7 +6,7 @@ import unittest
 
 import lab
 
-SUBCOMMANDS = "sample trajectory precision stability speed skip".split()
+SUBCOMMANDS = "sample trajectory precision stability speed skip figures".split()
 
 
 def examples_of(subcommand):
