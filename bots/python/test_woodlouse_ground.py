@@ -55,6 +55,14 @@ class TheGround(unittest.TestCase):
             self.assertAlmostEqual(ground.gradient(-2 - 1e-9, y)[0], ground.gradient(-2 + 1e-9, y)[0], places=6)
             self.assertAlmostEqual(ground.height(2 - 1e-9, y), ground.height(2 + 1e-9, y), places=6)
 
+    def test_the_way_is_straight_or_where_the_edges_wrap_the_shortest(self):
+        for wraps, way in ((False, (3.5, -0.2)), (True, (-0.5, -0.2))):
+            ground = woodlouse.Ground("g", [-2, 1], [1, 0.5], [[0] * 5] * 4, wraps)
+            for there, back in zip(ground.way(-1.75, 1.5, 1.75, 1.3), ground.way(1.75, 1.3, -1.75, 1.5)):
+                self.assertAlmostEqual(there, -back)
+            self.assertAlmostEqual(ground.way(-1.75, 1.5, 1.75, 1.3)[0], way[0])
+            self.assertAlmostEqual(ground.way(-1.75, 1.5, 1.75, 1.3)[1], way[1])
+
 
 class TheSummit(unittest.TestCase):
     def of(self, heights, wraps=False):

@@ -1,5 +1,7 @@
 """The ground of a map, as its knots tell it: heights and slopes between them."""
 
+import math
+
 
 class Ground:
     """The map's heights between its knots: Catmull-Rom, which goes through the knots and has a smooth gradient.
@@ -51,6 +53,13 @@ class Ground:
         """(x, y, z) of the highest knot of all [m], be it on the rim."""
         return self._place(*max(((i, j) for j in range(self.rows) for i in range(self.columns)),
                                 key=lambda knot: self.heights[knot[1]][knot[0]]))
+
+    def way(self, x, y, to_x, to_y):
+        """(dx, dy) [m] from (x, y) to (to_x, to_y): straight, and where the edges wrap the shortest, over a seam or not."""
+        x_min, y_min, x_max, y_max = self.extent
+        if not self.wraps:
+            return to_x - x, to_y - y
+        return math.remainder(to_x - x, x_max - x_min), math.remainder(to_y - y, y_max - y_min)
 
     def _place(self, i, j):
         return self.origin[0] + i * self.spacing[0], self.origin[1] + j * self.spacing[1], self.heights[j][i]
