@@ -76,12 +76,13 @@ class Running:
         self._process.stdout.close()
 
 
-def serve(owner, map_file):
-    """The address of a server of that map - a shipped one's name, or a file - which ends with `owner`, a TestCase or
-    its class."""
+def serve(owner, map_file, *options):
+    """The address of a server of that map - a shipped one's name, or a file - and those options, which ends with
+    `owner`, a TestCase or its class."""
     if not os.path.isabs(map_file):
         map_file = os.path.join(ROOT, "maps", map_file + ".json")
-    server = Running(program("woodlouse-server"), "--map", map_file, "--listen", "127.0.0.1:0", "--seed", "3")
+    server = Running(program("woodlouse-server"), "--map", map_file, "--listen", "127.0.0.1:0", "--seed", "3",
+                     *options)
     add = owner.addClassCleanup if isinstance(owner, type) else owner.addCleanup
     add(server.__exit__)
     return server.wait_for(r"^listening (\S+)$").group(1)
