@@ -152,6 +152,25 @@ class Seeing(unittest.TestCase):
                 self.assertEqual([event["n"] for event in game.take_events()], [1, 2, 3])
                 self.assertEqual(game.take_events(), [])
 
+    def test_spectators_share_an_id_and_are_told_apart_by_name(self):
+        def event(n, kind, name):
+            return {"type": "event", "n": n, "tick": 9, "kind": kind, "id": 0, "name": name, "role": "spectator"}
+
+        there = WELCOME["players"] + [{"id": 0, "name": name, "role": "spectator"} for name in ("eve", "fay")]
+
+        def script(send, receive):
+            send(HELLO)
+            receive()
+            send(dict(WELCOME, players=there), event(1, "joined", "gus"), event(2, "joined", "gus"),
+                 event(3, "left", "eve"), event(4, "left", "gus"), event(5, "left", "who came before"), KEY)
+            expect(receive, type="leave")
+
+        with Scripted(script) as server:
+            with woodlouse.connect(server.address) as game:
+                self.assertEqual((game.players, game.spectators), ({1: "ann"}, ["eve", "fay"]))
+                next(game.states())
+                self.assertEqual((game.players, game.spectators), ({1: "ann"}, ["fay", "gus"]))
+
     def test_a_broken_connection_and_broken_messages_raise(self):
         for last in (b"", b'{"type":"key","tick":1', b'{"type":"key","tick":1,"louse":[[1]]}\n', b"{}\n", b"null\n",
                      b'{"type":"key","louse":[]}\n', b'{"type":"key","tick":1,"louse":{"a":1}}\n', b"\xff\xfe\n"):
@@ -223,6 +242,52 @@ class Acting(unittest.TestCase):
                 self.assertEqual(game.rooms(), [{"name": "a"}])
                 self.assertEqual(game.map().extent, (0, 0, 1, 2))
                 self.assertIs(game.map(), game.map())
+
+
+class TheMap(unittest.TestCase):
+    TERRAIN = {"origin": [0, 0], "spacing": [1, 2], "heights": [[0, 1], [2, 3]]}
+    OF_TODAY = {"gravity": 9.81, "drag": 0.2, "friction": 0.05, "thrust_max": 4, "edge_restitution": 0.5}
+
+    def joined(self, physics, **message):
+        """The game that has asked for its map, of a welcome with that physics."""
+        def script(send, receive):
+            send(HELLO)
+            receive()
+            send(dict(WELCOME, physics=physics))
+            expect(receive, type="get_map")
+            send(dict({"type": "map", "name": "a", "hash": "0" * 16}, **message))
+            expect(receive, type="leave")
+
+        with Scripted(script) as server:
+            with woodlouse.connect(server.address) as game:
+                game.map()
+        return game
+
+    def test_what_the_welcome_says_of_the_physics_holds_whatever_the_map_says(self):
+        told = dict(self.OF_TODAY, equations="local_plane", method="false_euler", contact="unilateral", edges="wrap",
+                    central_gravity=3)
+        game = self.joined(told, definition={"name": "a", "terrain": self.TERRAIN})
+        self.assertEqual(game.physics, told)
+        self.assertTrue(game.map().wraps)
+
+    def test_what_the_welcome_leaves_out_comes_from_the_maps_definition(self):
+        definition = {"name": "a", "terrain": self.TERRAIN, "edges": "wrap",
+                      "physics": {"gravity": 1, "method": "cheap", "contact": "unilateral", "central_gravity": 7}}
+        game = self.joined(self.OF_TODAY, definition=definition)
+        self.assertEqual(game.physics, dict(self.OF_TODAY, equations="exact", method="cheap", contact="unilateral",
+                                            edges="wrap", central_gravity=7))
+        self.assertEqual(game.welcome["physics"], self.OF_TODAY)
+
+    def test_what_neither_says_is_the_formats_default(self):
+        game = self.joined(self.OF_TODAY, definition={"name": "a", "terrain": self.TERRAIN})
+        self.assertEqual(game.physics, dict(self.OF_TODAY, equations="exact", method="standard", contact="bilateral",
+                                            edges="walls", central_gravity=0))
+        self.assertFalse(game.map().wraps)
+
+    def test_the_ground_keeps_the_whole_definition_and_knows_an_overview(self):
+        definition = {"name": "a", "terrain": {"file": "a.flt"}, "later": [1]}
+        ground = self.joined(self.OF_TODAY, definition=definition, overview=True, knots=self.TERRAIN).map()
+        self.assertEqual((ground.definition, ground.overview), (definition, True))
 
 
 if __name__ == "__main__":

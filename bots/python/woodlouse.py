@@ -27,7 +27,8 @@ __all__ = ["ALL_FIELDS", "DEFAULT_ADDRESS", "Game", "Ground", "HELD", "MAX_LINE_
            "WoodlouseError", "connect", "run", "state_hash", "xxh64"]
 
 HELD = 4294967295  # ticks_left of a thrust that holds until the next one
-
+_MAP_DEFAULTS = {"equations": "exact", "method": "standard", "contact": "bilateral", "edges": "walls",
+                 "central_gravity": 0}
 
 State = collections.namedtuple("State", "tick lice me")
 State.__doc__ = """The world at `tick`. lice: {id: row}; a row has an attribute for each of the game's fields (row.x,
@@ -71,10 +72,15 @@ def run(main):
 
 
 class Game:
-    """A joined session. Attributes: id (your louse; 0 for a spectator), room, fields, tick_hz, state_hz, physics
-    {gravity, drag, friction, thrust_max, edge_restitution}, extent (x_min, y_min, x_max, y_max), players
-    {id: name}, hello and welcome as they came, last_ack, verified (how many keys were right; 0 unless asked to verify),
-    and bye once the server said it."""
+    """A joined session. Attributes: id (your louse; 0 for a spectator), room, fields, tick_hz, state_hz, extent (x_min,
+    y_min, x_max, y_max) [m], players {id: name} of who has a louse, spectators [name] of who has none (names may be
+    the same), hello and welcome as they came, last_ack, verified (how many keys were right; 0 unless asked to verify),
+    and bye once the server said it.
+
+    physics: gravity [m/s^2], drag [1/s], friction (Coulomb's), thrust_max [m/s^2], edge_restitution (0 to 1); equations
+    ("exact", "local_plane", "as_printed"), method ("standard", "cheap", "precise", "false_euler"), contact ("bilateral",
+    "unilateral"), edges ("walls", "wrap"), central_gravity (k of k / r^2 [m^3/s^2]; 0: none). Of a server that does not
+    send the last five they are there once map() has asked for the map, from its definition."""
 
     def __init__(self, lines, join, verify=False):
         self._lines = lines
@@ -94,6 +100,7 @@ class Game:
         self.bye = None
         self.welcome = None
         self.players = {}
+        self.spectators = []
         try:
             self.hello = self._next("hello")
             self._lines.send(join)
@@ -147,7 +154,8 @@ class Game:
         return self._rooms
 
     def take_events(self):
-        """The events since the last call, oldest first: dicts with n, tick, kind (joined, left, chat, respawned), id, name."""
+        """The events since the last call, oldest first: dicts with n, tick, kind (joined, left, chat, respawned), id
+        (0 for each spectator: the name tells them apart), name."""
         return _drain(self._events)
 
     def take_acks(self):
@@ -224,9 +232,11 @@ class Game:
         self.tick_hz = message["tick_hz"]
         self.state_hz = message["state_hz"]
         self.fields = message["fields"]
-        self.physics = message["physics"]
+        self.physics = dict(message["physics"])
         self.extent = tuple(message["map"]["extent"])
-        self.players = {player["id"]: player["name"] for player in message["players"]}
+        # All spectators have the id 0, which therefore names none of them.
+        self.players = {player["id"]: player["name"] for player in message["players"] if player["id"]}
+        self.spectators = [player["name"] for player in message["players"] if not player["id"]]
         self._row = collections.namedtuple("Louse", self.fields)
         self._quanta = [1 if quantum == 1 else quantum for quantum in message["quantum"]]
 
@@ -275,10 +285,17 @@ class Game:
         self._acks.append(message)
 
     def _on_event(self, message):
+        who, name = message["id"], message["name"]
         if message["kind"] == "joined":
-            self.players[message["id"]] = message["name"]
+            if who:
+                self.players[who] = name
+            else:
+                self.spectators.append(name)
         elif message["kind"] == "left":
-            self.players.pop(message["id"], None)
+            if who:
+                self.players.pop(who, None)
+            elif name in self.spectators:
+                self.spectators.remove(name)
         self._events.append(message)
 
     def _on_error(self, message):
@@ -294,8 +311,13 @@ class Game:
             raise WoodlouseError(message["code"], message["text"])
 
     def _on_map(self, message):
-        knots = message.get("knots") or message["definition"]["terrain"]
-        self._ground = Ground(message["name"], knots["origin"], knots["spacing"], knots["heights"])
+        definition = message["definition"]
+        knots = message.get("knots") or definition["terrain"]
+        for field, value in _MAP_DEFAULTS.items():  # what an older server's welcome leaves out
+            of_map = definition if field == "edges" else definition.get("physics", {})
+            self.physics.setdefault(field, of_map.get(field, value))
+        self._ground = Ground(message["name"], knots["origin"], knots["spacing"], knots["heights"],
+                              self.physics["edges"] == "wrap", definition, message.get("overview", False))
 
     def _on_rooms(self, message):
         self._rooms = message["rooms"]

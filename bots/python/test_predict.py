@@ -1,0 +1,169 @@
+"""What woodlouse_motion.py foretells, and what a real server then shows.
+
+Needs the programs: WOODLOUSE_BIN=build/release/bin python3 -m unittest test_predict
+"""
+
+import json
+import math
+import os
+import sys
+import tempfile
+import threading
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE)
+import woodlouse
+from running import PATIENCE_S, ROOT, example, serve
+from woodlouse_motion import FLYING, Motion, RESTING, body_of_ack
+from woodlouse_surface import FunctionSurface, surface_of
+
+AHEAD = 30  # ticks: 0.5 s at 60 Hz
+ROUNDS = 36
+NEAR = 1.0  # [m] to a wall: whoever comes so near is not compared
+PUSHES = ((1.0, None), ((0.9, 0.3), None), ((-0.5, 0.8), 20), (0.0, None), (1.0, 12), (-1.0, None), ((0.2, -0.1), None),
+          ((-1.0, 0.0), None), (0.5, None))  # (thrust, ticks), some of which end on the way
+
+
+def shipped(name):
+    with open(os.path.join(ROOT, "maps", name + ".json"), encoding="utf-8") as file:
+        return json.load(file)
+
+
+# The shipped maps, and others for what those have not: natural ends, exact functions, the edges of a period.
+MAPS = {name: shipped(name) for name in ("kepler", "torus", "volcano", "hills", "jumps")}
+MAPS["natural"] = dict(shipped("volcano"), surface="natural_spline")
+for _function, _of in (("parabolic_pot", "parabolic_pot"), ("wavy_pot", "wavy_pot"), ("volcano", "volcano"),
+                       ("hills", "hills"), ("waves", "torus")):
+    MAPS["exact_" + _function] = dict(shipped(_of), surface="function")
+
+
+class Round:
+    """One push: from the exact state of its ack to half a second later."""
+
+    def __init__(self, path, seen, ground):
+        self.told, self.seen = path[-1], seen
+        self.error = math.hypot(*ground.way(self.told.x, self.told.y, seen.x, seen.y))
+        x0, y0, x1, y1 = ground.extent
+        self.over_seam = any(abs(b.x - a.x) + abs(b.y - a.y) > 10 for a, b in zip(path, path[1:]))
+        self.near_wall = not ground.wraps and any(min(at.x - x0, x1 - at.x, at.y - y0, y1 - at.y) < NEAR for at in path)
+        self.flies = any(at.phase == FLYING for at in path)
+        self.push_ends = path[0].thrust_kind != self.told.thrust_kind
+
+
+def push(round_number, me, name):
+    """(thrust, ticks): all sorts, but over the seams at some 15 m/s, off the crests, and elsewhere back to the middle."""
+    out = math.hypot(me.x, me.y)
+    if name == "torus" and round_number % 3:
+        return 0.3, None
+    if name == "jumps" and round_number % 4 and out < 12:
+        return 1.0, None
+    if name not in ("torus", "exact_waves") and out > 9:
+        return (-me.x / 20, -me.y / 20), None
+    return PUSHES[round_number % len(PUSHES)]
+
+
+def play(address, name):
+    """The Rounds of a louse that is pushed about."""
+    rounds = []
+    with woodlouse.connect(address, name="pushed", fields="all", format="exact") as game:
+        ground, path, waiting = game.map(), [], False
+        motion = Motion(surface_of(ground), game.physics, game.extent, game.tick_hz)
+        for state in game.states():
+            for ack in game.take_acks():
+                path = [body_of_ack(ack["you"])]
+                while len(path) <= AHEAD:
+                    path.append(motion.after(path[-1], 1))
+            if path and state.tick >= path[-1].tick:
+                if state.tick == path[-1].tick:  # else this frame was missed
+                    rounds.append(Round(path, state.me, ground))
+                if len(rounds) == ROUNDS:
+                    break
+                path, waiting = [], False
+            if state.me and not waiting:
+                waiting = True
+                game.thrust(*push(len(rounds), state.me, name))
+    return rounds
+
+
+class TheMotion(unittest.TestCase):
+    """All maps at once, since each takes twenty seconds."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.rounds = {}
+        threads = []
+        for name, definition in MAPS.items():
+            file = os.path.join(folder.name, name + ".json")
+            with open(file, "w", encoding="utf-8") as out:
+                json.dump(definition, out)
+            address = serve(cls, file, "--state-hz", "60")
+            threads.append(threading.Thread(target=cls.run_one, args=(name, address), daemon=True))
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join(PATIENCE_S + 2 * ROUNDS)
+
+    @classmethod
+    def run_one(cls, name, address):
+        cls.rounds[name] = play(address, name)
+
+    def compared(self, name):
+        rounds = [each for each in self.rounds[name] if not each.near_wall]
+        self.assertGreater(len(rounds), ROUNDS / 2, name)
+        return rounds
+
+    def test_a_louse_is_where_it_was_foretold(self):
+        for name in MAPS:
+            with self.subTest(name):
+                errors = sorted(each.error for each in self.compared(name))
+                self.assertLess(errors[-1], 1e-3)
+                self.assertLess(errors[len(errors) // 2], 1e-5)
+
+    def test_over_a_seam_too(self):
+        rounds = [each for each in self.compared("torus") if each.over_seam]
+        self.assertGreaterEqual(len(rounds), 3)
+        self.assertLess(max(each.error for each in rounds), 1e-3)
+
+    def test_in_the_air_too(self):
+        rounds = [each for each in self.compared("jumps") if each.flies]
+        self.assertGreaterEqual(len(rounds), 2)
+        self.assertLess(max(each.error for each in rounds), 1e-3)
+
+    def test_its_rest_and_the_end_of_its_push_are_foretold(self):
+        rounds = [each for name in MAPS for each in self.compared(name)]
+        for each in rounds:
+            told, seen = each.told, each.seen
+            self.assertEqual((told.phase, told.thrust_kind, told.ticks_left, told.tx, told.ty),
+                             (seen.phase, seen.thrust_kind, seen.ticks_left, seen.tx, seen.ty))
+        self.assertGreater(sum(each.told.phase == RESTING for each in rounds), 2)
+        self.assertGreater(sum(each.push_ends for each in rounds), 5)
+
+    def test_the_example_says_how_near_it_was(self):
+        with example("predictor", serve(self, "torus")) as predictor:
+            for tick in range(3):
+                predictor.wait_for(r"^tick \d+: at .*, (\S+) m from", lambda match: float(match.group(1)) < 1e-3)
+                predictor.lines.clear()
+
+
+class WhatIsNotForetold(unittest.TestCase):
+    PHYSICS = {"gravity": 9.81, "drag": 0, "friction": 0, "thrust_max": 4, "edge_restitution": 0, "contact": "bilateral",
+               "edges": "walls", "central_gravity": 0}
+
+    def test_other_equations_and_a_method_of_large_errors_are_refused(self):
+        for equations, method in (("local_plane", "standard"), ("as_printed", "standard"), ("exact", "false_euler")):
+            with self.assertRaises(ValueError):
+                Motion(FunctionSurface("hills"), dict(self.PHYSICS, equations=equations, method=method), (0, 0, 1, 1), 60)
+
+    def test_ground_that_only_the_server_knows_is_refused(self):
+        for definition, overview in (({}, True), ({"surface": "function", "terrain": {"function": "new"}}, False),
+                                     ({"surface": "new"}, False)):
+            ground = woodlouse.Ground("a", [0, 0], [1, 1], [[0] * 4] * 4, False, definition, overview)
+            with self.assertRaises(ValueError):
+                surface_of(ground)
+
+
+if __name__ == "__main__":
+    unittest.main()
