@@ -58,18 +58,6 @@ core::Expected<Pipe> make_pipe() {
 
 }  // namespace
 
-core::Expected<std::filesystem::path> find_map(const std::string& word) {
-  std::error_code error;
-  if (std::filesystem::is_regular_file(word, error)) return std::filesystem::path(word);
-  const std::string file = word.ends_with(".json") ? word : word + ".json";
-  for (const std::filesystem::path& folder :
-       {own_folder() / ".." / "share" / "woodlouse" / "maps", std::filesystem::path(WOODLOUSE_MAPS_DIR)}) {
-    if (std::filesystem::is_regular_file(folder / file, error)) return folder / file;
-  }
-  return core::fail("map \"" + word + "\"", "no such file, and no map of that name in " WOODLOUSE_MAPS_DIR,
-                    "give the path of a map file, or volcano");
-}
-
 core::Expected<std::unique_ptr<LocalServer>> LocalServer::start(const LocalServerSettings& settings) {
   const std::string program = (own_folder() / "woodlouse-server").string();
   if (access(program.c_str(), X_OK) != 0) {

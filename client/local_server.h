@@ -44,7 +44,4 @@ class LocalServer {
   Address address_;
 };
 
-/// The map file a word means: a path to a file, or the name of one of the maps that came with the program.
-core::Expected<std::filesystem::path> find_map(const std::string& word);
-
 }  // namespace woodlouse::client

@@ -19,6 +19,7 @@
 #include "client/terminal/descriptor.h"
 #include "client/terminal/outcome.h"
 #include "client/watch_recording.h"
+#include "shared/map/map_search_file.h"
 
 namespace woodlouse::client {
 namespace {
@@ -148,7 +149,7 @@ int run_client(const Config& config) {
   }
   std::unique_ptr<LocalServer> local;
   if (!config.server) {
-    const auto map = find_map(config.map);
+    const auto map = map::find_map(config.map);
     if (!map) return complain(kExitUsage, map.error().where + ": " + map.error().what, map.error().hint);
     auto started = LocalServer::start({.map = *map});
     if (!started)

@@ -24,7 +24,8 @@ install(TARGETS ${libraries} woodlouse_flags woodlouse_zstd woodlouse-scenario E
 set_target_properties(woodlouse_bot PROPERTIES EXPORT_NAME bot)
 add_library(woodlouse::bot ALIAS woodlouse_bot)
 install(TARGETS woodlouse_bot woodlouse_asio EXPORT woodlouse_bot)
-install(DIRECTORY shared bots/cpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/woodlouse FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY shared DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/woodlouse FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY bots/cpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/woodlouse/bots FILES_MATCHING PATTERN "*.h")
 install(EXPORT woodlouse NAMESPACE woodlouse:: DESTINATION ${package_folder})
 install(EXPORT woodlouse_bot NAMESPACE woodlouse:: DESTINATION ${package_folder})
 configure_package_config_file(cmake/woodlouseConfig.cmake.in ${PROJECT_BINARY_DIR}/woodlouseConfig.cmake

@@ -20,6 +20,7 @@
 #include "server/watchers/shadow.h"
 #include "shared/core/stable_hash.h"
 #include "shared/map/map_file.h"
+#include "shared/map/map_search_file.h"
 #include "shared/protocol/codes.h"
 
 namespace woodlouse::server {
@@ -116,11 +117,13 @@ core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config,
 core::Expected<void> Server::open_rooms(const ServeConfig& config) {
   const std::uint64_t seed = config.seed ? *config.seed : entropy();
   std::set<std::string> names;
-  for (const fs::path& file : config.maps) {
-    const auto map = map::load_map(file);
+  for (const fs::path& word : config.maps) {
+    const auto file = map::find_map(word.string());
+    if (!file) return tl::unexpected(file.error());
+    const auto map = map::load_map(*file);
     if (!map) return tl::unexpected(map.error());
     const match::MatchSettings settings{config.tick_hz, seed + names.size()};
-    Start start{*map, std::make_unique<match::Match>(*map, settings), file.string(), {}, {}};
+    Start start{*map, std::make_unique<match::Match>(*map, settings), file->string(), {}, {}};
     const std::string name = unique_name((*map)->definition.name, names);
     if (auto opened = open_room(config, name, std::move(start)); !opened) return opened;
   }

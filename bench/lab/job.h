@@ -2,10 +2,13 @@
 // function that adds it to the command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 
 #include "shared/core/error.h"
+
+namespace CLI {
+class App;
+}
 
 namespace woodlouse::lab {
 

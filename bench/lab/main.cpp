@@ -1,4 +1,5 @@
 // woodlouse-lab: run time against error of every method, as facts that anyone can reproduce.
+#include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "bench/lab/job.h"

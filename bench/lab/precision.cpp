@@ -1,5 +1,6 @@
 // `precision`: run time against error, of the integrators, of the surfaces, under central gravity and in
 // flight.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <string>

@@ -1,4 +1,5 @@
 // `sample`: a surface's height, gradient and Hessian at given points.
+#include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
 #include <optional>

@@ -1,4 +1,5 @@
 // `skip`: what is not computed because the scene does not need it, and what that saves.
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
 #include <memory>

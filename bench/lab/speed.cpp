@@ -1,5 +1,7 @@
 // `speed`: our evaluations and steps beside GSL's, ALGLIB's and the document's, in one run.
 #include "bench/lab/job.h"
+
+#include <CLI/CLI.hpp>
 #include "bench/lab/report/output.h"
 #include "bench/lab/report/race.h"
 #include "bench/lab/speed_evaluations.h"

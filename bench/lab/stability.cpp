@@ -1,4 +1,5 @@
 // `stability`: every integrator over slopes, curvatures, speeds, frictions, rates and grids; and a long soak.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iostream>

@@ -1,4 +1,5 @@
 // `trajectory`: the path of one louse, row by row.
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>
 #include <limits>

@@ -22,7 +22,7 @@ sys.path.insert(0, HERE)
 import woodlouse
 from running import ROOT, Running, Witness, example, program, serve
 
-MAPS = ("hills", "jumps", "maunga_whau", "parabolic_pot", "torus", "volcano", "wavy_pot")
+MAPS = ("hills", "hoffmann_2002", "jumps", "maunga_whau", "parabolic_pot", "torus", "volcano", "wavy_pot")
 LEVEL = ("arena", "kepler")
 SHARE = 0.9
 SECONDS = 240  # of the game. They take 6 to 60: on rough ground a run of bad luck may double that

@@ -1,6 +1,7 @@
 // `figures`: the document's lost figures, drawn again.
 #include "bench/lab/figures/figures.h"
 
+#include <CLI/CLI.hpp>
 #include <array>
 #include <iostream>
 #include <memory>

@@ -1,5 +1,6 @@
 #include "bench/lab/problems/surface_choice.h"
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <utility>
 #include <variant>

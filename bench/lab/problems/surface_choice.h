@@ -1,12 +1,15 @@
 // The surface that --surface, --function, --grid and --map name.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <string>
 
 #include "shared/core/error.h"
 #include "shared/document/surface_catalogue.h"
+
+namespace CLI {
+class App;
+}
 
 namespace woodlouse::lab {
 

@@ -2,13 +2,16 @@
 // machine, commit and command it was made.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 #include <string_view>
 
 #include "bench/lab/report/table.h"
 #include "shared/core/error.h"
+
+namespace CLI {
+class App;
+}
 
 namespace woodlouse::lab {
 
