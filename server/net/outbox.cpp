@@ -20,6 +20,12 @@ void Outbox::push_last(Line line) {
   closed_ = true;
 }
 
+void Outbox::promote_map() {
+  if (!map_) return;
+  waiting_bytes_ += map_->size();
+  lines_.push_back(std::exchange(map_, nullptr));
+}
+
 Outbox::PushMap Outbox::push_map(Line line) {
   if (map_) return PushMap::kAlreadyWaiting;
   if (!closed_) map_ = std::move(line);

@@ -22,6 +22,8 @@ class Outbox {
   enum class Push { kQueued, kOverflow };
   /// An event or answer. kOverflow: not queued, the client must be told `slow` and go.
   Push push(Line line);
+  /// The map that waits, if one does, is sent with the lines, so that a last line does not drop it.
+  void promote_map();
   /// The last line: passes over the limit and over everything replaceable, which is dropped.
   void push_last(Line line);
 

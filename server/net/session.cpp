@@ -129,8 +129,7 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
   if (const auto* ping = std::get_if<protocol::Ping>(&message)) return say(protocol::Pong{ping->t});
   if (std::holds_alternative<protocol::Pong>(message)) return;
   if (std::holds_alternative<protocol::List>(message)) return say(environment_.directory.list());
-  if (std::holds_alternative<protocol::Leave>(message))
-    return say_bye({}, {std::string(code::kLeft), "goodbye", false}, kLinger);
+  if (std::holds_alternative<protocol::Leave>(message) && !door_) return say_goodbye();
   if (auto* join = std::get_if<protocol::Join>(&message)) {
     door_ = environment_.directory.find(join->room);
     if (door_) return door_->join(id_, shared_from_this(), std::move(*join));
@@ -241,14 +240,18 @@ void Session::welcome(protocol::Welcome welcome, std::uint32_t divisor) {
 void Session::refuse_join(protocol::ErrorMessage error) {
   asio::post(wire_->executor(), [self = shared_from_this(), error = std::move(error)] {
     self->door_ = nullptr;
+    const bool leaves = self->handshake_.state() == Handshake::State::kLeaving;
     self->handshake_.refused();
     self->say(error);
+    if (leaves) self->say_goodbye();
   });
 }
 
 void Session::end(protocol::Bye bye) {
-  asio::post(wire_->executor(),
-             [self = shared_from_this(), bye = std::move(bye)] { self->say_bye({}, bye, kShutdownLinger); });
+  asio::post(wire_->executor(), [self = shared_from_this(), bye = std::move(bye)] {
+    if (bye.code == code::kLeft) return self->say_goodbye();
+    self->say_bye({}, bye, kShutdownLinger);
+  });
 }
 
 // ---- the end -------------------------------------------------------------------------------------------
@@ -262,6 +265,13 @@ void Session::fail(const protocol::ErrorMessage& error) {
   protocol::ErrorMessage fatal = error;
   fatal.fatal = true;
   say_bye(fatal, {error.code, error.text, false}, kLinger);
+}
+
+/// Whoever leaves by word gets all that was asked for before, the map too. In a room it is the room that says
+/// when: what it has still to answer comes first.
+void Session::say_goodbye() {
+  outbox_.promote_map();
+  say_bye({}, {std::string(code::kLeft), "goodbye", false}, kLinger);
 }
 
 void Session::say_bye(const std::optional<protocol::ErrorMessage>& error, const protocol::Bye& bye,

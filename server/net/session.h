@@ -93,6 +93,7 @@ class Session final : public Subscriber, public std::enable_shared_from_this<Ses
   void fail(std::string_view code, std::string text);
   void fail(const protocol::ErrorMessage& error);
   void say_bye(const std::optional<protocol::ErrorMessage>& error, const protocol::Bye& bye, Duration linger);
+  void say_goodbye();
   void leave_room();
   void close();
 

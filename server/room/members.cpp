@@ -197,8 +197,9 @@ void Members::take(SessionId session, const protocol::ClientMessage& message, Ti
 
 void Members::on_message(Seat& seat, SessionOccupant& occupant, const protocol::Input& input, Time arrived) {
   const std::uint32_t seq = seat.first_seq + input.seq;
-  const match::Filed filed =
+  match::Filed filed =
       game_.file({seat.louse, seq, input.thrust, input.ticks.value_or(state::kHeld), input.tick.value_or(0)});
+  filed.late |= input.tick == 0u && game_.tick() > 0;  // to the match 0 is no wish
   if (filed.outcome != match::Filed::Outcome::kFiled) return drop_input(occupant, input, filed);
   const std::uint64_t ticks_late = filed.late ? filed.tick - input.tick.value_or(filed.tick) : 0;
   acks_.add(filed.tick, {occupant.session, seat.louse, seq, arrived, filed.late, input.clamped, ticks_late});
@@ -211,8 +212,9 @@ void Members::drop_input(SessionOccupant& occupant, const protocol::Input& input
     case match::Filed::Outcome::kFiled:
       return;
     case match::Filed::Outcome::kStaleSeq:
-      subscriber.answer(error(code::kStaleSeq, where + "seq must be above that of every input before"));
-      break;
+      // No ack: it would be taken for that of the input that came first under this seq.
+      return subscriber.answer(
+          error(code::kStaleSeq, where + "seq must be above that of every input before"));
     case match::Filed::Outcome::kQueueFull:
       subscriber.answer(error(code::kQueueFull, where + std::to_string(match::InputQueue::kMaxPending) +
                                                     " of your inputs wait for their tick"));
@@ -245,6 +247,10 @@ void Members::on_message(Seat& seat, SessionOccupant& occupant, const protocol::
   if (refuse_when_busy(occupant)) return;
   for (const auto& watcher : watchers_) watcher->chat(game_.tick(), seat.louse, seat.name, chat.text);
   send(events_.chat(game_.tick(), seat, chat.text));
+}
+
+void Members::on_message(Seat&, SessionOccupant& occupant, const protocol::Leave&) {
+  occupant.subscriber->end({std::string(code::kLeft), "goodbye", false});
 }
 
 void Members::on_message(Seat&, SessionOccupant& occupant, const protocol::GetMap&) {

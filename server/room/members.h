@@ -72,6 +72,7 @@ class Members {
                                               std::uint32_t state_hz) const;
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Input& input, Time arrived);
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Chat& chat);
+  void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Leave&);
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::GetMap&);
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Resync&);
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Respawn&);

@@ -84,12 +84,25 @@ class Play(unittest.TestCase):
             tick = player.expect("ack", seq=5)["tick"]
             player.send({"type": "input", "seq": 5, "thrust": 1})
             player.expect("error", code="stale_seq")
-            self.assertTrue(player.expect("ack", seq=5)["dropped"])
             player.send({"type": "input", "seq": 6, "thrust": 1, "tick": tick + 100_000})
             player.expect("error", code="too_far")
             self.assertTrue(player.expect("ack", seq=6)["dropped"])
-            player.send({"type": "input", "seq": 7, "thrust": 1, "tick": 1})
-            self.assertTrue(player.expect("ack", seq=7)["late"])
+            self.assertEqual([m["dropped"] for m in player.seen if m["type"] == "ack" and m["seq"] == 5], [False])
+            for seq, tick in ((7, 1), (8, 0)):
+                player.send({"type": "input", "seq": seq, "thrust": 1, "tick": tick})
+                self.assertTrue(player.expect("ack", seq=seq)["late"])
+
+    def test_whoever_joins_asks_and_leaves_in_one_write_is_answered_to_the_end(self):
+        with Server(maps=("volcano", "hills")) as server:
+            for room, kinds in ((None, {"welcome", "map"}), ("nowhere", {"error"})):
+                join = {"type": "join", "protocol": 1, "name": "x", **({"room": room} if room else {})}
+                client = server.client()
+                client.send(join, {"type": "get_map"}, {"type": "ping", "t": 1}, {"type": "leave"})
+                client.until_end()
+                seen = [message["type"] for message in client.seen]
+                self.assertLessEqual(kinds | {"pong"}, set(seen))
+                self.assertEqual(client.seen[-1]["type"], "bye")
+                self.assertEqual(client.seen[-1]["code"], "left")
 
     def test_events_are_numbered_without_holes_and_reach_everyone(self):
         with Server() as server, server.player("watcher", role="spectator") as watcher:

@@ -32,6 +32,7 @@ class FakeDoor final : public Door {
     joins.push_back(std::move(join));
   }
   void submit(SessionId, protocol::ClientMessage message, Time arrived) override {
+    if (std::holds_alternative<protocol::Leave>(message) && member) member->end({"left", "goodbye", false});
     messages.emplace_back(std::move(message), arrived);
   }
   void leave(SessionId session) override {

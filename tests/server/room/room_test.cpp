@@ -148,13 +148,12 @@ TEST_CASE("whoever took a louse over counts its inputs from the start and is ans
   input.seq = 0;
   house.door->submit(1, input, house.timekeeper.now());
   house.settle();
-  REQUIRE(mara->answers.size() == 2);  // of the second one: an error and an ack, dropped
+  REQUIRE(mara->answers.size() == 1);  // of the second one; its ack would pass for the first one's
   CHECK(std::get<protocol::ErrorMessage>(mara->answers[0]).code == "stale_seq");
-  CHECK(std::get<protocol::Ack>(mara->answers[1]).dropped);
   house.room->start([] {});
   house.tick();
-  REQUIRE(mara->answers.size() == 3);
-  const auto& ack = std::get<protocol::Ack>(mara->answers[2]);
+  REQUIRE(mara->answers.size() == 2);
+  const auto& ack = std::get<protocol::Ack>(mara->answers[1]);
   CHECK(ack.seq == 0);
   CHECK(ack.tick == 1);
   CHECK_FALSE(ack.dropped);
