@@ -104,8 +104,9 @@ class Climbing(unittest.TestCase):
                 place = ground.summit()[:2]
 
                 def stands(rows):
-                    return len(rows) > 40 and all(max(map(abs, ground.way(row.x, row.y, *place))) < max(ground.spacing) and
-                                                  row.speed < 0.5 for _, row in rows[-40:])  # of two seconds
+                    last = [row for _, row in rows[-40:]]  # two seconds
+                    return len(last) == 40 and all(max(map(abs, ground.way(row.x, row.y, *place))) < max(ground.spacing)
+                                                   and row.speed < 0.5 for row in last)
 
                 self.witnesses[name].see("Sherpa", stands, SECONDS)
 
