@@ -22,8 +22,9 @@ sys.path.insert(0, HERE)
 import woodlouse
 from running import ROOT, Running, Witness, example, program, serve
 
-MAPS = ("hills", "hoffmann_2002", "jumps", "maunga_whau", "parabolic_pot", "torus", "volcano", "wavy_pot")
+MAPS = ("hills", "jumps", "maunga_whau", "parabolic_pot", "torus", "volcano", "wavy_pot")
 LEVEL = ("arena", "kepler")
+PAPER = ("hoffmann_2002",)  # by the paper's equations, which make and lose energy: its dents hold who pushes uphill
 SHARE = 0.9
 SECONDS = 240  # of the game. They take 6 to 60: on rough ground a run of bad luck may double that
 
@@ -104,16 +105,17 @@ class Climbing(unittest.TestCase):
                 place = ground.summit()[:2]
 
                 def stands(rows):
-                    return len(rows) > 40 and all(max(map(abs, ground.way(row.x, row.y, *place))) < max(ground.spacing) and
-                                                  row.speed < 0.5 for _, row in rows[-40:])  # of two seconds
+                    last = [row for _, row in rows[-40:]]  # two seconds
+                    return len(last) == 40 and all(max(map(abs, ground.way(row.x, row.y, *place))) < max(ground.spacing)
+                                                   and row.speed < 0.5 for row in last)
 
                 self.witnesses[name].see("Sherpa", stands, SECONDS)
 
 
 class TheReadme(unittest.TestCase):
-    def test_every_shipped_map_is_climbed_or_level(self):
+    def test_every_shipped_map_is_climbed_or_level_or_the_papers(self):
         shipped = {file[:-5] for file in os.listdir(os.path.join(ROOT, "maps")) if file.endswith(".json")}
-        self.assertEqual(shipped, set(MAPS) | set(LEVEL))
+        self.assertEqual(shipped, set(MAPS) | set(LEVEL) | set(PAPER))
 
     def test_its_bot_has_about_ten_lines_and_is_that_of_the_bots_readme(self):
         code = readme_code()

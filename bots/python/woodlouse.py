@@ -173,7 +173,8 @@ class Game:
 
     def thrust(self, value, ticks=None, tick=None):
         """Pushes. A number in [-1, 1] drives along the heading (negative brakes); a pair (x, y) of length at most 1
-        pushes in that direction of the map. 1 is physics["thrust_max"]. ticks: for how long; else until the next
+        pushes along the ground's tangent over that direction of the map. 1 is physics["thrust_max"], in space: on a slope
+        less of it is seen on the map (bots/README.md). ticks: for how long; else until the next
         thrust. tick: the step that shall take it. Returns the seq that its ack will carry."""
         pair = isinstance(value, (tuple, list))
         numbers = [float(v) for v in value] if pair else [float(value)]
