@@ -13,7 +13,7 @@ enum class ThrustKind : std::uint32_t {
   kNone = 0,          ///< no thrust
   kAlongHeading = 1,  ///< value.x in [-1, 1]: the document's pulse; positive drives along the heading,
                       ///< negative brakes
-  kMapVector = 2,     ///< value of length <= 1: pushes along the tangent whose map projection is value
+  kMapVector = 2,     ///< value of length <= 1: pushes along the tangent over it, in space by its length
 };
 
 /// Ticks of a thrust that holds until the next one.
