@@ -55,8 +55,10 @@ OUTSIDE = {
 OPERATING_SYSTEM = {"filesystem", "fstream", "thread", "mutex", "chrono"}
 ONLY_WITH_ONE = {"shared/core/clock.h", "shared/core/lock.h", "shared/replay/parallel_verify.cpp"}
 # Step code must give the same bits everywhere: nothing here but sqrt and fabs.
-STEP_ROOMS = {"state", "terrain", "physics", "physics/lanes", "document", "match"}
-LIBM = re.compile(r"\bstd::(sin|cos|tan|asin|acos|atan2?|exp2?|log(2|10)?|pow|cbrt|hypot|fma)\b")
+STEP_ROOMS = {"core", "state", "terrain", "physics", "physics/lanes", "document", "map", "match"}
+# Calls with std::, with :: and with neither, of any precision. (sqrt, floor and the like round exactly everywhere.)
+LIBM = re.compile(r"(?<![\w.>])(?:std::|::)?(?:a?(?:sin|cos|tan)h?|atan2|sincos|exp2?|exp10|expm1|log(?:2|10|1p)?|pow|cbrt|hypot|fma"
+                  r"|fmod|remainder|erfc?|[lt]gamma|lerp)[fl]?\s*\(")
 LIBM_ALLOWED = {"shared/physics/attitude.cpp"}  # for who looks at it; enters no state
 
 

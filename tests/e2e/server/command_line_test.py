@@ -9,6 +9,24 @@ from wire import MAPS, Server, map_file, run
 
 
 class CommandLine(unittest.TestCase):
+    def test_help_is_printable_and_numbers_are_told_in_words(self):
+        for command in ([], ["check"], ["verify"], ["inspect"], ["fork"]):
+            code, printed, _ = run(*command, "--help")
+            self.assertEqual(code, 0)
+            self.assertTrue(all(c.isprintable() or c == "\n" for c in printed), printed)
+        for arguments, words in ((("inspect", "x", "--tick", "-1"), "--tick: a whole number from 0 on is wanted, not -1"),
+                                 (("inspect", "x", "--at", "-1"), "--at: seconds, 0 or more, are wanted, not -1"),
+                                 (("inspect", "x", "--at", "nan"), "not nan"),
+                                 (("fork", "x", "--tick", "99999999999999999999"), "not 99999999999999999999"),
+                                 (("verify", "x", "--jobs", "0"), "from 1 to 256 is wanted, not 0"),
+                                 (("--map", "volcano", "--seed", "-1"), "not -1"),
+                                 (("--map", "volcano", "--tick-hz", "60.5"), "not 60.5"),
+                                 (("--map", "volcano", "--log-format", "xml"), "xml")):
+            code, printed, errors = run(*arguments)
+            self.assertEqual((code, printed), (2, ""))
+            self.assertIn(words, errors)
+            self.assertEqual(len(errors.splitlines()), 2, errors)
+
     def test_check_says_ok_of_every_map_that_is_shipped(self):
         files = sorted(os.path.join(MAPS, name) for name in os.listdir(MAPS) if name.endswith(".json"))
         self.assertGreaterEqual(len(files), 5)
