@@ -1,5 +1,7 @@
 #include "shared/document/steps.h"
 
+#include <cassert>
+
 #include "shared/document/equations.h"
 #include "shared/document/euler.h"
 #include "shared/document/indirect_surface.h"
@@ -19,11 +21,12 @@ std::unique_ptr<const physics::GroundSteps> with_equations(const AnySurface& gro
 
 }  // namespace
 
-std::unique_ptr<const physics::GroundSteps> make_steps(const AnySurface& ground, Equations equations,
+std::unique_ptr<const physics::GroundSteps> make_steps(const AnySurface& ground, state::Equations equations,
                                                        Integrator integrator,
                                                        const physics::StepRules& rules) {
-  return equations == Equations::kLocalPlane ? with_equations<LocalPlane>(ground, integrator, rules)
-                                             : with_equations<AsPrinted>(ground, integrator, rules);
+  assert(equations != state::Equations::kExact);
+  return equations == state::Equations::kLocalPlane ? with_equations<LocalPlane>(ground, integrator, rules)
+                                                    : with_equations<AsPrinted>(ground, integrator, rules);
 }
 
 }  // namespace woodlouse::document

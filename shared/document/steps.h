@@ -10,19 +10,15 @@
 
 namespace woodlouse::document {
 
-enum class Equations {
-  kLocalPlane,  ///< Cramer's factors put right
-  kAsPrinted,
-};
-
 enum class Integrator {
   kExplicitEuler,
   kFalseEuler,  ///< the document's choice
 };
 
-/// Every combination exists. `ground` must outlive the steps. Without lanes: REQUIRES a batch of width 0.
-/// Of a surface without a Hessian nothing but height and gradient is used.
-std::unique_ptr<const physics::GroundSteps> make_steps(const AnySurface& ground, Equations equations,
+/// Every combination exists but with the exact equations, which are physics'. `ground` must outlive the
+/// steps. Without lanes: REQUIRES a batch of width 0. Of a surface without a Hessian nothing but height and
+/// gradient is used.
+std::unique_ptr<const physics::GroundSteps> make_steps(const AnySurface& ground, state::Equations equations,
                                                        Integrator integrator,
                                                        const physics::StepRules& rules);
 

@@ -17,7 +17,7 @@ using tests::moving;
 
 namespace {
 
-constexpr std::array kEveryEquations = {Equations::kLocalPlane, Equations::kAsPrinted};
+constexpr std::array kEveryEquations = {state::Equations::kLocalPlane, state::Equations::kAsPrinted};
 constexpr std::array kEveryIntegrator = {Integrator::kExplicitEuler, Integrator::kFalseEuler};
 
 void advance(const physics::GroundSteps& steps, state::Louse& louse, long ticks) {
@@ -46,8 +46,8 @@ TEST_CASE("the document's equations and False Euler give the document's trajecto
                                                static_cast<std::size_t>(t.number(row, "g")));
     const auto surface = interpolate(surfaces.at(t.text(row, "method")), grid);
     REQUIRE(surface.has_value());
-    const Equations equations =
-        t.number(row, "corrected_cramer") != 0 ? Equations::kLocalPlane : Equations::kAsPrinted;
+    const state::Equations equations =
+        t.number(row, "corrected_cramer") != 0 ? state::Equations::kLocalPlane : state::Equations::kAsPrinted;
     state::Louse end = moving({0.35, -0.2}, {0.3, 0.4});
     advance(*make_steps(*surface, equations, Integrator::kFalseEuler, rules), end,
             std::lround(t.number(row, "step")));
@@ -69,7 +69,7 @@ TEST_CASE("one step by hand: explicit Euler drifts with the old velocity, False 
   const physics::StepRules rules{
       {.gravity = 9.81, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0}, tests::kNowhere, h};
   const core::Vec2 v0{1.0, -2.0};
-  for (const Equations equations : kEveryEquations) {
+  for (const state::Equations equations : kEveryEquations) {
     state::Louse plain = moving({0.3, 0.4}, v0), paper = plain;
     advance(*make_steps(surface, equations, Integrator::kExplicitEuler, rules), plain, 1);
     advance(*make_steps(surface, equations, Integrator::kFalseEuler, rules), paper, 1);
@@ -84,7 +84,7 @@ TEST_CASE("the document's lice never rest: nothing holds one, and one at rest is
   const AnySurface surface = terrain::FunctionSurface(terrain::FunctionName::kParabolicPot, 1.0);
   const physics::StepRules rules{
       {.gravity = 9.81, .drag = 0.2, .friction = 2.0, .thrust_max = 0.0}, tests::kNowhere, 1.0 / 60};
-  for (const Equations equations : kEveryEquations) {
+  for (const state::Equations equations : kEveryEquations) {
     for (const Integrator integrator : kEveryIntegrator) {
       const auto steps = make_steps(surface, equations, integrator, rules);
       state::Louse louse = moving({0.1, 0.0}, {0.0, 0.0});

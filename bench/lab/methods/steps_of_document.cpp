@@ -20,7 +20,7 @@ Steps by_others(const document::AnySurface& ground, Integrator integrator, const
 Steps document_steps(const document::AnySurface& ground, Equations equations, Integrator integrator,
                      const physics::StepRules& rules) {
   const bool local_plane = equations == Equations::kLocalPlane;
-  const auto its_own = local_plane ? document::Equations::kLocalPlane : document::Equations::kAsPrinted;
+  const auto its_own = local_plane ? state::Equations::kLocalPlane : state::Equations::kAsPrinted;
   switch (integrator) {
     case Integrator::kExplicitEuler:
       return document::make_steps(ground, its_own, document::Integrator::kExplicitEuler, rules);
