@@ -45,5 +45,8 @@ target_compile_options(woodlouse_flags INTERFACE $<BUILD_INTERFACE:${WOODLOUSE_L
 # Whoever has ccache builds a second clone in a fraction of the time.
 find_program(WOODLOUSE_CCACHE ccache)
 if(WOODLOUSE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} ${WOODLOUSE_CCACHE})
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      env CCACHE_BASEDIR=${PROJECT_SOURCE_DIR} CCACHE_SLOPPINESS=pch_defines,time_macros ${WOODLOUSE_CCACHE})
+  # What ccache asks for to see through precompiled headers.
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess> "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
 endif()

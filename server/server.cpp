@@ -1,5 +1,7 @@
 #include "server/server.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/post.hpp>
 
@@ -152,12 +154,13 @@ core::Expected<void> Server::open_room(const ServeConfig& config, const std::str
 void Server::log_opened(const std::string& room, const ServeConfig& config, const Start& start) const {
   const match::Match& match = *start.match;
   if (start.parent)
-    log_->info("room {}: goes on from {}, tick {}, hash {}, with {} lice, {} ticks/s, {} frames/s", room,
-               start.parent->file, match.tick(), core::to_hex(match.hash()), match.world().lice().size(),
-               config.tick_hz, config.state_hz);
+    log_->info(
+        fmt::format("room {}: goes on from {}, tick {}, hash {}, with {} lice, {} ticks/s, {} frames/s", room,
+                    start.parent->file, match.tick(), core::to_hex(match.hash()), match.world().lice().size(),
+                    config.tick_hz, config.state_hz));
   else
-    log_->info("room {}: map {}, {} ticks/s, {} frames/s, seed {}", room, start.map_file, config.tick_hz,
-               config.state_hz, match.settings().seed);
+    log_->info(fmt::format("room {}: map {}, {} ticks/s, {} frames/s, seed {}", room, start.map_file,
+                           config.tick_hz, config.state_hz, match.settings().seed));
 }
 
 core::Expected<Watchers> Server::make_watchers(const ServeConfig& config, const std::string& room,
@@ -202,7 +205,7 @@ void Server::await_signal() {
   signals_.async_wait([this](const boost::system::error_code& error, int signal) {
     if (error) return;
     const std::string name = signal == SIGINT ? "SIGINT" : "SIGTERM";
-    log_->info("{}: stopping", name);
+    log_->info(fmt::format("{}: stopping", name));
     stop("the server stops", name);
   });
 }
@@ -230,8 +233,8 @@ void Server::part_stopped() {
 }
 
 void Server::give_up_waiting() {
-  log_->warn("{} of rooms and port did not stop within {} ms", parts_running_,
-             std::chrono::duration_cast<std::chrono::milliseconds>(kStopWithin).count());
+  log_->warn(fmt::format("{} of rooms and port did not stop within {} ms", parts_running_,
+                         std::chrono::duration_cast<std::chrono::milliseconds>(kStopWithin).count()));
   stop_contexts();
 }
 

@@ -113,7 +113,7 @@ void add_each_force(std::vector<Duel>& duels) {
       state::Parameters with, without;
       with.*force.strength = kFeeble;
       without.*force.strength = 0.0;
-      duels.push_back({std::string(force.name) + " alone compiled out, " + physics::to_text(set),
+      duels.push_back({std::string(force.name) + " alone left out, " + physics::to_text(set),
                        "ns a louse-step", fresh_ticks(world_of(ground, with, set, lice)),
                        fresh_ticks(world_of(ground, without, set, lice))});
     }

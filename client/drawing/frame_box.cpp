@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shared/core/joined.h"
+
 namespace woodlouse::client {
 namespace {
 
@@ -25,7 +27,7 @@ void draw_box(const Viewport& box, std::string_view title, const Look& look, con
   cells.put(right, foot, ascii ? U'+' : U'\u2518', styles.dim);
   const int middle = (box.size.columns - static_cast<int>(title.size()) - 2) / 2;
   if (!title.empty())
-    cells.text(box.column + std::max(1, middle), box.row, " " + std::string(title) + " ", styles.strong);
+    cells.text(box.column + std::max(1, middle), box.row, core::joined({" ", title, " "}), styles.strong);
 }
 
 PanelWriter::PanelWriter(const Viewport& panel, const Look& look, const Styles& styles, CellBuffer& cells)
@@ -42,7 +44,7 @@ void PanelWriter::title(std::string_view ascii) {
   if (has_sides_)
     for (const int x : {0, last}) cells_.put(panel_.column + x, row, U'+', styles_.dim);
   if (!ascii.empty())
-    cells_.text(panel_.column + 3, row, " " + std::string(ascii) + " ", styles_.strong, last - 3);
+    cells_.text(panel_.column + 3, row, core::joined({" ", ascii, " "}), styles_.strong, last - 3);
 }
 
 void PanelWriter::begin_row() {

@@ -74,11 +74,11 @@ void draw_help(const Scene& scene, const Styles& styles, CellBuffer& cells) {
   const Viewport box = centred({60, static_cast<int>(lines.size()) + 5}, cells.size());
   draw_box(box, "HELP (any key closes)", scene.look, styles, cells);
   const int left = box.column + 2;
-  constexpr int kMargin = 6;
+  constexpr int kLabelMargin = 6;
   int row = box.row + 1;
   for (const HelpLine& line : lines) {
     cells.text(left, row, line.head, styles.strong);
-    cells.text(left + kMargin, row++, line.text, styles.text, box.size.columns - kMargin - 4);
+    cells.text(left + kLabelMargin, row++, line.text, styles.text, box.size.columns - kLabelMargin - 4);
   }
   const std::string keys = scene.key_up_known ? "hold and release" : "no key-up seen: a press is a pulse";
   const std::string glyphs = scene.look.glyphs == GlyphSet::kAscii ? "ascii" : "half-blocks";

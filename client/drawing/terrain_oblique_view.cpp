@@ -91,8 +91,8 @@ class Painter {
 
   /// Three brightnesses only: a moving louse then changes fewer cells.
   static Rgb skin(const LouseShape::Hit& hit, Rgb color) {
-    constexpr Vec3 kLight{-0.55, 0.2, 0.81};
-    const double lit = dot(hit.normal, kLight);
+    constexpr Vec3 kSun{-0.55, 0.2, 0.81};
+    const double lit = dot(hit.normal, kSun);
     const double brightness = lit > 0.55 ? 1.0 : lit > 0.1 ? 0.78 : 0.56;
     constexpr double kNeck = 0.42;
     return scaled(hit.along > kNeck ? Rgb{255, 255, 250} : color, brightness);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
 #include "shared/map/map_text.h"
 
@@ -209,7 +210,7 @@ void RoomView::draw_lice(core::Time now) {
   const double width = welcome_->extent[2] - welcome_->extent[0];
   for (auto& [id, louse] : lice_) {
     const Resident* resident = roster_.find(id);
-    louse.name = resident != nullptr ? resident->name : "#" + std::to_string(id);
+    louse.name = resident != nullptr ? resident->name : core::joined({"#", std::to_string(id)});
     louse.is_bot = resident != nullptr && resident->role == protocol::Role::kBot;
     louse.is_you = id == welcome_->id;
     trails_.try_emplace(id, std::max(width, 1.0) / kTrailSpacings).first->second.add(louse.sample.position);

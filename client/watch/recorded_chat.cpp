@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "shared/core/joined.h"
+
 namespace woodlouse::client {
 
 std::string name_of(const replay::PlayerLabel* label, std::uint32_t player) {
-  return label != nullptr && !label->name.empty() ? label->name : "#" + std::to_string(player);
+  return label != nullptr && !label->name.empty() ? label->name : core::joined({"#", std::to_string(player)});
 }
 
 void RecordedChat::add(std::span<const replay::ChatLine> said) {

@@ -1,5 +1,7 @@
 #include "server/net/acceptor.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <boost/asio/bind_executor.hpp>
 #include <boost/asio/post.hpp>
 
@@ -71,7 +73,7 @@ void Acceptor::on_accept(const error_code& error, tcp::socket socket) {
   if (error) {
     // Out of descriptors or memory, or the client has gone already: nothing that stops the server.
     if (!std::exchange(starved_, true))
-      environment_.log->error("cannot accept a connection: {}", error.message());
+      environment_.log->error(fmt::format("cannot accept a connection: {}", error.message()));
     return pause();
   }
   starved_ = false;
@@ -95,13 +97,14 @@ void Acceptor::open_session(tcp::socket socket) {
   if (admission == ConnectionLimits::Admission::kDrop) return;
   auto wire = std::make_unique<TcpWire>(std::move(socket));
   error = wire->set_options();
-  if (error) environment_.log->warn("socket options of {}: {}", to_text(remote), error.message());
+  if (error)
+    environment_.log->warn(fmt::format("socket options of {}: {}", to_text(remote), error.message()));
 
   const SessionId id = next_id_++;
   auto session = std::make_shared<Session>(id, std::move(wire), environment_);
   sessions_.emplace(id, session);
   auto closed = [this, id, address] { asio::post(strand_, [this, id, address] { on_closed(id, address); }); };
-  environment_.log->debug("session {:016x}: from {}", id, to_text(remote));
+  environment_.log->debug(fmt::format("session {:016x}: from {}", id, to_text(remote)));
   if (admission == ConnectionLimits::Admission::kWelcome) return session->start(std::move(closed));
   session->start_refused({std::string(protocol::code::kTooManyConnections),
                           "your address has " + std::to_string(environment_.limits.per_address) +
@@ -121,7 +124,7 @@ void Acceptor::stop(protocol::Bye bye, std::function<void()> stopped) {
   asio::post(strand_, [this, bye = std::move(bye), stopped = std::move(stopped)]() mutable {
     error_code error;
     acceptor_.close(error);
-    if (error) environment_.log->warn("closing the port: {}", error.message());
+    if (error) environment_.log->warn(fmt::format("closing the port: {}", error.message()));
     pause_.cancel();
     for (auto& [id, session] : sessions_) session->end(bye);
     stopped_ = std::move(stopped);

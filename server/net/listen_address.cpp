@@ -2,6 +2,8 @@
 
 #include <charconv>
 
+#include "shared/core/joined.h"
+
 namespace woodlouse::server {
 namespace {
 
@@ -9,7 +11,7 @@ core::Expected<std::uint16_t> parse_port(std::string_view text, std::string_view
   unsigned value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (text.empty() || error != std::errc{} || end != text.data() + text.size() || value > 65535)
-    return core::fail("--listen " + std::string(whole), "\"" + std::string(text) + "\" is no port",
+    return core::fail("--listen " + std::string(whole), core::joined({"\"", text, "\" is no port"}),
                       "a number from 0 (any free one) to 65535");
   return static_cast<std::uint16_t>(value);
 }

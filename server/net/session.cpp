@@ -1,5 +1,7 @@
 #include "server/net/session.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <boost/asio/dispatch.hpp>
 #include <boost/asio/post.hpp>
 
@@ -213,7 +215,7 @@ void Session::show(const Frame& frame) {
 
 void Session::tell_pace(SendRate::Change change) {
   if (change == SendRate::Change::kGiveUp) {
-    environment_.log->info("session {:016x}: too slow even for keys", id_);
+    environment_.log->info(fmt::format("session {:016x}: too slow even for keys", id_));
     return fail(code::kSlow, "you read too slowly, even for keys alone");
   }
   if (const auto notice = rate_.notice(change)) say(*notice);
@@ -261,7 +263,7 @@ void Session::fail(std::string_view code, std::string text) {
 }
 
 void Session::fail(const protocol::ErrorMessage& error) {
-  environment_.log->info("session {:016x}: ended: {}: {}", id_, error.code, error.text);
+  environment_.log->info(fmt::format("session {:016x}: ended: {}: {}", id_, error.code, error.text));
   protocol::ErrorMessage fatal = error;
   fatal.fatal = true;
   say_bye(fatal, {error.code, error.text, false}, kLinger);
@@ -298,7 +300,7 @@ void Session::close() {
   state_ = State::kClosed;
   watch_->cancel();
   if (const error_code error = wire_->close())
-    environment_.log->warn("session {:016x}: close: {}", id_, error.message());
+    environment_.log->warn(fmt::format("session {:016x}: close: {}", id_, error.message()));
   std::exchange(closed_, nullptr)();
 }
 

@@ -1,5 +1,7 @@
 #include "server/room/members.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <cassert>
 #include <chrono>
@@ -69,7 +71,8 @@ void Members::give_louse(Seat& seat) {
   seat.first_seq = taken ? taken->first_seq : 0;
   const bool is_session = std::holds_alternative<SessionOccupant>(seat.occupant);
   if (taken && is_session)
-    log_->info("room {}: \"{}\" takes over louse {} of the recording", settings_.name, seat.name, seat.louse);
+    log_->info(fmt::format("room {}: \"{}\" takes over louse {} of the recording", settings_.name, seat.name,
+                           seat.louse));
   for (const auto& watcher : watchers_) watcher->player(seat.louse, seat.name, seat.role);
 }
 
@@ -125,8 +128,8 @@ void Members::admit(SessionId session, std::shared_ptr<Subscriber> subscriber, c
   broadcaster_->add({session, std::move(subscriber), *channel, events_.next()});
   count(seat.role, +1);
   const Seat& added = seats_.add(std::move(seat));
-  log_->info("room {}: session {:016x} joined as {} {} \"{}\"", settings_.name, session, to_text(added.role),
-             added.louse, added.name);
+  log_->info(fmt::format("room {}: session {:016x} joined as {} {} \"{}\"", settings_.name, session,
+                         to_text(added.role), added.louse, added.name));
   send(events_.joined(game_.tick(), added));
 }
 
@@ -159,8 +162,8 @@ void Members::remove(SessionId session) {
   channels_.release(std::get<SessionOccupant>(seat->occupant).channel);
   broadcaster_->remove(session);
   count(seat->role, -1);
-  log_->info("room {}: session {:016x} left ({} {})", settings_.name, session, to_text(seat->role),
-             seat->louse);
+  log_->info(fmt::format("room {}: session {:016x} left ({} {})", settings_.name, session,
+                         to_text(seat->role), seat->louse));
   send(events_.left(game_.tick(), *seat));
 }
 

@@ -1,5 +1,7 @@
 #include "server/room/room.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <boost/asio/post.hpp>
 
 #include <atomic>
@@ -150,8 +152,9 @@ void Room::on_tick_due() {
   const Duration late = clock_->begin(now);
   working_.lateness.add(late);
   if (clock_->moves() != moves)
-    log_->warn("room {}: tick {} came {} ms late; the clock moved, nothing is made up for", settings_.name,
-               game_->tick(), std::chrono::duration_cast<std::chrono::milliseconds>(late).count());
+    log_->warn(fmt::format("room {}: tick {} came {} ms late; the clock moved, nothing is made up for",
+                           settings_.name, game_->tick(),
+                           std::chrono::duration_cast<std::chrono::milliseconds>(late).count()));
   tick(now);
   working_.work.add(timekeeper_.now() - now);
   ++working_.ticks;

@@ -1,5 +1,7 @@
 #include "server/watchers/ground_ahead.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <boost/asio/post.hpp>
 #include <cmath>
@@ -41,12 +43,12 @@ void GroundAhead::tell_of_failures() {
   const std::uint64_t failures = figures().read_failures;
   if (failures == 0) return;
   told_ = true;
-  log_->error(
+  log_->error(fmt::format(
       "room {}: the map's file can't be read any more ({} reads failed; {}). Where it could not, ground "
       "without data "
       "stands in: the game goes on, its recording may not verify. Check the disk, and that nobody changed "
       "the file",
-      room_, failures, map_file_);
+      room_, failures, map_file_));
 }
 
 GroundAhead::~GroundAhead() { shared_->stopping = true; }

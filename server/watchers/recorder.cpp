@@ -1,5 +1,7 @@
 #include "server/watchers/recorder.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <boost/asio/post.hpp>
 
 #include <cassert>
@@ -23,7 +25,8 @@ core::Expected<std::unique_ptr<Recorder>> Recorder::open(const std::filesystem::
   if (!out)
     return core::fail("cannot write the recording " + file.string(), out.error().what,
                       "does its folder exist, and may you write there?");
-  if (out->path != file) log->warn("{} is there already: recording to {}", file.string(), out->path.string());
+  if (out->path != file)
+    log->warn(fmt::format("{} is there already: recording to {}", file.string(), out->path.string()));
   return std::make_unique<Recorder>(std::move(out->sink), out->path.string(), std::move(header), disk,
                                     std::move(log));
 }
@@ -58,8 +61,8 @@ void Recorder::chat(std::uint64_t tick, match::PlayerId player, const std::strin
   enqueue([this, tick, player, name, text](std::string& out) {
     const bool fits = writer_.append_chat(out, tick, player, name, text);
     if (!fits && std::exchange(left_out_at_, tick) != tick)
-      log_->warn("{}: more was said at tick {} than a recording holds, the rest of it is left out", name_,
-                 tick);
+      log_->warn(fmt::format(
+          "{}: more was said at tick {} than a recording holds, the rest of it is left out", name_, tick));
   });
 }
 
@@ -125,8 +128,8 @@ void Recorder::judge(const core::Expected<void>& outcome) {
 
 void Recorder::give_up(const std::string& why) {
   if (failed_.exchange(true)) return;
-  log_->error("RECORDING ENDED: cannot write {}: {}; the game goes on, what follows is not recorded", name_,
-              why);
+  log_->error(fmt::format(
+      "RECORDING ENDED: cannot write {}: {}; the game goes on, what follows is not recorded", name_, why));
   if (announce_)
     announce_({std::string(protocol::code::kRecordingEnded), "the game is no longer recorded: " + why});
 }

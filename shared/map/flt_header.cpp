@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "shared/core/joined.h"
 #include "shared/json/text.h"
 
 namespace woodlouse::map {
@@ -66,7 +67,7 @@ core::Expected<std::vector<Entry>> read_entries(std::string_view text, const std
     if (words.size() != 2) return core::fail(where, "is no key and value", "as in: ncols 10001");
     Entry entry{lower_case(words[0].substr(0, 32)), lower_case(words[1].substr(0, 64)), number};
     if (std::find(kKeys.begin(), kKeys.end(), entry.key) == kKeys.end()) {
-      return core::fail(where, "\"" + json::shown(entry.key) + "\" is no header key",
+      return core::fail(where, core::joined({"\"", json::shown(entry.key), "\" is no header key"}),
                         "a float grid has ncols, nrows, xllcorner, "
                         "yllcorner, cellsize, NODATA_value, byteorder");
     }
@@ -102,7 +103,8 @@ class Header {
     const char* end = entry->value.data() + entry->value.size();
     const auto [stop, error] = std::from_chars(entry->value.data(), end, value);
     if (error != std::errc{} || stop != end) {
-      complain(place(source_, *entry), "\"" + json::shown(entry->value) + "\" is no number", {});
+      complain(place(source_, *entry), core::joined({"\"", json::shown(entry->value), "\" is no number"}),
+               {});
       return min;
     }
     if (!(value >= min && value <= max)) {
@@ -120,7 +122,8 @@ class Header {
   void demand(std::string_view key, std::initializer_list<std::string_view> allowed, std::string hint) {
     const Entry* entry = find(key);
     if (entry == nullptr || std::find(allowed.begin(), allowed.end(), entry->value) != allowed.end()) return;
-    complain(place(source_, *entry), "\"" + json::shown(entry->value) + "\" can't be read", std::move(hint));
+    complain(place(source_, *entry), core::joined({"\"", json::shown(entry->value), "\" can't be read"}),
+             std::move(hint));
   }
   void complain(std::string where, std::string what, std::string hint) {
     if (!error_) error_ = core::Error{std::move(where), std::move(what), std::move(hint)};

@@ -72,7 +72,7 @@ class CompiledSteps final : public GroundSteps {
   StepRules rules_;
 };
 
-/// Compiles every combination of the forces that a map may leave out.
+/// Compiles every combination of the forces that a map may leave out and that earns it.
 template <typename I, typename S>
 std::unique_ptr<const GroundSteps> with_forces(const S& ground, const StepRules& rules) {
   const state::Parameters& p = rules.parameters;
@@ -81,16 +81,11 @@ std::unique_ptr<const GroundSteps> with_forces(const S& ground, const StepRules&
   };
   if (p.central_gravity > 0.0)
     return make(Forces<true, true, true, true>{});  // what is 0 of the others does nothing
-  const auto choose_thrust = [&]<bool kDrag, bool kFriction>() {
-    return p.thrust_max > 0.0 ? make(Forces<kDrag, kFriction, true>{})
-                              : make(Forces<kDrag, kFriction, false>{});
-  };
-  const auto choose_friction = [&]<bool kDrag>() {
-    return p.friction > 0.0 ? choose_thrust.template operator()<kDrag, true>()
-                            : choose_thrust.template operator()<kDrag, false>();
-  };
-  return p.drag > 0.0 ? choose_friction.template operator()<true>()
-                      : choose_friction.template operator()<false>();
+  if (p.friction > 0.0)
+    return p.thrust_max > 0.0 ? make(ForcesWithAnyDrag<true, true>{})
+                              : make(ForcesWithAnyDrag<true, false>{});
+  if (p.thrust_max > 0.0) return make(ForcesWithAnyDrag<false, true>{});
+  return p.drag > 0.0 ? make(Forces<true, false, false>{}) : make(Forces<false, false, false>{});
 }
 
 /// The same with fewer choices, for what is rarely run: friction, which has rules of its own, is compiled
@@ -108,8 +103,7 @@ std::unique_ptr<const GroundSteps> with_main_forces(const S& ground, const StepR
                                          : make(Forces<true, false, true>{});
 }
 
-/// For the grounds of most maps: the default method in every combination of forces, the others in the main
-/// ones.
+/// For the grounds of most maps: the default method in with_forces, the others in the main ones.
 template <typename S>
 std::unique_ptr<const GroundSteps> steps_with_every_force(const S& ground, const StepRules& rules) {
   switch (rules.parameters.method) {

@@ -30,11 +30,14 @@ using core::Pair;
 using terrain::BasicSlopeSample;
 using terrain::BasicSurfaceSample;
 
-/// Which forces a map has; what it has not is compiled out.
-template <bool kDrag, bool kFriction, bool kThrust, bool kCentral = false>
+/// Which forces a map has; what it has not is compiled out. kAnyDrag: compiled in, and passed over where the
+/// map has none, which costs nothing to be measured beside friction or thrust and halves what is compiled.
+template <bool kDrag, bool kFriction, bool kThrust, bool kCentral = false, bool kAnyDrag = false>
 struct Forces {
+  static_assert(kDrag || !kAnyDrag);
   static constexpr bool central = kCentral;
   static constexpr bool drag = kDrag;
+  static constexpr bool any_drag = kAnyDrag;
   static constexpr bool friction = kFriction;
   static constexpr bool thrust = kThrust;
   /// Some force turns with v and is singular at v = 0.
@@ -61,6 +64,10 @@ struct BasicDrive {
   Pair<T> pull{};       ///< central gravity where the louse is [m/s^2]; only with Forces::central
 };
 using Drive = BasicDrive<double>;
+
+/// The sets that the default method is compiled for where drag is not alone.
+template <bool kFriction, bool kThrust>
+using ForcesWithAnyDrag = Forces<true, kFriction, kThrust, false, true>;
 
 template <typename T>
 [[gnu::always_inline]] inline T squared(T a) {
@@ -162,7 +169,9 @@ template <typename F, typename Sample, typename T>
   const T s_factor = load * inverse_w2;
   Pair<T> a{-s_factor * s.zx, -s_factor * s.zy};
   if constexpr (F::central) a += drive.pull;
-  if constexpr (F::drag) a = a - T(p.drag) * v;
+  if constexpr (F::drag) {
+    if (!F::any_drag || p.drag > 0.0) a = a - T(p.drag) * v;
+  }
   if constexpr (F::singular) {
     T resistance = 0.0;
     if constexpr (F::friction)

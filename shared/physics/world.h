@@ -5,8 +5,8 @@
 //   2. choose the sub-step from the state alone                              stepper.h
 //   3. Nystrom-4 over the sub-step; friction stops it, a wall bounces it     stepper.h
 //   4. count down its thrust, add to its distance, put it to rest if friction holds it
-// Lice do not touch each other. Drag, friction and thrust are compiled out where the map has none; lice at
-// rest are in no list that a step walks.
+// Lice do not touch each other. Forces that the map has not are compiled out (drag beside others is passed
+// over); lice at rest are in no list that a step walks.
 #pragma once
 
 #include <cstddef>

@@ -18,7 +18,7 @@ std::string cut(std::string_view text) {
   return shown;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string out;
   json::append_string(out, cut(text));
   return out;
@@ -32,7 +32,7 @@ tl::unexpected<DecodeError> refused(const json::ParseError& error) {
   switch (error.fault) {
     case json::Fault::kDuplicateKey:
       return refused(code::kDuplicateKey,
-                     "the key " + quoted(error.detail) + " stands twice in one object; send it once");
+                     "the key " + in_quotes(error.detail) + " stands twice in one object; send it once");
     case json::Fault::kTooDeep:
       return refused(code::kTooDeep, "nested deeper than " + std::to_string(kMaxDepth) +
                                          ": no message needs that; send flat objects");
@@ -66,7 +66,7 @@ std::string description(json::Value value) {
     case json::Kind::kFraction:
       return cut(value.raw());
     case json::Kind::kString:
-      return quoted(value.text());
+      return in_quotes(value.text());
     case json::Kind::kArray:
       return "an array of " + std::to_string(value.size());
     case json::Kind::kObject:

@@ -11,7 +11,7 @@
 namespace woodlouse::lab {
 namespace {
 
-core::Expected<void> run(const Output& output) {
+core::Expected<void> draw_all(const Output& output) {
   Findings findings;
   constexpr std::array kFigures = {draw_pots,     draw_planet,        draw_interpolated_terrain,
                                    draw_blending, draw_global_spline, draw_as_played};
@@ -33,7 +33,7 @@ void add_figures(CLI::App& app, Job& job) {
       "Writes document-2.2-parabolic, document-2.2-wavy and so on as .svg and .png, their numbers as .csv, "
       "and what docs/document.md quotes as document-figures.csv.\n"
       "Example:\n  woodlouse-lab figures --quick --out .");
-  command->callback([output, &job] { job = [output] { return run(*output); }; });
+  command->callback([output, &job] { job = [output] { return draw_all(*output); }; });
 }
 
 }  // namespace woodlouse::lab

@@ -318,15 +318,11 @@ void advance_lanes(const BatchContext& context, state::Louse* lice, std::span<co
 
 template <typename L, typename G>
 BatchStep choose_kernel(const BatchForces& forces) {
-  constexpr BatchStep kKernels[8] = {{L::kCount, advance_lanes<L, Forces<false, false, false>, G>},
-                                     {L::kCount, advance_lanes<L, Forces<false, false, true>, G>},
-                                     {L::kCount, advance_lanes<L, Forces<false, true, false>, G>},
-                                     {L::kCount, advance_lanes<L, Forces<false, true, true>, G>},
-                                     {L::kCount, advance_lanes<L, Forces<true, false, false>, G>},
-                                     {L::kCount, advance_lanes<L, Forces<true, false, true>, G>},
-                                     {L::kCount, advance_lanes<L, Forces<true, true, false>, G>},
-                                     {L::kCount, advance_lanes<L, Forces<true, true, true>, G>}};
-  return kKernels[(forces.drag ? 4 : 0) + (forces.friction ? 2 : 0) + (forces.thrust ? 1 : 0)];
+  const auto kernel = []<typename F>(F) { return BatchStep{L::kCount, advance_lanes<L, F, G>}; };
+  if (forces.friction)
+    return forces.thrust ? kernel(ForcesWithAnyDrag<true, true>{}) : kernel(ForcesWithAnyDrag<true, false>{});
+  if (forces.thrust) return kernel(ForcesWithAnyDrag<false, true>{});
+  return forces.drag ? kernel(Forces<true, false, false>{}) : kernel(Forces<false, false, false>{});
 }
 
 /// The kernel for a map's ground and forces.

@@ -1,0 +1,38 @@
+# The same headers are not parsed again for each file: half of every build went there.
+# The outside headers that most files include are precompiled, and the files of a room (but those that step, whose code
+# is most of their time) are compiled eight at a time. So a room's files share what they name in their anonymous
+# namespaces; SKIP_UNITY_BUILD_INCLUSION takes out a file whose names another has too. A file includes what it uses
+# nevertheless: the presets scenario and freestanding compile without.
+option(WOODLOUSE_UNITY "Compile a room's files eight at a time; OFF is faster for who changes one" ON)
+
+set(standard_headers
+  <algorithm> <array> <atomic> <bit> <charconv> <chrono> <cmath> <cstring> <deque> <filesystem> <functional> <limits>
+  <map> <memory> <optional> <span> <string> <string_view> <utility> <variant> <vector> <tl/expected.hpp>)
+set(asio_headers
+  <boost/asio/io_context.hpp> <boost/asio/ip/tcp.hpp> <boost/asio/post.hpp> <boost/asio/steady_timer.hpp>
+  <boost/asio/strand.hpp> <boost/asio/thread_pool.hpp> <boost/asio/write.hpp>)
+set(rooms_without_asio state json terrain physics document map protocol match replay client_drawing)
+set(rooms_with_asio server_room server_watchers server_net server_commands server
+  client_terminal client_net client_play client_watch client)
+
+# A precompiled header serves whoever has the very flags it was made with; under sanitizers they differ from room to room.
+function(woodlouse_precompiled target)
+  if(NOT WOODLOUSE_SANITIZE)
+    target_precompile_headers(${target} ${ARGN})
+  endif()
+endfunction()
+
+woodlouse_precompiled(woodlouse_core PRIVATE ${standard_headers})
+woodlouse_precompiled(woodlouse_asio PRIVATE ${standard_headers} ${asio_headers})
+foreach(room ${rooms_without_asio})
+  woodlouse_precompiled(woodlouse_${room} REUSE_FROM woodlouse_core)
+endforeach()
+foreach(room ${rooms_with_asio})
+  woodlouse_precompiled(woodlouse_${room} REUSE_FROM woodlouse_asio)
+endforeach()
+
+if(WOODLOUSE_UNITY)
+  foreach(room json map protocol match replay client_drawing ${rooms_with_asio})
+    set_target_properties(woodlouse_${room} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  endforeach()
+endif()
