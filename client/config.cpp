@@ -198,7 +198,7 @@ void add_options(CLI::App& app, Raw& raw) {
       "follow,\n"
       "      N Shift-N events, V view, Tab scores, ? help, Q quit.\n"
       "Options of woodlouse (--color, --glyphs, --view, --fps) may stand here, too.\n"
-      "Exit: 0 fine, 1 a tick's re-run differs, 2 usage, 74 no recording or terminal lost, 130 Ctrl-C.");
+      "Exit: 0 fine, 1 a tick's re-run differs, 2 usage, 74 no such recording or terminal lost, 130 Ctrl-C.");
   replay->fallthrough();
 }
 

@@ -165,8 +165,7 @@ int run_client(const Config& config) {
   if (const auto joined = session.join(); !joined) {
     return complain(kExitUnreachable,
                     "cannot connect to " + joined.error().where + ": " + joined.error().what,
-                    "is the server up?   try:  woodlouse-server --listen 0.0.0.0:" +
-                        std::to_string(session.connection().address().port));
+                    joined.error().hint);
   }
   const Outcome outcome =
       judged(as_text ? tell(context, session, local.get()) : play(context, session, config, local.get()),

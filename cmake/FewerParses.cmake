@@ -2,7 +2,7 @@
 # The outside headers that most files include are precompiled, and the files of a room (but those that step, whose code
 # is most of their time) are compiled eight at a time. So a room's files share what they name in their anonymous
 # namespaces; SKIP_UNITY_BUILD_INCLUSION takes out a file whose names another has too. A file includes what it uses
-# nevertheless: the presets scenario and freestanding compile without.
+# nevertheless: the preset freestanding compiles without.
 option(WOODLOUSE_UNITY "Compile a room's files eight at a time; OFF is faster for who changes one" ON)
 
 set(standard_headers
@@ -22,17 +22,28 @@ function(woodlouse_precompiled target)
   endif()
 endfunction()
 
-woodlouse_precompiled(woodlouse_core PRIVATE ${standard_headers})
-woodlouse_precompiled(woodlouse_asio PRIVATE ${standard_headers} ${asio_headers})
-foreach(room ${rooms_without_asio})
-  woodlouse_precompiled(woodlouse_${room} REUSE_FROM woodlouse_core)
-endforeach()
-foreach(room ${rooms_with_asio})
-  woodlouse_precompiled(woodlouse_${room} REUSE_FROM woodlouse_asio)
-endforeach()
+# Of a library; nothing where WOODLOUSE_UNITY is off.
+function(woodlouse_unity target)
+  if(WOODLOUSE_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+  endif()
+endfunction()
 
-if(WOODLOUSE_UNITY)
-  foreach(room json map protocol match replay client_drawing ${rooms_with_asio})
-    set_target_properties(woodlouse_${room} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+woodlouse_precompiled(woodlouse_core PRIVATE ${standard_headers})
+foreach(room ${rooms_without_asio})
+  if(TARGET woodlouse_${room})
+    woodlouse_precompiled(woodlouse_${room} REUSE_FROM woodlouse_core)
+  endif()
+endforeach()
+foreach(room json map protocol match replay client_drawing)
+  if(TARGET woodlouse_${room})
+    woodlouse_unity(woodlouse_${room})
+  endif()
+endforeach()
+if(TARGET woodlouse_asio)
+  woodlouse_precompiled(woodlouse_asio PRIVATE ${standard_headers} ${asio_headers})
+  foreach(room ${rooms_with_asio})
+    woodlouse_precompiled(woodlouse_${room} REUSE_FROM woodlouse_asio)
+    woodlouse_unity(woodlouse_${room})
   endforeach()
 endif()

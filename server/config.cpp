@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cassert>
+#include <string>
 #include <utility>
 
 #include "server/config_file.h"
@@ -167,6 +169,10 @@ core::Expected<Config> checked(CLI::App& app, TypedServe& typed) {
   if (!serve.fork) {
     if (serve.maps.empty())
       return core::fail("--map", "no map given", "try:  woodlouse-server --map maps/volcano.json");
+    if (serve.maps.size() > kMaxRooms)
+      return core::fail("--map",
+                        std::to_string(serve.maps.size()) + " maps are more rooms than a server opens",
+                        "at most " + std::to_string(kMaxRooms) + "; start another server for the others");
     if (const auto fits = check_state_hz(serve.state_hz, serve.tick_hz); !fits)
       return tl::unexpected(fits.error());
   }
@@ -179,11 +185,25 @@ core::Expected<Config> checked(CLI::App& app, TypedServe& typed) {
 
 }  // namespace
 
+namespace {
+
+/// The rates at and around `state_hz` that divide the tick rate, in words. REQUIRES that it does not.
+std::string nearest_divisors(std::uint32_t state_hz, std::uint32_t tick_hz) {
+  std::uint32_t below = std::min(state_hz, tick_hz);
+  while (tick_hz % below != 0) --below;
+  std::uint32_t above = std::min(state_hz, tick_hz);
+  while (tick_hz % above != 0) ++above;
+  assert(below >= 1 && above <= tick_hz);
+  return below == above ? std::to_string(below) : std::to_string(below) + " or " + std::to_string(above);
+}
+
+}  // namespace
+
 core::Expected<void> check_state_hz(std::uint32_t state_hz, std::uint32_t tick_hz) {
   if (tick_hz % state_hz == 0) return {};
   return core::fail("--state-hz " + std::to_string(state_hz),
                     "does not divide the tick rate " + std::to_string(tick_hz),
-                    "frames fall on ticks: for 60 take 60, 30, 20, 15, 12 or 10");
+                    "frames fall on ticks: take " + nearest_divisors(state_hz, tick_hz));
 }
 
 core::Expected<Config> parse_config(int argc, const char* const* argv) {

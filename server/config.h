@@ -2,6 +2,7 @@
 // Flag over variable over file over default; every value is checked here, once.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -18,8 +19,10 @@
 
 namespace woodlouse::server {
 
+inline constexpr std::size_t kMaxRooms = 256;
+
 struct ServeConfig {
-  std::vector<std::filesystem::path> maps;  ///< a room each; at least one, but for a fork
+  std::vector<std::filesystem::path> maps;  ///< a room each; 1 to kMaxRooms, none for a fork
   std::optional<ForkPoint> fork;            ///< one room, whose map, tick rate and seed are the recording's
   ListenAddress listen;
   std::uint32_t tick_hz = 60;   ///< 1..1000

@@ -11,6 +11,9 @@ AHEAD_S = 0.5
 
 def main(address):
     with woodlouse.connect(address, name="Delphi", format="exact") as game:
+        if game.physics["equations"] != "exact":
+            raise SystemExit("this room moves lice by the paper's equations (%s): only the exact ones are foretold here"
+                             % game.physics["equations"])
         ground, ahead, every = game.map(), round(AHEAD_S * game.tick_hz), game.tick_hz // game.state_hz
         motion = Motion(surface_of(ground), game.physics, game.extent, game.tick_hz)
         waiting, told, pushes = False, None, 0

@@ -164,11 +164,17 @@ void draw_too_small(const Scene& scene, CellBuffer& cells) {
                                       kSmallestSize.columns, kSmallestSize.rows, size.columns, size.rows);
   const int left = std::clamp(size.columns - static_cast<int>(needs.size()), 0, 5);
   int row = size.rows >= 6 ? 1 : 0;
-  cells.text(left, row, needs, {});
+  if (static_cast<int>(needs.size()) <= size.columns) {
+    cells.text(left, row, needs, {});
+  } else {  // the sizes are what is wanted: nothing of them may be cut
+    cells.text(left, row, formatted("WOODLOUSE needs %d x %d,", kSmallestSize.columns, kSmallestSize.rows),
+               {});
+    cells.text(left, ++row, formatted("this terminal is %d x %d.", size.columns, size.rows), {});
+  }
   cells.text(left, ++row, "Enlarge it, or zoom out (Ctrl and -).", {});
   if (size.rows >= 6) ++row;
   if (!scene.replay) cells.text(left, ++row, "The game goes on: your louse keeps rolling.", {});
-  cells.text(left, ++row, "Q leaves.", {});
+  cells.text(left, ++row, scene.mode == Mode::kQuitQuestion ? "Leave? Y or N." : "Q leaves.", {});
 }
 
 }  // namespace woodlouse::client

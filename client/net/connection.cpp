@@ -44,6 +44,7 @@ double Connection::retry_seconds(core::Time now) const {
 }
 
 void Connection::on_message(const protocol::ServerMessage& message, core::Time arrival) {
+  was_answered_ = true;
   if (std::holds_alternative<protocol::Welcome>(message)) {
     phase_ = Phase::kJoined;
     was_joined_ = true;

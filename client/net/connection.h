@@ -40,6 +40,8 @@ class Connection final : public LinkListener {
   [[nodiscard]] const Address& address() const { return address_; }
   /// Why the last link ended.
   [[nodiscard]] const std::string& reason() const { return reason_; }
+  /// Whether the server ever sent a message.
+  [[nodiscard]] bool was_answered() const { return was_answered_; }
   /// Whether a server has ever welcomed us.
   [[nodiscard]] bool was_joined() const { return was_joined_; }
   /// Failed attempts since the line was last up.
@@ -61,6 +63,7 @@ class Connection final : public LinkListener {
   Phase phase_ = Phase::kStopped;
   std::string reason_;
   bool was_joined_ = false;
+  bool was_answered_ = false;
   int attempts_ = 0;
 };
 

@@ -124,6 +124,24 @@ TEST_CASE("a wrong option is refused by its name") {
   CHECK_THAT(config.error().text(), Catch::Contains(names));
 }
 
+TEST_CASE("a server opens as many rooms as it says, and no more") {
+  std::vector<const char*> arguments;
+  for (std::size_t i = 0; i < kMaxRooms; ++i) arguments.insert(arguments.end(), {"--map", "a"});
+  CHECK(parse(arguments));
+  arguments.insert(arguments.end(), {"--map", "a"});
+  const auto config = parse(arguments);
+  REQUIRE_FALSE(config);
+  CHECK_THAT(config.error().text(), Catch::Contains("257 maps") && Catch::Contains("at most 256"));
+}
+
+TEST_CASE("a frame rate that divides no tick rate is answered with those nearest that do") {
+  const auto [tick_hz, state_hz, nearest] = GENERATE(table<const char*, const char*, std::string>(
+      {{"120", "50", "take 40 or 60"}, {"60", "25", "take 20 or 30"}, {"60", "120", "take 60"}}));
+  const auto config = parse({"--map", "a", "--tick-hz", tick_hz, "--state-hz", state_hz});
+  REQUIRE_FALSE(config);
+  CHECK_THAT(config.error().hint, Catch::EndsWith(nearest));
+}
+
 TEST_CASE("a wrong config file is refused by its key or place") {
   const auto [text, names] = GENERATE(table<std::string, std::string>({
       {R"({"bots": 3, "botts": 4})", "botts"},

@@ -81,6 +81,16 @@ TEST_CASE("a terminal that is too small is told what is needed") {
         std::string::npos);
 }
 
+TEST_CASE("a terminal too narrow for that line is told both sizes whole, and asked before it leaves") {
+  Scene scene = still_life();
+  const std::string narrow = text_of(scene, {40, 12});
+  CHECK(narrow.find("WOODLOUSE needs 60 x 20,") != std::string::npos);
+  CHECK(narrow.find("this terminal is 40 x 12.") != std::string::npos);
+  CHECK(narrow.find("Q leaves.") != std::string::npos);
+  scene.mode = Mode::kQuitQuestion;
+  CHECK(text_of(scene, {40, 12}).find("Leave? Y or N.") != std::string::npos);
+}
+
 TEST_CASE("every view, look, mode and size can be drawn") {
   StagedGame game(named_terrain(terrain::FunctionName::kWavyPot), 5, 4);
   Composer composer;

@@ -56,6 +56,13 @@ class OverTheWire(InATerminal):
         self.assertEqual(self.exit_code(), 69)
         self.assertEqual(self.terminal.state(), "0 1")
 
+    def test_a_server_that_refuses_is_not_said_to_be_down(self):
+        server = Server()
+        self.addCleanup(server.stop)
+        self.terminal.run(f"{BIN}/woodlouse --room nope {server.address}")
+        self.terminal.shows(r'cannot connect to 127.0.0.1:\d+: join.room: no room "nope"')
+        self.assertEqual(self.exit_code(), 69)
+        self.assertNotIn("is the server up", self.terminal.screen())
 
     def test_the_game_as_text_is_played_with_the_same_keys(self):
         before = self.terminal.stty()
