@@ -9,9 +9,9 @@
 #include "shared/core/joined.h"
 #include "shared/json/document.h"
 #include "shared/json/fields.h"
+#include "shared/replay/fault_telling_buffer.h"
 #include "shared/replay/header_reader.h"
 #include "shared/replay/line_fields.h"
-#include "shared/replay/zstd_input.h"
 #include "shared/state/louse_fields.h"
 
 namespace woodlouse::replay {
@@ -277,10 +277,8 @@ core::Expected<bool> ReplayReader::read_line() {
     }
     line_ += static_cast<char>(c);
   }
-  if (const auto* unpacked = dynamic_cast<const ZstdInput*>(&bytes);
-      unpacked != nullptr && !unpacked->fault().empty()) {
-    return core::fail(joined({source_, ":", std::to_string(line_number_ + 1)}), unpacked->fault());
-  }
+  if (const std::string fault = fault_of(in_); !fault.empty())
+    return core::fail(joined({source_, ":", std::to_string(line_number_ + 1)}), fault);
   cut_off_ = cut_off_ || !line_.empty();
   return false;
 }

@@ -30,6 +30,7 @@ bool ZstdInput::refill_packed() {
   packed_->read(in_.data(), static_cast<std::streamsize>(in_.size()));
   pending_ = {in_.data(), static_cast<std::size_t>(packed_->gcount()), 0};
   packed_read_ += pending_.size;
+  if (pending_.size == 0) fault_ = fault_of(*packed_);
   return pending_.size > 0;
 }
 
@@ -38,6 +39,7 @@ bool ZstdInput::unpack_some() {
   while (fault_.empty()) {
     // What is flushed may stand in zstd still when the file has no more bytes.
     const bool has_more = refill_packed();
+    if (!fault_.empty()) return false;
     if (!has_more && is_drained_) return false;
     const std::uint64_t at = packed_read_ - (pending_.size - pending_.pos);
     if (!is_frame_open_) {

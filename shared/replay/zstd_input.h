@@ -17,6 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "shared/replay/fault_telling_buffer.h"
+
 namespace woodlouse::replay {
 
 /// Where a frame begins, packed and unpacked.
@@ -25,7 +27,7 @@ struct ZstdFrame {
   std::uint64_t unpacked = 0;
 };
 
-class ZstdInput : public std::streambuf {
+class ZstdInput : public FaultTellingBuffer {
  public:
   static constexpr int kMaxWindowLog = 23;                                  ///< 8 MiB
   static constexpr std::uint64_t kMaxFrameBytes = std::uint64_t{64} << 20;  ///< unpacked
@@ -34,9 +36,6 @@ class ZstdInput : public std::streambuf {
       100;  ///< but for kMaxFrameBytes; a step's hash alone keeps it below 10
 
   explicit ZstdInput(std::unique_ptr<std::istream> packed);
-
-  /// Why it ended before its end: damaged or a bomb; empty: it did not.
-  [[nodiscard]] const std::string& fault() const { return fault_; }
 
  protected:
   int_type underflow() override;
@@ -67,7 +66,6 @@ class ZstdInput : public std::streambuf {
   std::vector<ZstdFrame> frames_;  ///< by offset; once known
   std::uint64_t total_ = 0;        ///< bytes unpacked; once known
   bool has_frames_ = false;
-  std::string fault_;
 };
 
 }  // namespace woodlouse::replay

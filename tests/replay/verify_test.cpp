@@ -7,6 +7,7 @@
 
 #include "shared/map/map_file.h"
 #include "shared/replay/parallel_verify.h"
+#include "shared/replay/source_file.h"
 #include "shared/replay/writer.h"
 #include "tests/replay/recorded_match.h"
 
@@ -69,6 +70,13 @@ TEST_CASE("a start that a game does not begin with is taken on trust, and said t
   header.replace(header.find("\"seed\":\"1\""), 10, "\"seed\":\"2\"");
   CHECK(verify_text(other.text()).error().text().find("at tick 0 there are no lice") != std::string::npos);
   CHECK(verdict(recording.text()).from_start());
+}
+
+TEST_CASE("a file that can't be read to its end is told, not thrown") {
+  // Reading this one fails with EIO from its first byte on.
+  const auto result = verify(source_of_file("/proc/self/mem"));
+  REQUIRE_FALSE(result);
+  CHECK(result.error().text().find("can't be read: ") != std::string::npos);
 }
 
 TEST_CASE("a recording that breaks off at any byte is good up to its last whole line") {

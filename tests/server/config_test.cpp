@@ -149,6 +149,8 @@ TEST_CASE("a wrong config file is refused by its key or place") {
       {R"({"bots": "many"})", "bots"},
       {R"({"config": "x.json"})", "config"},
       {R"([1, 2])", "object"},
+      {R"({"map": [[[[[[[[[[1]]]]]]]]]]})", "nested too deep"},
+      {R"({"map": )" + std::string(400000, '[') + std::string(400000, ']') + "}", "nested too deep"},
       {R"({"bots": )", "parse error"},
   }));
   const File file(text);
