@@ -165,7 +165,10 @@ int run_client(const Config& config) {
   if (const auto joined = session.join(); !joined) {
     return complain(kExitUnreachable,
                     "cannot connect to " + joined.error().where + ": " + joined.error().what,
-                    joined.error().hint);
+                    session.connection().was_answered()
+                        ? ""
+                        : "is the server up?   try:  woodlouse-server --map volcano --listen 0.0.0.0:" +
+                              std::to_string(session.connection().address().port));
   }
   const Outcome outcome =
       judged(as_text ? tell(context, session, local.get()) : play(context, session, config, local.get()),

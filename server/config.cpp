@@ -51,7 +51,7 @@ struct Typed {
 /// Which games; a fork takes all of it from its recording.
 void add_game_options(CLI::App& app, ServeConfig& serve) {
   app.add_option("--map", serve.maps,
-                 "Map file, or the name of one that came with this; several make several rooms")
+                 "Map file, or the name of one that came with this; several make as many rooms, at most 256")
       ->envname("WOODLOUSE_MAP");
   app.add_option("--tick-hz", serve.tick_hz, "Steps a second")
       ->envname("WOODLOUSE_TICK_HZ")

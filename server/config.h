@@ -19,6 +19,7 @@
 
 namespace woodlouse::server {
 
+/// Each steps all the time; a longer list is a slip.
 inline constexpr std::size_t kMaxRooms = 256;
 
 struct ServeConfig {

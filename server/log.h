@@ -12,7 +12,8 @@ namespace woodlouse::server {
 
 enum class LogFormat : std::uint8_t { kText, kJson };
 
-/// Thread safe.
+/// Thread safe. What is logged is formatted first, log->info(fmt::format(...)), by fmt's library: the
+/// logger's own templates compile fmt again in each file that logs, five seconds each.
 std::shared_ptr<spdlog::logger> make_logger(LogFormat format);
 
 /// The text as the inside of a JSON string; bytes that are no UTF-8 become '?'.

@@ -16,12 +16,7 @@ core::Expected<void> Session::join() {
       std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - begin);
   if (connection_.phase() == Connection::Phase::kJoined) return {};
   connection_.stop();
-  const std::string port = std::to_string(connection_.address().port);
-  return core::fail(
-      connection_.address().text(), connection_.reason(),
-      connection_.was_answered()
-          ? ""
-          : "is the server up?   try:  woodlouse-server --map volcano --listen 0.0.0.0:" + port);
+  return core::fail(connection_.address().text(), connection_.reason());
 }
 
 void Session::update(core::Time now) {

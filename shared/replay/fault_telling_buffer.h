@@ -5,6 +5,7 @@
 #include <istream>
 #include <streambuf>
 #include <string>
+#include <utility>
 
 namespace woodlouse::replay {
 
@@ -22,5 +23,19 @@ inline std::string fault_of(const std::istream& in) {
   const auto* buffer = dynamic_cast<const FaultTellingBuffer*>(in.rdbuf());
   return buffer != nullptr ? buffer->fault() : std::string();
 }
+
+/// Owns the buffer that it reads through.
+template <typename Buffer>
+class BufferStream final : public std::istream {
+ public:
+  template <typename Argument>
+  explicit BufferStream(Argument&& argument)
+      : std::istream(nullptr), buffer_(std::forward<Argument>(argument)) {
+    rdbuf(&buffer_);
+  }
+
+ private:
+  Buffer buffer_;
+};
 
 }  // namespace woodlouse::replay

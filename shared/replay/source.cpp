@@ -7,6 +7,7 @@
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
 #include "shared/map/map_text.h"
+#include "shared/replay/fault_telling_buffer.h"
 #include "shared/replay/zstd_input.h"
 
 namespace woodlouse::replay {
@@ -14,15 +15,6 @@ namespace {
 
 using core::joined;
 using Stream = std::unique_ptr<std::istream>;
-
-/// Owns the buffer that it reads through.
-class ZstdStream : public std::istream {
- public:
-  explicit ZstdStream(Stream packed) : std::istream(nullptr), buffer_(std::move(packed)) { rdbuf(&buffer_); }
-
- private:
-  ZstdInput buffer_;
-};
 
 /// zstd's frames and its skippable ones begin so.
 bool is_compressed(std::istream& in) {
@@ -48,7 +40,7 @@ core::Expected<MapPointer> map_of(const Header& header, const ReplaySource& sour
 
 std::unique_ptr<std::istream> unpacked(std::unique_ptr<std::istream> in) {
   if (!is_compressed(*in)) return in;
-  return std::make_unique<ZstdStream>(std::move(in));
+  return std::make_unique<BufferStream<ZstdInput>>(std::move(in));
 }
 
 ReplaySource ReplaySource::of_bytes(std::string bytes, std::string name) {

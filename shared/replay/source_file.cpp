@@ -60,21 +60,12 @@ class FileBytes final : public FaultTellingBuffer {
   std::array<char, 1 << 16> buffer_{};
 };
 
-/// Owns the buffer that it reads through.
-class FileStream final : public std::istream {
- public:
-  explicit FileStream(int descriptor) : std::istream(nullptr), bytes_(descriptor) { rdbuf(&bytes_); }
-
- private:
-  FileBytes bytes_;
-};
-
 core::Expected<Stream> open_file(const std::filesystem::path& file) {
   if (auto regular = core::check_regular_file(file); !regular) return tl::unexpected(regular.error());
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0)
     return core::fail(file.string(), std::string("can't be opened: ") + std::strerror(errno));
-  return unpacked(std::make_unique<FileStream>(descriptor));
+  return unpacked(std::make_unique<BufferStream<FileBytes>>(descriptor));
 }
 
 }  // namespace
