@@ -15,11 +15,20 @@ set(rooms_without_asio state json terrain physics document map protocol match re
 set(rooms_with_asio server_room server_watchers server_net server_commands server
   client_terminal client_net client_play client_watch client)
 
-# A precompiled header serves whoever has the very flags it was made with; under sanitizers they differ from room to room.
-function(woodlouse_precompiled target)
-  if(NOT WOODLOUSE_SANITIZE)
-    target_precompile_headers(${target} ${ARGN})
+# woodlouse_precompiled(TARGET PRIVATE HEADERS...) or (TARGET REUSE_FROM OTHER). A precompiled header serves whoever has the very
+# flags it was made with: as optimised, where some are (WOODLOUSE_OPTIMISED).
+function(woodlouse_precompiled target how other)
+  if(how STREQUAL "REUSE_FROM")
+    foreach(one ${target} ${other})
+      if(one IN_LIST WOODLOUSE_OPTIMISED)
+        set(${one}_is_optimised ON)
+      endif()
+    endforeach()
+    if(NOT "${${target}_is_optimised}" STREQUAL "${${other}_is_optimised}")
+      return()
+    endif()
   endif()
+  target_precompile_headers(${target} ${how} ${other} ${ARGN})
 endfunction()
 
 # Of a library; nothing where WOODLOUSE_UNITY is off.

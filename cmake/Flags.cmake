@@ -29,7 +29,8 @@ add_compile_options(-fno-semantic-interposition)
 
 set(WOODLOUSE_SANITIZE "" CACHE STRING "Sanitizers, as in -fsanitize= (for example address,undefined)")
 if(WOODLOUSE_SANITIZE)
-  add_compile_options(-fsanitize=${WOODLOUSE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_compile_options(-fsanitize=${WOODLOUSE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
+    $<IF:$<CXX_COMPILER_ID:Clang>,-gline-tables-only,-g1>)  # a finding needs lines, not variables
   add_link_options(-fsanitize=${WOODLOUSE_SANITIZE})
 endif()
 

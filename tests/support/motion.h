@@ -11,6 +11,13 @@ struct Run {
   physics::StepCounters counters;
 };
 
+/// One tick, compiled once for a surface and its forces, however many watch.
+template <typename S, typename F>
+[[gnu::noinline]] void advance(const physics::Stepper<S, F>& stepper, state::Louse& louse,
+                               physics::StepCounters& counters) {
+  stepper.advance(louse, counters);
+}
+
 /// A louse moved `ticks` ticks of 1/rate seconds without walls, unless `walls` says where they stand. After
 /// each tick `watch(louse)` is called; it returns false to stop.
 template <typename F, terrain::Surface S, typename Watch>
@@ -19,7 +26,7 @@ Run run(const S& surface, const state::Parameters& parameters, state::Louse lous
   Run result;
   const physics::Stepper<S, F> stepper(surface, parameters, walls, 1.0 / rate);
   for (long i = 0; i < ticks && louse.phase != state::Phase::kResting; ++i) {
-    stepper.advance(louse, result.counters);
+    advance(stepper, louse, result.counters);
     if (!watch(louse)) break;
   }
   result.louse = louse;
