@@ -12,18 +12,12 @@ Outbox::Push Outbox::push(Line line) {
   return Push::kQueued;
 }
 
-void Outbox::push_last(Line line) {
-  waiting_bytes_ += line->size();
-  lines_.push_back(std::move(line));
+void Outbox::push_last(Line line, Replaceable replaceable) {
+  last_ = std::move(line);
+  closed_ = true;
+  if (replaceable == Replaceable::kSent) return;
   map_.reset();
   frames_.clear();
-  closed_ = true;
-}
-
-void Outbox::promote_map() {
-  if (!map_) return;
-  waiting_bytes_ += map_->size();
-  lines_.push_back(std::exchange(map_, nullptr));
 }
 
 Outbox::PushMap Outbox::push_map(Line line) {
@@ -38,7 +32,7 @@ FrameSlots::Outcome Outbox::offer(Frame frame) {
 
 Outbox::Batch Outbox::take() {
   Batch batch;
-  batch.lines.reserve(lines_.size() + 3);
+  batch.lines.reserve(lines_.size() + 4);
   for (Line& line : lines_) batch.lines.push_back(std::move(line));
   lines_.clear();
   if (map_) batch.lines.push_back(std::exchange(map_, nullptr));
@@ -46,6 +40,7 @@ Outbox::Batch Outbox::take() {
     batch.lines.push_back(std::move(frame->text));
     ++batch.frames;
   }
+  if (last_) batch.lines.push_back(std::exchange(last_, nullptr));
   flying_bytes_ = std::exchange(waiting_bytes_, 0);
   return batch;
 }

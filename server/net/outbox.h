@@ -22,10 +22,9 @@ class Outbox {
   enum class Push { kQueued, kOverflow };
   /// An event or answer. kOverflow: not queued, the client must be told `slow` and go.
   Push push(Line line);
-  /// The map that waits, if one does, is sent with the lines, so that a last line does not drop it.
-  void promote_map();
-  /// The last line: passes over the limit and over everything replaceable, which is dropped.
-  void push_last(Line line);
+  enum class Replaceable { kSent, kDropped };
+  /// The last line: passes over the limit. replaceable: what becomes of the map and the frames that wait.
+  void push_last(Line line, Replaceable replaceable);
 
   enum class PushMap { kQueued, kAlreadyWaiting };
   PushMap push_map(Line line);
@@ -33,7 +32,7 @@ class Outbox {
   /// A key or a delta. kStale also after the last line.
   FrameSlots::Outcome offer(Frame frame);
 
-  /// What one write sends; lines first, then the map, then frames.
+  /// What one write sends; lines first, then the map, then frames, then the last line.
   struct Batch {
     std::vector<Line> lines;
     std::size_t frames = 0;  ///< how many of them are keys and deltas
@@ -53,7 +52,8 @@ class Outbox {
   std::size_t flying_bytes_ = 0;
   Line map_;
   FrameSlots frames_;
-  bool closed_ = false;  ///< the last line is queued
+  Line last_;
+  bool closed_ = false;  ///< the last line was queued
 };
 
 }  // namespace woodlouse::server

@@ -81,17 +81,29 @@ void Session::read() {
 
 void Session::on_read(const error_code& error, std::size_t size) {
   if (state_ == State::kClosed) return;
+  if (error == asio::error::eof) return on_input_ended();
   if (error) return close();  // the client has gone, in whatever way
-  if (state_ == State::kOpen) {
+  if (is_listening()) {
     const Time read_at = now();
     framer_.append({incoming_.data(), size});
-    while (state_ == State::kOpen) {
+    while (is_listening()) {
       const auto line = framer_.next();
       if (!line) break;
       on_line(*line, read_at);
     }
   }
   if (state_ != State::kClosed) read();
+}
+
+void Session::on_input_ended() {
+  input_ended_ = true;
+  if (state_ == State::kDraining) return close();
+  if (is_listening()) on_message(protocol::Leave{}, now());
+}
+
+/// What comes after a `leave` or while a bye is said is thrown away.
+bool Session::is_listening() const {
+  return state_ == State::kOpen && handshake_.state() != Handshake::State::kLeaving;
 }
 
 bool Session::admit_line(Time now, double cost) {
@@ -164,8 +176,9 @@ void Session::write() {
   if (writing_.empty()) {
     if (state_ != State::kSayingBye) return;
     state_ = State::kDraining;
-    if (wire_->shut_down_sending()) close();  // the client went first
-    return;
+    if (wire_->shut_down_sending() || input_ended_) return close();  // the client went first
+    linger_until_ = std::min(linger_until_, now() + kLinger);
+    return watch(linger_until_);
   }
   wire_->write(writing_.lines,
                [self = shared_from_this(), frames = writing_.frames](
@@ -249,10 +262,13 @@ void Session::refuse_join(protocol::ErrorMessage error) {
   });
 }
 
+void Session::let_go() {
+  asio::post(wire_->executor(), [self = shared_from_this()] { self->say_goodbye(); });
+}
+
 void Session::end(protocol::Bye bye) {
   asio::post(wire_->executor(), [self = shared_from_this(), bye = std::move(bye)] {
-    if (bye.code == code::kLeft) return self->say_goodbye();
-    self->say_bye({}, bye, kShutdownLinger);
+    self->say_bye({}, bye, Outbox::Replaceable::kDropped, kShutdownLinger);
   });
 }
 
@@ -266,18 +282,17 @@ void Session::fail(const protocol::ErrorMessage& error) {
   environment_.log->info(fmt::format("session {:016x}: ended: {}: {}", id_, error.code, error.text));
   protocol::ErrorMessage fatal = error;
   fatal.fatal = true;
-  say_bye(fatal, {error.code, error.text, false}, kLinger);
+  say_bye(fatal, {error.code, error.text, false}, Outbox::Replaceable::kDropped, kLinger);
 }
 
-/// Whoever leaves by word gets all that was asked for before, the map too. In a room it is the room that says
-/// when: what it has still to answer comes first.
+/// Whoever leaves gets all that it asked for before, map and keys too, in as long as any write may take.
 void Session::say_goodbye() {
-  outbox_.promote_map();
-  say_bye({}, {std::string(code::kLeft), "goodbye", false}, kLinger);
+  say_bye({}, {std::string(code::kLeft), "goodbye", false}, Outbox::Replaceable::kSent,
+          std::chrono::seconds(environment_.limits.idle_s));
 }
 
 void Session::say_bye(const std::optional<protocol::ErrorMessage>& error, const protocol::Bye& bye,
-                      Duration linger) {
+                      Outbox::Replaceable replaceable, Duration linger) {
   if (state_ == State::kClosed) return;
   linger_until_ = state_ == State::kOpen ? now() + linger : std::min(linger_until_, now() + linger);
   watch(linger_until_);
@@ -285,7 +300,7 @@ void Session::say_bye(const std::optional<protocol::ErrorMessage>& error, const 
   leave_room();
   std::string text = error ? protocol::encode(*error) : std::string{};
   text += protocol::encode(bye);
-  outbox_.push_last(std::make_shared<const std::string>(std::move(text)));
+  outbox_.push_last(std::make_shared<const std::string>(std::move(text)), replaceable);
   state_ = State::kSayingBye;
   write();
 }

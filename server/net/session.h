@@ -6,6 +6,9 @@
 // outbox; when that is written the sending side is shut, and what still comes in is read and thrown away
 // until the client closes or the linger time is over (closing with unread bytes would reset the connection
 // and take the bye with it).
+//
+// A client that ends its sending side leaves by that: it may read on, and one that has closed altogether
+// looks the same. Who leaves gets every answer first: the room says when it has given its own.
 #pragma once
 
 #include <spdlog/logger.h>
@@ -47,6 +50,7 @@ class Session final : public Subscriber, public std::enable_shared_from_this<Ses
  public:
   /// What a line weighs against the rate that goes out to a whole room, or brings a long answer.
   static constexpr double kBroadcastCost = 10.0;
+  /// From a fatal error on, or once a goodbye is written.
   static constexpr Duration kLinger = std::chrono::seconds(1);
   static constexpr Duration kShutdownLinger = std::chrono::milliseconds(300);
 
@@ -68,6 +72,7 @@ class Session final : public Subscriber, public std::enable_shared_from_this<Ses
   void deliver_map(Line line) override;
   void refuse_join(protocol::ErrorMessage error) override;
   void welcome(protocol::Welcome welcome, std::uint32_t divisor) override;
+  void let_go() override;
   void end(protocol::Bye bye) override;
 
  private:
@@ -80,6 +85,8 @@ class Session final : public Subscriber, public std::enable_shared_from_this<Ses
 
   void read();
   void on_read(const boost::system::error_code& error, std::size_t size);
+  void on_input_ended();
+  [[nodiscard]] bool is_listening() const;
   void on_line(const protocol::LineFramer::Line& line, Time now);
   void on_message(protocol::ClientMessage message, Time now);
   bool admit_line(Time now, double cost);
@@ -92,8 +99,9 @@ class Session final : public Subscriber, public std::enable_shared_from_this<Ses
 
   void fail(std::string_view code, std::string text);
   void fail(const protocol::ErrorMessage& error);
-  void say_bye(const std::optional<protocol::ErrorMessage>& error, const protocol::Bye& bye, Duration linger);
   void say_goodbye();
+  void say_bye(const std::optional<protocol::ErrorMessage>& error, const protocol::Bye& bye,
+               Outbox::Replaceable replaceable, Duration linger);
   void leave_room();
   void close();
 
@@ -111,6 +119,7 @@ class Session final : public Subscriber, public std::enable_shared_from_this<Ses
   std::shared_ptr<Door> door_;  ///< null before the join
   std::array<char, 16384> incoming_{};
   protocol::LineFramer framer_;
+  bool input_ended_ = false;  ///< the client has shut its sending side: nothing is left to read
   RateLimiter limiter_;
 
   Outbox outbox_;

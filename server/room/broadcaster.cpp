@@ -26,8 +26,17 @@ void Broadcaster::remove(SessionId session) {
 
 void Broadcaster::event(std::uint64_t number, Line line) {
   backlog_.fetch_add(1, std::memory_order_relaxed);
-  asio::post(strand_, [self = shared_from_this(), this, job = EventJob{number, std::move(line)}]() mutable {
-    events_.push_back(std::move(job));
+  asio::post(strand_,
+             [self = shared_from_this(), this, job = EventJob{number, std::move(line), 0}]() mutable {
+               events_.push_back(std::move(job));
+               wake();
+             });
+}
+
+void Broadcaster::let_go(SessionId session) {
+  backlog_.fetch_add(1, std::memory_order_relaxed);
+  asio::post(strand_, [self = shared_from_this(), this, session] {
+    events_.push_back({0, nullptr, session});
     wake();
   });
 }
@@ -66,6 +75,10 @@ void Broadcaster::end_job() {
 
 void Broadcaster::serve(const Member& member) const {
   if (!member.subscriber) return;
+  if (event_job_ && !event_job_->line) {
+    if (event_job_->session == member.session) member.subscriber->let_go();
+    return;
+  }
   if (event_job_) {
     if (event_job_->number >= member.first_event) member.subscriber->deliver(event_job_->line);
     return;

@@ -41,6 +41,8 @@ class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
   void add(Member member);
   void remove(SessionId session);
   void event(std::uint64_t number, Line line);
+  /// Lets the member go when it has heard the events before this.
+  void let_go(SessionId session);
   void frames(FrameKind kind, std::vector<ChannelFrame> frames);
   /// Events not yet handed out.
   [[nodiscard]] std::size_t backlog() const { return backlog_.load(std::memory_order_relaxed); }
@@ -48,7 +50,8 @@ class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
  private:
   struct EventJob {
     std::uint64_t number = 0;
-    Line line;
+    Line line;  ///< null: no event, the session is let go
+    SessionId session = 0;
   };
   using FrameJob = std::vector<ChannelFrame>;
 

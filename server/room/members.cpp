@@ -205,6 +205,7 @@ void Members::on_message(Seat& seat, SessionOccupant& occupant, const protocol::
   filed.late |= input.tick == 0u && game_.tick() > 0;  // to the match 0 is no wish
   if (filed.outcome != match::Filed::Outcome::kFiled) return drop_input(occupant, input, filed);
   const std::uint64_t ticks_late = filed.late ? filed.tick - input.tick.value_or(filed.tick) : 0;
+  occupant.acked_from = std::max(occupant.acked_from, filed.tick + 1);
   acks_.add(filed.tick, {occupant.session, seat.louse, seq, arrived, filed.late, input.clamped, ticks_late});
 }
 
@@ -252,8 +253,10 @@ void Members::on_message(Seat& seat, SessionOccupant& occupant, const protocol::
   send(events_.chat(game_.tick(), seat, chat.text));
 }
 
-void Members::on_message(Seat&, SessionOccupant& occupant, const protocol::Leave&) {
-  occupant.subscriber->end({std::string(code::kLeft), "goodbye", false});
+/// Inputs reach at most InputQueue's horizon ahead, so that this is soon.
+void Members::on_message(Seat&, const SessionOccupant& occupant, const protocol::Leave&) {
+  if (occupant.acked_from <= game_.tick()) return broadcaster_->let_go(occupant.session);
+  leaving_.emplace(occupant.acked_from, occupant.session);
 }
 
 void Members::on_message(Seat&, SessionOccupant& occupant, const protocol::GetMap&) {
@@ -301,6 +304,8 @@ void Members::answer(std::uint64_t tick, Time begun) {
     std::get<SessionOccupant>(seat->occupant).subscriber->answer(ack);
   }
   due_.clear();
+  while (!leaving_.empty() && leaving_.begin()->first <= game_.tick())
+    broadcaster_->let_go(leaving_.extract(leaving_.begin()).mapped());
 }
 
 std::uint64_t Members::ticks_a_frame() const { return game_.settings().tick_hz / settings_.state_hz; }

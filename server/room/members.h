@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -72,7 +73,7 @@ class Members {
                                               std::uint32_t state_hz) const;
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Input& input, Time arrived);
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Chat& chat);
-  void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Leave&);
+  void on_message(Seat& seat, const SessionOccupant& occupant, const protocol::Leave&);
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::GetMap&);
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Resync&);
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Respawn&);
@@ -93,6 +94,8 @@ class Members {
   Seats seats_;
   PendingAcks acks_;
   std::vector<PendingAck> due_;  ///< of the step that margins() was asked for
+  std::multimap<std::uint64_t, SessionId>
+      leaving_;  ///< by the tick from which on all their inputs are acknowledged
   Channels channels_;
   Events events_;
 };

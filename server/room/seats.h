@@ -30,6 +30,7 @@ struct SessionOccupant {
   SessionId session = 0;
   std::shared_ptr<Subscriber> subscriber;
   ChannelId channel = 0;
+  std::uint64_t acked_from = 0;  ///< the tick from which on all its inputs are acknowledged
 };
 
 /// One of the house's bots, counted from 0.

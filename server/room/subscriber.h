@@ -31,7 +31,9 @@ class Subscriber {
   virtual void refuse_join(protocol::ErrorMessage error) = 0;
   /// The welcome. `divisor`: the client takes every divisor-th frame.
   virtual void welcome(protocol::Welcome welcome, std::uint32_t divisor) = 0;
-  /// The connection ends with this bye.
+  /// Its `leave` is granted: all that it asked for before has been answered by the calls before this one.
+  virtual void let_go() = 0;
+  /// The room ends the connection with this bye.
   virtual void end(protocol::Bye bye) = 0;
 };
 

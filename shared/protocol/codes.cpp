@@ -36,7 +36,7 @@ constexpr std::array kCodes = {
     CodeEntry{code::kQueueFull, "error", Ends::kNo, "input dropped: too many of this player's inputs wait"},
     CodeEntry{code::kTooFar, "error", Ends::kNo, "input dropped: `tick` is more than 2 s ahead"},
     CodeEntry{code::kNoLouse, "error", Ends::kNo, "the session has no louse: it is a spectator"},
-    CodeEntry{code::kLeft, "bye", Ends::kYes, "the client sent `leave`"},
+    CodeEntry{code::kLeft, "bye", Ends::kYes, "the client sent `leave`, or ended its sending side"},
     CodeEntry{code::kShutdown, "bye", Ends::kYes, "the server stops"},
     CodeEntry{code::kRateLowered, "notice", Ends::kNo,
               "frames come at half the rate: the client reads slowly"},

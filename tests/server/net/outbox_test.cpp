@@ -139,11 +139,27 @@ TEST_CASE("the last line keeps the events before it, drops what is replaceable, 
   outbox.push(line("event"));
   outbox.offer(key(60));
   outbox.push_map(line("map"));
-  outbox.push_last(line("bye over the limit"));
+  outbox.push_last(line("bye over the limit"), Outbox::Replaceable::kDropped);
   outbox.push(line("late"));
   outbox.offer(delta(63, 60));
   outbox.push_map(line("map"));
   CHECK(text(outbox.take()) == "event bye over the limit ");
   outbox.written();
+  CHECK(outbox.take().empty());
+}
+
+TEST_CASE("the last line may leave what is replaceable its place before it, and nothing follows either") {
+  Outbox outbox(10);
+  outbox.offer(key(60));
+  outbox.push_map(line("map"));
+  outbox.push(line("event"));
+  outbox.push_last(line("bye over the limit"), Outbox::Replaceable::kSent);
+  CHECK(outbox.offer(delta(63, 60)) == Outcome::kStale);
+  outbox.push(line("late"));
+  const Outbox::Batch batch = outbox.take();
+  CHECK(text(batch) == "event map k60 bye over the limit ");
+  CHECK(batch.frames == 1);
+  outbox.written();
+  outbox.push_map(line("map"));
   CHECK(outbox.take().empty());
 }

@@ -231,7 +231,7 @@ TEST_CASE("nothing is written and nothing is passed on after the close") {
   stage.far->holds_writes = true;
   member->deliver(as_line("in flight\n"));
   stage.run();
-  stage.far->hang_up();
+  stage.far->hang_up(boost::asio::error::connection_reset);
   stage.far->send(kPing);
   say_everything(*member);
   stage.run();

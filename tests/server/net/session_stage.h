@@ -32,7 +32,7 @@ class FakeDoor final : public Door {
     joins.push_back(std::move(join));
   }
   void submit(SessionId, protocol::ClientMessage message, Time arrived) override {
-    if (std::holds_alternative<protocol::Leave>(message) && member) member->end({"left", "goodbye", false});
+    if (std::holds_alternative<protocol::Leave>(message) && member) member->let_go();
     messages.emplace_back(std::move(message), arrived);
   }
   void leave(SessionId session) override {
@@ -85,7 +85,7 @@ struct Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
   ~Stage() {
-    far->hang_up();
+    far->hang_up(boost::asio::error::connection_reset);
     run();
     const std::weak_ptr<Session> left = std::exchange(session, nullptr);
     CHECK(left.expired());

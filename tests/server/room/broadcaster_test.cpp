@@ -19,6 +19,7 @@ class Listener final : public Subscriber {
   void deliver_map(Line) override {}
   void refuse_join(protocol::ErrorMessage) override {}
   void welcome(protocol::Welcome, std::uint32_t) override {}
+  void let_go() override { heard.push_back("let go"); }
   void end(protocol::Bye) override {}
 
   std::vector<std::string> heard;
@@ -117,5 +118,17 @@ TEST_CASE("the backlog counts the events not yet handed out") {
   for (std::uint64_t n = 1; n <= 10; ++n) house.broadcaster->event(n, line("e"));
   CHECK(house.broadcaster->backlog() == 10);
   house.io.run();
+  CHECK(house.broadcaster->backlog() == 0);
+}
+
+TEST_CASE("who is let go hears every event from before it, and it alone hears that it is") {
+  House house;
+  house.add(2 * Broadcaster::kSlice);
+  house.broadcaster->event(1, line("one"));
+  house.broadcaster->let_go(2);
+  house.broadcaster->event(2, line("two"));
+  house.io.run();
+  CHECK(house.listeners[1]->heard == Heard{"one", "let go", "two"});
+  CHECK(house.listeners[2]->heard == Heard{"one", "two"});
   CHECK(house.broadcaster->backlog() == 0);
 }

@@ -35,6 +35,7 @@ class Guest final : public Subscriber {
     welcomes.push_back(std::move(message));
     divisor = every;
   }
+  void let_go() override { ++times_let_go; }
   void end(protocol::Bye bye) override { byes.push_back(std::move(bye)); }
 
   std::vector<std::string> lines, maps;
@@ -44,6 +45,7 @@ class Guest final : public Subscriber {
   std::vector<protocol::Welcome> welcomes;
   std::vector<protocol::Bye> byes;
   std::uint32_t divisor = 0;
+  int times_let_go = 0;
   std::string order;  ///< of acks (a) and frames (f)
 };
 
