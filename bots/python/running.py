@@ -3,11 +3,13 @@
 Needs the programs: WOODLOUSE_BIN=build/release/bin
 """
 
+import json
 import os
 import re
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 
@@ -76,16 +78,20 @@ class Running:
         self._process.stdout.close()
 
 
-def serve(owner, map_file, *options):
-    """The address of a server of that map - a shipped one's name, or a file - and those options, which ends with
+def serve(owner, played, *options):
+    """The address of a server of that map - a shipped one's name, or a definition - with those options. It ends with
     `owner`, a TestCase or its class."""
-    if not os.path.isabs(map_file):
-        map_file = os.path.join(ROOT, "maps", map_file + ".json")
-    server = Running(program("woodlouse-server"), "--map", map_file, "--listen", "127.0.0.1:0", "--seed", "3",
-                     *options)
-    add = owner.addClassCleanup if isinstance(owner, type) else owner.addCleanup
-    add(server.__exit__)
-    return server.wait_for(r"^listening (\S+)$").group(1)
+    with tempfile.TemporaryDirectory() as folder:
+        if isinstance(played, str):
+            file = os.path.join(ROOT, "maps", played + ".json")
+        else:
+            file = os.path.join(folder, "map.json")
+            with open(file, "w", encoding="utf-8") as out:
+                json.dump(played, out)
+        server = Running(program("woodlouse-server"), "--map", file, "--listen", "127.0.0.1:0", "--seed", "3", *options)
+        add = owner.addClassCleanup if isinstance(owner, type) else owner.addCleanup
+        add(server.__exit__)
+        return server.wait_for(r"^listening (\S+)$").group(1)  # it has read the file
 
 
 def example(name, address):

@@ -10,11 +10,9 @@ a louse is steered at 20 states a second. A push straight uphill gets below 0 in
 down. On maunga_whau it stops at 0.8.
 """
 
-import json
 import os
 import re
 import sys
-import tempfile
 import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -46,13 +44,10 @@ def goal(ground):
     return max(heights)
 
 
-def from_its_lowest_spawn(ground, folder):
-    """A file with that map, whose only spawn is the lowest that it has; that spawn's height and the goal's [m]."""
+def from_its_lowest_spawn(ground):
+    """That map, its only spawn the lowest that it has; that spawn's height and the goal's [m]."""
     spawn = min(ground.definition["spawns"], key=lambda spawn: ground.height(*spawn["position"]))
-    file = os.path.join(folder, ground.name + ".json")
-    with open(file, "w", encoding="utf-8") as out:
-        json.dump(dict(ground.definition, spawns=[spawn]), out)
-    return file, ground.height(*spawn["position"]), goal(ground)
+    return dict(ground.definition, spawns=[spawn]), ground.height(*spawn["position"]), goal(ground)
 
 
 def grounds():
@@ -72,13 +67,11 @@ class Climbing(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
         cls.slopes, cls.witnesses = {}, {}
         code = readme_code()
         for name, ground in grounds().items():
-            file, low, high = from_its_lowest_spawn(ground, folder.name)
-            address = serve(cls, file)
+            definition, low, high = from_its_lowest_spawn(ground)
+            address = serve(cls, definition)
             cls.slopes[name], cls.witnesses[name] = (low, high), Witness(cls, address, ["x", "y", "z", "speed"])
             of_readme = code.replace('"127.0.0.1:7777"', repr(address)).replace('"bots/python"', repr(HERE))
             for bot in (Running(sys.executable, "-B", "-c", of_readme), example("hill_climber", address)):

@@ -3,12 +3,10 @@
 Needs the programs: WOODLOUSE_BIN=build/release/bin python3 -m unittest test_play
 """
 
-import json
 import math
 import os
 import shutil
 import sys
-import tempfile
 import time
 import unittest
 
@@ -32,12 +30,7 @@ class OfTheModule:
 def setUpModule():
     """The two that take a quarter of a minute begin first; who judges them comes last."""
     global witness
-    folder = tempfile.TemporaryDirectory()
-    unittest.addModuleCleanup(folder.cleanup)
-    file = os.path.join(folder.name, "small_pot.json")
-    with open(file, "w", encoding="utf-8") as out:
-        json.dump(POT, out)
-    address = serve(OfTheModule(), file)
+    address = serve(OfTheModule(), POT)
     witness = Witness(OfTheModule(), address, ["x", "y", "z", "vx", "vy"])
     for name in ("downhill_roller", "orbiter"):
         unittest.addModuleCleanup(example(name, address).__exit__)

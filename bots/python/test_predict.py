@@ -8,7 +8,6 @@ import math
 import os
 import re
 import sys
-import tempfile
 import threading
 import unittest
 
@@ -104,17 +103,12 @@ class TheMotion(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
         cls.rounds = {name: [] for name in MAPS}
         cls.predictor = example("predictor", serve(cls, "torus"))
         cls.addClassCleanup(cls.predictor.__exit__)
         threads = []
         for name, definition in MAPS.items():
-            file = os.path.join(folder.name, name + ".json")
-            with open(file, "w", encoding="utf-8") as out:
-                json.dump(definition, out)
-            address = serve(cls, file, "--state-hz", "60")
+            address = serve(cls, definition, "--state-hz", "60")
             for louse in range(lice_on(name)):
                 threads.append(threading.Thread(target=cls.run_one, args=(name, address, louse * ROUNDS), daemon=True))
         for thread in threads:
