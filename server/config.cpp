@@ -229,7 +229,9 @@ core::Expected<Config> parse_config(int argc, const char* const* argv) {
       if (command->parsed()) shown = command;
     return Config{PrintConfig{shown->help()}};
   } catch (const CLI::Error& error) {
-    return core::fail({}, error.what(), "see woodlouse-server --help");
+    std::string hint = "see woodlouse-server ";
+    for (const CLI::App* command : app.get_subcommands()) hint += command->get_name() + ' ';
+    return core::fail({}, error.what(), hint + "--help");
   }
   if (check->parsed()) return Config{typed.check};
   if (verify->parsed()) return Config{typed.verify};

@@ -59,6 +59,10 @@ class Running:
                 if self._ended or not self._changed.wait(deadline - time.monotonic()):
                     raise AssertionError("no line with %r in:\n%s" % (pattern, "\n".join(self.lines[-20:])))
 
+    def interrupt(self):
+        """As Ctrl-C does."""
+        self._process.send_signal(signal.SIGINT)
+
     def result(self):
         """Its exit code, once it ended by itself."""
         return self._process.wait(PATIENCE_S)
@@ -96,6 +100,17 @@ def serve(owner, played, *options):
 
 def example(name, address):
     return Running(sys.executable, "-B", os.path.join(HERE, name + ".py"), address)
+
+
+def readme_code(*path):
+    """The lines of the section "A bot in ten lines" of a README, without their indent."""
+    with open(os.path.join(ROOT, *path, "README.md"), encoding="utf-8") as file:
+        section = re.search(r"^## A bot in ten lines\n\n((?:    .*\n|\n)+)", file.read(), re.MULTILINE).group(1)
+    return re.sub(r"^    ", "", section, flags=re.MULTILINE).strip() + "\n"
+
+
+def readme_bot(address):
+    return Running("env", "PYTHONPATH=" + HERE, sys.executable, "-B", "-c", readme_code(), address)
 
 
 class Witness:

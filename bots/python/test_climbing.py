@@ -11,27 +11,19 @@ down. On maunga_whau it stops at 0.8.
 """
 
 import os
-import re
 import sys
 import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 import woodlouse
-from running import ROOT, Running, Witness, example, program, serve
+from running import ROOT, Running, Witness, example, program, readme_bot, readme_code, serve
 
 MAPS = ("hills", "jumps", "maunga_whau", "parabolic_pot", "torus", "volcano", "wavy_pot")
 LEVEL = ("arena", "kepler")
 PAPER = ("hoffmann_2002",)  # by the paper's equations, which make and lose energy: its dents hold who pushes uphill
 SHARE = 0.9
 SECONDS = 240  # of the game. They take 6 to 60: on rough ground a run of bad luck may double that
-
-
-def readme_code(*path):
-    """The lines of the section "A bot in ten lines" of a README, without their indent."""
-    with open(os.path.join(ROOT, *path, "README.md"), encoding="utf-8") as file:
-        section = re.search(r"^## A bot in ten lines\n\n((?:    .*\n|\n)+)", file.read(), re.MULTILINE).group(1)
-    return re.sub(r"^    ", "", section, flags=re.MULTILINE).strip() + "\n"
 
 
 def goal(ground):
@@ -68,13 +60,11 @@ class Climbing(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.slopes, cls.witnesses = {}, {}
-        code = readme_code()
         for name, ground in grounds().items():
             definition, low, high = from_its_lowest_spawn(ground)
             address = serve(cls, definition)
             cls.slopes[name], cls.witnesses[name] = (low, high), Witness(cls, address, ["x", "y", "z", "speed"])
-            of_readme = code.replace('"127.0.0.1:7777"', repr(address)).replace('"bots/python"', repr(HERE))
-            for bot in (Running(sys.executable, "-B", "-c", of_readme), example("hill_climber", address)):
+            for bot in (readme_bot(address), example("hill_climber", address)):
                 cls.addClassCleanup(bot.__exit__)
 
     def climb_all(self, bot):
@@ -113,7 +103,6 @@ class TheReadme(unittest.TestCase):
     def test_its_bot_has_about_ten_lines_and_is_that_of_the_bots_readme(self):
         code = readme_code()
         self.assertLessEqual(len([line for line in code.splitlines() if line]), 11)
-        self.assertEqual(code.count('"127.0.0.1:7777"'), 1)
         self.assertEqual(code, readme_code("bots"))
 
 

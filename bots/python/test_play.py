@@ -13,7 +13,7 @@ import unittest
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 import woodlouse
-from running import PATIENCE_S, ROOT, Running, Witness, example, program, serve
+from running import PATIENCE_S, ROOT, Running, Witness, example, program, readme_bot, serve
 
 
 # A small bowl with some friction: who rolls in it lies still soon.
@@ -53,6 +53,14 @@ class ThePrograms(unittest.TestCase):
         with example("orbiter", "127.0.0.1:1") as orbiter:
             orbiter.wait_for(r"connection: no server at 127.0.0.1:1")
             self.assertEqual(orbiter.result(), 1)
+
+    def test_the_bot_in_readme_ends_at_ctrl_c_without_a_word(self):
+        address = serve(self, "volcano")
+        with readme_bot(address) as bot, woodlouse.connect(address, role="spectator") as game:
+            next(state for state in game.states() if "uphill" in game.players.values())
+            bot.interrupt()
+            self.assertEqual(bot.result(), 130)
+        self.assertEqual(bot.lines, [])
 
     def test_the_chaser_comes_near_the_louse_it_chases(self):
         address = serve(self, "parabolic_pot")

@@ -23,11 +23,12 @@ core::Error cannot_listen(const std::string& where, const error_code& error) {
   core::Error failure{"cannot listen on " + where, error.message(), {}};
   if (error == asio::error::address_in_use) {
     failure.what = "address already in use";
-    failure.hint = "another woodlouse server?   try:  woodlouse-server --listen :0   (pick a free port)";
+    failure.hint =
+        "another woodlouse server?   try the same with  --listen 127.0.0.1:0   (picks a free port)";
   } else if (error == asio::error::access_denied) {
-    failure.hint = "ports below 1024 are reserved   try:  woodlouse-server --listen :7777";
+    failure.hint = "ports below 1024 are reserved   try the same with  --listen :7777";
   } else {
-    failure.hint = "try:  woodlouse-server --listen 127.0.0.1:7777";
+    failure.hint = "try the same with  --listen 127.0.0.1:7777";
   }
   return failure;
 }

@@ -176,7 +176,8 @@ TEST_CASE("a fork takes a server's options but what its recording decides") {
              Catch::Contains("--shadow") && Catch::Contains("fork game.ndjson --tick"));
   for (const char* option : {"--map", "--tick-hz", "--seed"})
     CHECK_FALSE(parse({"fork", "game.ndjson", "--tick", "600", option, "60"}));
-  CHECK_FALSE(parse({"fork", "game.ndjson"}));
+  CHECK(parse({"fork", "game.ndjson"}).error().hint == "see woodlouse-server fork --help");
+  CHECK(parse({"--forks"}).error().hint == "see woodlouse-server --help");
 }
 
 TEST_CASE("a shadow is asked for by flag, variable or file") {

@@ -55,7 +55,7 @@ class CommandLine(unittest.TestCase):
             self.assertEqual(
                 errors.splitlines(),
                 [f"woodlouse-server: cannot listen on {server.address}: address already in use",
-                 "      another woodlouse server?   try:  woodlouse-server --listen :0   (pick a free port)"],
+                 "      another woodlouse server?   try the same with  --listen 127.0.0.1:0   (picks a free port)"],
             )
 
     def test_what_cannot_start_is_told_in_one_line_of_what_and_one_of_what_to_do(self):
