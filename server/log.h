@@ -16,7 +16,11 @@ enum class LogFormat : std::uint8_t { kText, kJson };
 /// logger's own templates compile fmt again in each file that logs, five seconds each.
 std::shared_ptr<spdlog::logger> make_logger(LogFormat format);
 
-/// The text as the inside of a JSON string; bytes that are no UTF-8 become '?'.
+/// How a message becomes a line: whatever it holds, one of its own, and printable (core/printable.h).
+std::unique_ptr<spdlog::formatter> formatter_of(LogFormat format);
+
+/// The text as the inside of a JSON string: \uXXXX for what is not printable; bytes that are no UTF-8 become
+/// '?'.
 std::string json_escaped(std::string_view text);
 
 }  // namespace woodlouse::server

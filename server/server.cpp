@@ -20,6 +20,7 @@
 #include "server/watchers/ground_ahead.h"
 #include "server/watchers/recorder.h"
 #include "server/watchers/shadow.h"
+#include "shared/core/printable.h"
 #include "shared/core/stable_hash.h"
 #include "shared/map/map_file.h"
 #include "shared/map/map_search_file.h"
@@ -244,7 +245,8 @@ void Server::stop_contexts() {
 }
 
 void Server::print_summary(std::ostream& out) const {
-  for (const auto& room : lobby_.rooms()) out << summary(room->name(), *room->figures()) << '\n';
+  for (const auto& room : lobby_.rooms())
+    out << core::printable(summary(room->name(), *room->figures())) << '\n';
   out << "frames sent " << traffic_.frames_sent << ", bytes sent " << traffic_.bytes_sent
       << ", lines received " << traffic_.lines_received << '\n';
 }

@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "bench/lab/job.h"
+#include "bench/option_failure.h"
 
 int main(int argc, char** argv) {
   using namespace woodlouse::lab;
@@ -18,6 +19,7 @@ int main(int argc, char** argv) {
   add_speed(app, job);
   add_skip(app, job);
   add_figures(app, job);
+  app.failure_message(woodlouse::bench::option_failure);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -4,6 +4,8 @@
 #include <map>
 #include <string>
 
+#include "bench/option_failure.h"
+
 namespace woodlouse::scenario {
 
 std::variant<Options, int> parse_options(int argc, const char* const* argv) {
@@ -34,6 +36,7 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
       ->capture_default_str();
   run.add_option("--maps", options.maps,
                  "folder of the maps named in the files; default: maps/ beside or above them");
+  app.failure_message(bench::option_failure);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -7,6 +7,7 @@
 #include "bench/scenario/verdict.h"
 #include "bench/scenario/whole_write.h"
 #include "shared/core/joined.h"
+#include "shared/core/printable.h"
 
 namespace woodlouse::scenario {
 
@@ -89,7 +90,7 @@ void Session::update(const Scenario& scenario, const Play& played) {
   const std::string text = updated_text(scenario, played.hashes());
   if (text == scenario.text) return;
   if (const auto error = write_whole_file(scenario.file, text)) return tell(*error);
-  log_ << scenario.file.string() << ": updated\n";
+  log_ << core::printable(scenario.file.string()) << ": updated\n";
 }
 
 bool Session::write_registers() {

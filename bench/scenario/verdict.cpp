@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "shared/core/joined.h"
+#include "shared/core/printable.h"
 #include "shared/core/stable_hash.h"
 
 namespace woodlouse::scenario {
@@ -73,8 +74,9 @@ std::vector<core::Error> differences(const Scenario& scenario, const Play& playe
 std::string table_of(const Play& played) {
   std::string table;
   for (std::size_t k = 0; k < played.hashes().size(); ++k) {
-    table += core::joined({played.scenario().name, " ", std::to_string(played.scenario().goldens[k].tick),
-                           " ", core::to_hex(played.hashes()[k]), "\n"});
+    table += core::joined({core::printable(played.scenario().name), " ",
+                           std::to_string(played.scenario().goldens[k].tick), " ",
+                           core::to_hex(played.hashes()[k]), "\n"});
   }
   return table;
 }

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "bench/option_failure.h"
 #include "server/option_checks.h"
 
 namespace woodlouse::swarm {
@@ -27,6 +28,7 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   app.add_option("--seed", options.seed, "of the steering")
       ->check(server::whole_number(0))
       ->capture_default_str();
+  app.failure_message(bench::option_failure);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "shared/json/utf8.h"
+#include "shared/core/utf8.h"
 
 namespace woodlouse::client {
 namespace {
@@ -21,7 +21,7 @@ bool is_one_column_wide(char32_t c, GlyphSet glyphs) {
 std::u32string printable(std::string_view utf8, GlyphSet glyphs) {
   std::u32string result;
   while (!utf8.empty()) {
-    const json::Utf8Character character = json::first_character(utf8);
+    const core::Utf8Character character = core::first_character(utf8);
     const bool is_shown = character.valid && is_one_column_wide(character.code, glyphs);
     result.push_back(is_shown ? character.code : U'?');
     utf8.remove_prefix(character.size);

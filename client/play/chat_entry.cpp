@@ -4,7 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "shared/json/utf8.h"
+#include "shared/core/utf8.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::client {
@@ -35,7 +35,7 @@ ChatEntry::Outcome ChatEntry::type(const Key& key) {
   if (key.control && key.character == U'u') text_.clear();
   if (key.control || key.alt) return Outcome::kTyping;
   std::string bytes;
-  json::append_character(bytes, key.character);
+  core::append_character(bytes, key.character);
   if (text_.size() + bytes.size() <= protocol::kMaxChatBytes) text_ += bytes;
   return Outcome::kTyping;
 }

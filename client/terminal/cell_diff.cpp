@@ -3,7 +3,7 @@
 #include <charconv>
 #include <utility>
 
-#include "shared/json/utf8.h"
+#include "shared/core/utf8.h"
 
 namespace woodlouse::client {
 namespace {
@@ -107,7 +107,7 @@ void FrameEncoder::encode_row(int row, std::string& out) {
       std::swap(style.foreground, style.background);
     }
     set_style(style, out);
-    json::append_character(out, glyph);
+    core::append_character(out, glyph);
     // After the last column terminals differ in where the cursor is; no cell has that place.
     cursor_column_ = column + 1;
   }
@@ -123,7 +123,7 @@ void FrameEncoder::move_to(int column, int row, std::string& out) {
       reprint = cell.glyph < 0x7F && cell.glyph != U' ' && cell.style == style_;
     }
     if (reprint) {
-      for (int i = cursor_column_; i < column; ++i) json::append_character(out, next_.at(i, row).glyph);
+      for (int i = cursor_column_; i < column; ++i) core::append_character(out, next_.at(i, row).glyph);
     } else {
       out += "\x1b[";
       if (gap > 1) append_number(gap, out);

@@ -1,6 +1,6 @@
 #include "client/terminal/null_screen.h"
 
-#include "shared/json/utf8.h"
+#include "shared/core/utf8.h"
 
 namespace woodlouse::client {
 
@@ -17,7 +17,7 @@ std::string NullScreen::text() const {
     std::u32string line;
     for (const Cell& cell : last_.row(row)) line.push_back(cell.glyph);
     while (!line.empty() && line.back() == U' ') line.pop_back();
-    for (const char32_t c : line) json::append_character(result, c);
+    for (const char32_t c : line) core::append_character(result, c);
     result += '\n';
   }
   return result;

@@ -42,10 +42,10 @@ std::vector<Seat> unclaimed_seats(const ReplayArchive& archive, const match::Mat
   return seats;
 }
 
-core::Error with_advice(core::Error error, const ForkPoint& point) {
-  if (error.hint.empty())
-    error.hint = joined({"is it whole?   try:  woodlouse-server verify ", point.recording.string()});
-  return error;
+core::Error with_advice(const core::Error& error, const ForkPoint& point) {
+  if (!error.hint.empty()) return error;
+  return {error.where, error.what,
+          joined({"is it whole?   try:  woodlouse-server verify ", point.recording.string()})};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "shared/core/joined.h"
+#include "shared/json/text.h"
 #include "shared/replay/inspect.h"
 #include "shared/replay/source_file.h"
 
@@ -34,7 +35,7 @@ int inspect_command(const InspectRequest& request, std::ostream& out, std::ostre
                                           : std::uint64_t{1} << 53;
   const core::Expected<replay::InspectedState> state = replay::inspect_state(**archive, tick);
   if (!state) return report(state.error(), errors);
-  out << state->json;
+  out << json::printable_json(state->json);
   if (!state->difference) return 0;
   return report(
       {request.file.string(), core::joined({"differs at tick ", std::to_string(*state->difference)}),

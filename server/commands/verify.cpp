@@ -3,6 +3,7 @@
 #include <ostream>
 #include <string>
 
+#include "shared/core/printable.h"
 #include "shared/replay/parallel_verify.h"
 #include "shared/replay/source_file.h"
 
@@ -25,7 +26,7 @@ int verify_command(const VerifyRequest& request, std::ostream& out) {
   for (const std::filesystem::path& file : request.files) {
     const core::Expected<replay::Verification> verification =
         replay::verify(replay::source_of_file(file, request.maps), request.jobs);
-    if (verification && request.files.size() > 1) out << file.string() << ": ";
+    if (verification && request.files.size() > 1) out << core::printable(file.string()) << ": ";
     out << (verification ? replay::to_text(*verification) : verification.error().text() + "\n");
     const std::string less = verification && verification->ok() ? missing(request, *verification) : "";
     out << less << std::flush;

@@ -5,14 +5,21 @@
 #include <tl/expected.hpp>
 #include <utility>
 
+#include "shared/core/printable.h"
+
 namespace woodlouse::core {
 
 /// An error a person can act on. `where` names the place (file, line, JSON field), `what` the fault,
-/// `hint` what to try; `hint` may be empty.
+/// `hint` what to try; `where` and `hint` may be empty. Each is made printable here, so that whoever shows
+/// one needs not know what of it came from outside.
 struct Error {
   std::string where;
   std::string what;
   std::string hint;
+
+  Error() = default;
+  Error(const std::string& place, const std::string& fault, const std::string& advice = {})
+      : where(printable(place)), what(printable(fault)), hint(printable(advice)) {}
 
   /// `where: what`, with ` (hint)` when there is one.
   [[nodiscard]] std::string text() const {
@@ -27,8 +34,9 @@ template <typename T>
 using Expected = tl::expected<T, Error>;
 
 /// The failing side of an Expected.
-inline tl::unexpected<Error> fail(std::string where, std::string what, std::string hint = {}) {
-  return tl::unexpected<Error>(Error{std::move(where), std::move(what), std::move(hint)});
+inline tl::unexpected<Error> fail(const std::string& where, const std::string& what,
+                                  const std::string& hint = {}) {
+  return tl::unexpected<Error>(Error(where, what, hint));
 }
 
 }  // namespace woodlouse::core

@@ -5,12 +5,19 @@
 #include <charconv>
 #include <cmath>
 
+#include "shared/core/printable.h"
 #include "shared/core/stable_hash.h"
+#include "shared/core/utf8.h"
 #include "shared/json/digits.h"
-#include "shared/json/utf8.h"
 
 namespace woodlouse::json {
 namespace {
+
+void append_utf16_unit(std::string& out, char32_t unit) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  out += "\\u";
+  for (int shift = 12; shift >= 0; shift -= 4) out += kDigits[(unit >> shift) & 15u];
+}
 
 void append_escaped(std::string& out, char c) {
   switch (c) {
@@ -30,13 +37,8 @@ void append_escaped(std::string& out, char c) {
       out += "\\r";
       return;
     default:
-      break;
+      append_code(out, static_cast<unsigned char>(c));
   }
-  constexpr std::string_view kDigits = "0123456789abcdef";
-  const auto byte = static_cast<unsigned char>(c);
-  out += "\\u00";
-  out += kDigits[byte >> 4];
-  out += kDigits[byte & 15u];
 }
 
 }  // namespace
@@ -102,7 +104,7 @@ void append_rows(std::string& out, std::span<const double> values, std::size_t c
 void append_string(std::string& out, std::string_view text) {
   out += '"';
   while (!text.empty()) {
-    const Utf8Character character = first_character(text);
+    const core::Utf8Character character = core::first_character(text);
     if (!character.valid) {
       out += "\xef\xbf\xbd";
     } else if (character.code < 0x20 || character.code == 0x7f || text[0] == '"' || text[0] == '\\') {
@@ -115,19 +117,35 @@ void append_string(std::string& out, std::string_view text) {
   out += '"';
 }
 
+void append_code(std::string& out, char32_t code) {
+  if (code < 0x10000) return append_utf16_unit(out, code);
+  append_utf16_unit(out, 0xd800 + ((code - 0x10000) >> 10));
+  append_utf16_unit(out, 0xdc00 + ((code - 0x10000) & 0x3ff));
+}
+
+std::string printable_json(std::string_view json) {
+  std::string out;
+  out.reserve(json.size());
+  while (!json.empty()) {
+    const core::Utf8Character character = core::first_character(json);
+    const bool is_plain = character.code < 0x7f || core::is_printable(character.code);  // below: blanks
+    if (is_plain) {
+      out += json.substr(0, character.size);
+    } else {
+      append_code(out, character.code);
+    }
+    json.remove_prefix(character.size);
+  }
+  return out;
+}
+
 std::string shown(std::string_view text, std::size_t max_bytes) {
-  constexpr char32_t kFirstPrintable = 0x20, kDelete = 0x7f, kAfterControls = 0xa0;
   std::string out;
   while (!text.empty()) {
-    const Utf8Character c = first_character(text);
-    if (out.size() + c.size > max_bytes) return out += "...";
-    const bool is_control = c.code < kFirstPrintable || (c.code >= kDelete && c.code < kAfterControls);
-    if (c.valid && !is_control) {
-      out += text.substr(0, c.size);
-    } else {
-      out += '?';
-    }
-    text.remove_prefix(c.size);
+    const std::size_t size = core::first_character(text).size;
+    if (out.size() + size > max_bytes) return out += "...";
+    out += core::printable(text.substr(0, size));
+    text.remove_prefix(size);
   }
   return out;
 }

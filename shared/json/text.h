@@ -44,9 +44,14 @@ char* write_double(char* to, double value);
 /// Quoted and escaped; bytes that are not UTF-8 become U+FFFD, so that the text stays JSON whatever comes.
 void append_string(std::string& out, std::string_view text);
 
-/// Foreign text as an error cites it: the first max_bytes, "..." for the rest; a "?" for every control
-/// character and every byte that is not UTF-8, so that an error stays one line and says nothing to a
-/// terminal.
+/// \uXXXX, or two of them. REQUIRES a code point.
+void append_code(std::string& out, char32_t code);
+
+/// The same JSON for a terminal: what stands in its strings and is not printable (core/printable.h) as
+/// \uXXXX. REQUIRES valid JSON.
+std::string printable_json(std::string_view json);
+
+/// Foreign text as an error cites it: printable (core/printable.h), the first max_bytes, "..." for the rest.
 std::string shown(std::string_view text, std::size_t max_bytes = 64);
 
 }  // namespace woodlouse::json

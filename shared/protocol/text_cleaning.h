@@ -7,9 +7,9 @@
 
 namespace woodlouse::protocol {
 
-/// Without control characters (C0, DEL, C1) and without characters that have no width or turn the direction
-/// of writing; blanks and line ends become single spaces, none at either end; cut to `max_bytes` between two
-/// characters. Bytes that are not UTF-8 are left out. May be empty. Cleaning twice changes nothing.
+/// Without what is not printable (core/printable.h); blanks and line ends become single spaces, none at
+/// either end; cut to `max_bytes` between two characters. Bytes that are not UTF-8 are left out. May be
+/// empty. Cleaning twice changes nothing.
 std::string clean_text(std::string_view text, std::size_t max_bytes);
 
 }  // namespace woodlouse::protocol

@@ -71,7 +71,7 @@ core::Expected<Stream> open_file(const std::filesystem::path& file) {
 }  // namespace
 
 ReplaySource source_of_file(const std::filesystem::path& file, const std::filesystem::path& maps) {
-  return {file.string(), [file] { return open_file(file); },
+  return {core::printable(file.string()), [file] { return open_file(file); },
           [places = MapPlaces{file.parent_path(), maps}](const Header& header) {
             return load_named_map(header, places);
           }};

@@ -8,7 +8,7 @@
 #include <iostream>
 #include <string_view>
 
-#include "shared/json/utf8.h"
+#include "shared/core/utf8.h"
 
 namespace woodlouse::fuzz {
 
@@ -22,7 +22,7 @@ inline void demand(bool holds, std::string_view what, std::string_view found = {
 /// Valid UTF-8 without control characters: nothing that breaks a line or speaks to a terminal.
 inline bool is_plain_line(std::string_view text) {
   while (!text.empty()) {
-    const json::Utf8Character c = json::first_character(text);
+    const core::Utf8Character c = core::first_character(text);
     if (!c.valid || c.code < 0x20 || (c.code >= 0x7f && c.code < 0xa0)) return false;
     text.remove_prefix(c.size);
   }

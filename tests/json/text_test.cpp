@@ -46,6 +46,21 @@ TEST_CASE("any bytes written as a string are read back, those of UTF-8 unchanged
   }
 }
 
+TEST_CASE("JSON for a terminal is the same JSON, with escapes for what is not printable") {
+  const std::string json = written("a\x7f\xc2\x9b\xe2\x80\xae\xf3\xa0\x81\xa1 w\xc3\xb6rd\n") + "\n";
+  const std::string shown = printable_json(json);
+  CHECK(shown == "\"a\\u007f\\u009b\\u202e\\udb40\\udc61 w\xc3\xb6rd\\n\"\n");
+  const auto before = parse(json, {});
+  const auto after = parse(shown, {});
+  REQUIRE((before && after));
+  CHECK(before->root().text() == after->root().text());
+}
+
+TEST_CASE("foreign text is cited cut and printable") {
+  CHECK(shown("a\x1b\xc2\x9b\xe2\x80\xae\xff z") == "a???? z");
+  CHECK(shown("abcdef", 4) == "abcd...");
+}
+
 TEST_CASE("integers are written whole, to the ends of 64 bits") {
   std::string out;
   append_integer(out, std::numeric_limits<std::int64_t>::min());

@@ -4,7 +4,7 @@
 #include <random>
 #include <string>
 
-#include "shared/json/utf8.h"
+#include "shared/core/utf8.h"
 
 using woodlouse::protocol::clean_text;
 
@@ -54,7 +54,7 @@ TEST_CASE(
     REQUIRE(clean_text(once, limit) == once);
     std::string_view rest = once;
     while (!rest.empty()) {
-      const auto character = woodlouse::json::first_character(rest);
+      const auto character = woodlouse::core::first_character(rest);
       REQUIRE(character.valid);
       REQUIRE(character.code >= 0x20);
       REQUIRE_FALSE((character.code >= 0x7f && character.code <= 0x9f));

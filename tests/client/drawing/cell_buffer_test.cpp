@@ -5,7 +5,7 @@
 #include "client/drawing/wrapping.h"
 #include "client/play/trail.h"
 #include "shared/core/random.h"
-#include "shared/json/utf8.h"
+#include "shared/core/utf8.h"
 
 using namespace woodlouse;
 using namespace woodlouse::client;
@@ -34,7 +34,7 @@ TEST_CASE("letters of Europe survive, wide and combining ones become question ma
 TEST_CASE("a code point written as UTF-8 reads back") {
   for (const char32_t c : {U'a', U'\u00FC', U'\u0416'}) {
     std::string bytes;
-    woodlouse::json::append_character(bytes, c);
+    woodlouse::core::append_character(bytes, c);
     CHECK(printable(bytes, GlyphSet::kHalfBlocks) == std::u32string(1, c));
   }
 }

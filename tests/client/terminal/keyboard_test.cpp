@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "shared/core/random.h"
-#include "shared/json/utf8.h"
+#include "shared/core/utf8.h"
 
 using namespace woodlouse::client;
 using namespace std::chrono_literals;
@@ -141,7 +141,7 @@ TEST_CASE("every code point survives UTF-8") {
   for (char32_t c = 0xa0; c <= 0x10ffff; c += c < 0x3000 ? 1 : 97) {
     if (c >= 0xd800 && c < 0xe000) continue;
     std::string bytes;
-    woodlouse::json::append_character(bytes, c);
+    woodlouse::core::append_character(bytes, c);
     REQUIRE(keys_of(bytes) == std::vector<TerminalInput>{typed(c)});
   }
 }

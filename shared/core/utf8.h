@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace woodlouse::json {
+namespace woodlouse::core {
 
 struct Utf8Character {
   char32_t code = 0;
@@ -54,4 +54,4 @@ inline void append_character(std::string& out, char32_t code) {
   byte(0x80 | (code & 0x3f));
 }
 
-}  // namespace woodlouse::json
+}  // namespace woodlouse::core
