@@ -62,8 +62,10 @@ std::filesystem::path folder_of_map(const json::Value& value, const std::filesys
   return file.has_parent_path() ? file.parent_path() : ".";
 }
 
+/// `maps`: the folder that the user named, whose links are his own; empty: `folder` was found.
 MapPointer read_map(const json::Value& value, const std::filesystem::path& file,
-                    const std::filesystem::path& folder, Problems& problems) {
+                    const std::filesystem::path& folder, const std::filesystem::path& maps,
+                    Problems& problems) {
   if (value.is(json::Kind::kObject)) {
     const map::DiskFolder grids(folder);
     return keep(map::parse_map(lines_before(value) + std::string(value.raw()), file.string(), &grids),
@@ -80,7 +82,7 @@ MapPointer read_map(const json::Value& value, const std::filesystem::path& file,
                  "give its name without .json, or --maps FOLDER");
     return nullptr;
   }
-  return keep(map::load_map(found), problems);
+  return keep(maps.empty() ? map::load_map_within(folder, found) : map::load_map(found), problems);
 }
 
 /// The map with the scenario's own spawns. They end a canonical map; so its reader checks them in their
@@ -134,7 +136,7 @@ Scenario read_fields(const json::Value& root, const std::filesystem::path& file,
   if (const auto map = fields.demand("map")) {
     const std::filesystem::path folder = folder_of_map(*map, file, maps);
     const auto spawns = fields.find("spawns");
-    scenario.map = read_map(*map, file, folder, problems);
+    scenario.map = read_map(*map, file, folder, maps, problems);
     if (spawns && scenario.map) scenario.map = with_spawns(scenario.map, *spawns, file, folder, problems);
   }
   if (const auto hz = fields.find("tick_hz")) {

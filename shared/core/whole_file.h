@@ -9,13 +9,12 @@
 
 namespace woodlouse::core {
 
-/// Whether there is a file that can be read to an end. Errors: there is none; it is a folder, or a pipe, a
-/// device or a socket, which may keep whoever opens it waiting or never end. Ask before opening what somebody
-/// else named.
-Expected<void> check_regular_file(const std::filesystem::path& file);
-
-/// The whole file. Errors: it can't be opened or read, it is no regular file (check_regular_file), it is
-/// longer than max_bytes.
+/// The whole file. Errors: those of InputFile::open (input_file.h), it can't be read, it is longer than
+/// max_bytes.
 Expected<std::string> read_whole_file(const std::filesystem::path& file, std::size_t max_bytes);
+
+/// The same for what the user did not name himself: InputFile::open_within.
+Expected<std::string> read_whole_file_within(const std::filesystem::path& folder,
+                                             const std::filesystem::path& file, std::size_t max_bytes);
 
 }  // namespace woodlouse::core

@@ -1,7 +1,6 @@
 #include "shared/map/flt_grid_file.h"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,23 +15,12 @@
 #include <span>
 #include <string>
 #include <system_error>
-
-#include "shared/core/whole_file.h"
+#include <utility>
 
 namespace woodlouse::map {
 namespace {
 
 constexpr std::size_t kMaxHeaderBytes = 1u << 16;
-
-core::Expected<std::size_t> size_of(int descriptor, const std::filesystem::path& file) {
-  struct stat status {};
-  if (::fstat(descriptor, &status) != 0) {
-    return core::fail(file.string(), std::string("can't be examined: ") + std::strerror(errno));
-  }
-  if (!S_ISREG(status.st_mode))
-    return core::fail(file.string(), "is no regular file", "a float grid is read in any order");
-  return static_cast<std::size_t>(status.st_size);
-}
 
 /// Whether all of `bytes` could be read from `offset` on.
 bool read_at(int descriptor, std::span<std::byte> bytes, std::size_t offset) {
@@ -53,6 +41,18 @@ std::uint32_t swapped(std::uint32_t v) {
 }  // namespace
 
 core::Expected<std::shared_ptr<const FltGrid>> FltGrid::open(const std::filesystem::path& file) {
+  return open_by(core::InputFile::open, file);
+}
+
+core::Expected<std::shared_ptr<const FltGrid>> FltGrid::open_within(const std::filesystem::path& folder,
+                                                                    const std::filesystem::path& file) {
+  return open_by(
+      [&folder](const std::filesystem::path& named) { return core::InputFile::open_within(folder, named); },
+      file);
+}
+
+core::Expected<std::shared_ptr<const FltGrid>> FltGrid::open_by(const Open& open,
+                                                                const std::filesystem::path& file) {
   std::filesystem::path header_file = file;
   header_file.replace_extension(".hdr");
   if (std::error_code error;
@@ -60,35 +60,31 @@ core::Expected<std::shared_ptr<const FltGrid>> FltGrid::open(const std::filesyst
     return core::fail(header_file.string(), "no such file",
                       "the header of " + file.filename().string() + "; gdal_translate -of EHdr writes both");
   }
-  const auto text = core::read_whole_file(header_file, kMaxHeaderBytes);
+  const auto header_input = open(header_file);
+  if (!header_input) return tl::unexpected(header_input.error());
+  const auto text = header_input->read_all(kMaxHeaderBytes);
   if (!text) return tl::unexpected(text.error());
   const auto header = parse_flt_header(*text, header_file.string());
   if (!header) return tl::unexpected(header.error());
 
-  if (std::error_code error; std::filesystem::exists(file, error)) {
-    if (auto regular = core::check_regular_file(file); !regular) return tl::unexpected(regular.error());
+  if (std::error_code error; !std::filesystem::exists(file, error)) {
+    return core::fail(file.string(), "no such file",
+                      "the heights that " + header_file.filename().string() + " describes; check the path");
   }
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0)
-    return core::fail(
-        file.string(), std::string("can't be opened: ") + std::strerror(errno),
-        "the heights that " + header_file.filename().string() + " describes; check the path and its rights");
-  std::shared_ptr<const FltGrid> grid(new FltGrid(*header, descriptor));  // owns the descriptor from here on
-  const auto size = size_of(descriptor, file);
-  if (!size) return tl::unexpected(size.error());
+  auto heights = open(file);
+  if (!heights) return tl::unexpected(heights.error());
   const std::size_t expected = 4 * header->frame.columns * header->frame.rows;
-  if (*size != expected) {
-    return core::fail(file.string(),
-                      "has " + std::to_string(*size) + " bytes, its header says " + std::to_string(expected),
-                      "4 bytes for each of nrows * ncols heights; compare it with " + header_file.string());
+  if (heights->size() != expected) {
+    return core::fail(
+        file.string(),
+        "has " + std::to_string(heights->size()) + " bytes, its header says " + std::to_string(expected),
+        "4 bytes for each of nrows * ncols heights; compare it with " + header_file.string());
   }
   // A tile's rows lie far apart: without this the system reads 128 KB around each, and soon holds the whole
   // file. Advice: where it is not taken, only that happens.
-  static_cast<void>(::posix_fadvise(descriptor, 0, 0, POSIX_FADV_RANDOM));
-  return grid;
+  static_cast<void>(::posix_fadvise(heights->descriptor(), 0, 0, POSIX_FADV_RANDOM));
+  return std::shared_ptr<const FltGrid>(new FltGrid(*header, std::move(*heights)));
 }
-
-FltGrid::~FltGrid() { ::close(descriptor_); }
 
 void FltGrid::read(std::size_t column, std::size_t row, std::span<double> out) const {
   const terrain::GridFrame& frame = header_.frame;
@@ -101,7 +97,7 @@ void FltGrid::read(std::size_t column, std::size_t row, std::span<double> out) c
   for (std::size_t done = 0; done < out.size(); done += words.size()) {
     const std::span<double> part = out.subspan(done, std::min(words.size(), out.size() - done));
     const std::span<std::uint32_t> raw(words.data(), part.size());
-    const bool ok = read_at(descriptor_, std::as_writable_bytes(raw), 4 * (first + done));
+    const bool ok = read_at(heights_.descriptor(), std::as_writable_bytes(raw), 4 * (first + done));
     if (!ok) read_failures_.fetch_add(1, std::memory_order_relaxed);
     for (std::size_t k = 0; k < part.size(); ++k) {
       const float height = std::bit_cast<float>(swap ? swapped(raw[k]) : raw[k]);

@@ -10,10 +10,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "shared/core/error.h"
+#include "shared/core/input_file.h"
 #include "shared/map/flt_header.h"
 #include "shared/terrain/height_source.h"
 
@@ -23,10 +26,12 @@ namespace woodlouse::map {
 /// file was cut) count as without data; read_failures() says whether that happened.
 class FltGrid final : public terrain::HeightSource {
  public:
-  /// `file` is the .flt; its header is the .hdr beside it. Errors: no such files, a bad header, a size that
-  /// isn't 4 nrows ncols.
+  /// `file` is the .flt that the user named; its header is the .hdr beside it. Errors: no such files, a bad
+  /// header, a size that isn't 4 nrows ncols.
   static core::Expected<std::shared_ptr<const FltGrid>> open(const std::filesystem::path& file);
-  ~FltGrid() override;
+  /// The same of a .flt that a map named: both files must lie in `folder` (core/input_file.h).
+  static core::Expected<std::shared_ptr<const FltGrid>> open_within(const std::filesystem::path& folder,
+                                                                    const std::filesystem::path& file);
   FltGrid(const FltGrid&) = delete;
   FltGrid& operator=(const FltGrid&) = delete;
 
@@ -37,10 +42,13 @@ class FltGrid final : public terrain::HeightSource {
   }
 
  private:
-  FltGrid(const FltHeader& header, int descriptor) : header_(header), descriptor_(descriptor) {}
+  FltGrid(const FltHeader& header, core::InputFile heights) : header_(header), heights_(std::move(heights)) {}
+  using Open = std::function<core::Expected<core::InputFile>(const std::filesystem::path&)>;
+  static core::Expected<std::shared_ptr<const FltGrid>> open_by(const Open& open,
+                                                                const std::filesystem::path& file);
 
   FltHeader header_;
-  int descriptor_;  ///< owned
+  core::InputFile heights_;
   mutable std::atomic<std::uint64_t> read_failures_{0};
 };
 

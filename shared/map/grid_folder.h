@@ -21,7 +21,8 @@ class GridFolder {
   /// The path of the grid that a map names: for messages, and for the calls below. Errors: the name leads out
   /// of the folder (what and hint; where is the map's to say).
   [[nodiscard]] virtual core::Expected<std::string> find(std::string_view name) const = 0;
-  /// A grid of text, whole. Errors: it can't be read, or is longer than a map may be.
+  /// A grid of text, whole. Errors: it can't be read, lies elsewhere, or is longer than
+  /// a map may be.
   [[nodiscard]] virtual core::Expected<std::string> read_text(const std::string& path) const = 0;
   /// A grid of floats with its header, read where heights are asked for.
   [[nodiscard]] virtual core::Expected<std::shared_ptr<const terrain::HeightSource>> open_heights(

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <system_error>
 #include <utility>
 
 #include "shared/core/whole_file.h"
@@ -23,23 +22,16 @@ core::Expected<std::string> DiskFolder::find(std::string_view name) const {
     return core::fail({}, "leaves the map's folder",
                       "put the grid beside the map and name it without a path");
   }
-  std::error_code error;
-  const auto base = fs::weakly_canonical(folder_, error);
-  const auto file = error ? folder_ / relative : fs::weakly_canonical(folder_ / relative, error);
-  const auto inside = std::mismatch(base.begin(), base.end(), file.begin(), file.end()).first == base.end();
-  if (error || !inside) {
-    return core::fail({}, "leaves the map's folder by a link", "put the grid itself beside the map");
-  }
   return (folder_ / relative).string();
 }
 
 core::Expected<std::string> DiskFolder::read_text(const std::string& path) const {
-  return core::read_whole_file(path, kMaxMapBytes);
+  return core::read_whole_file_within(folder_, path, kMaxMapBytes);
 }
 
 core::Expected<std::shared_ptr<const terrain::HeightSource>> DiskFolder::open_heights(
     const std::string& path) const {
-  auto grid = FltGrid::open(path);
+  auto grid = FltGrid::open_within(folder_, path);
   if (!grid) return tl::unexpected(grid.error());
   return std::shared_ptr<const terrain::HeightSource>(std::move(*grid));
 }

@@ -7,7 +7,7 @@
 
 namespace woodlouse::map {
 
-/// Any thread.
+/// Any thread. What it opens lies in the folder, wherever links lead (core/input_file.h).
 class DiskFolder final : public GridFolder {
  public:
   /// REQUIRES a folder that is named: "." for the present one.

@@ -12,13 +12,22 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
   return folder.empty() ? std::filesystem::path(".") : folder;
 }
 
-}  // namespace
-
-core::Expected<std::shared_ptr<const Map>> load_map(const std::filesystem::path& file) {
-  const core::Expected<std::string> text = core::read_whole_file(file, kMaxMapBytes);
+core::Expected<std::shared_ptr<const Map>> parsed(const core::Expected<std::string>& text,
+                                                  const std::filesystem::path& file) {
   if (!text) return tl::unexpected(text.error());
   const DiskFolder folder(folder_of(file));
   return parse_map(*text, file.string(), &folder);
+}
+
+}  // namespace
+
+core::Expected<std::shared_ptr<const Map>> load_map(const std::filesystem::path& file) {
+  return parsed(core::read_whole_file(file, kMaxMapBytes), file);
+}
+
+core::Expected<std::shared_ptr<const Map>> load_map_within(const std::filesystem::path& folder,
+                                                           const std::filesystem::path& file) {
+  return parsed(core::read_whole_file_within(folder, file, kMaxMapBytes), file);
 }
 
 std::vector<core::Error> check_map(const std::filesystem::path& file) {

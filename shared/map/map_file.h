@@ -13,6 +13,11 @@ namespace woodlouse::map {
 /// The map of a file. Errors: where = "file:line: field", what, hint.
 core::Expected<std::shared_ptr<const Map>> load_map(const std::filesystem::path& file);
 
+/// The same for a file that the user did not name himself: it must lie in `folder`, wherever links lead
+/// (core/input_file.h).
+core::Expected<std::shared_ptr<const Map>> load_map_within(const std::filesystem::path& folder,
+                                                           const std::filesystem::path& file);
+
 /// Everything that is wrong with a map file, for `woodlouse-server check`; empty: nothing.
 std::vector<core::Error> check_map(const std::filesystem::path& file);
 

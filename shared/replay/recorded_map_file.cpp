@@ -25,7 +25,8 @@ core::Expected<MapPointer> load_named_map(const Header& header, const MapPlaces&
     return core::fail(file.string(), "no such file",
                       "put the map it was played on beside the recording, or say --maps FOLDER");
   }
-  return map::load_map(file);
+  return file.parent_path() == places.recording ? map::load_map_within(places.recording, file)
+                                                : map::load_map(file);
 }
 
 }  // namespace woodlouse::replay

@@ -8,7 +8,8 @@
 namespace woodlouse::replay {
 
 /// The only folders a recording's map is looked for in: whoever wrote the recording has no say in what is
-/// opened.
+/// opened. What lies beside the recording may have come with it: a link out of that folder is not followed.
+/// `maps` is the user's own: what he links there is meant to be found.
 struct MapPlaces {
   std::filesystem::path recording;  ///< its folder
   std::filesystem::path maps;       ///< whoever reads it named this one; empty: nobody did

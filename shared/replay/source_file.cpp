@@ -1,6 +1,5 @@
 #include "shared/replay/source_file.h"
 
-#include <fcntl.h>
 #include <unistd.h>
 
 #include <array>
@@ -9,7 +8,8 @@
 #include <cstring>
 #include <utility>
 
-#include "shared/core/whole_file.h"
+#include "shared/core/input_file.h"
+#include "shared/core/printable.h"
 #include "shared/replay/fault_telling_buffer.h"
 #include "shared/replay/recorded_map_file.h"
 
@@ -61,11 +61,9 @@ class FileBytes final : public FaultTellingBuffer {
 };
 
 core::Expected<Stream> open_file(const std::filesystem::path& file) {
-  if (auto regular = core::check_regular_file(file); !regular) return tl::unexpected(regular.error());
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0)
-    return core::fail(file.string(), std::string("can't be opened: ") + std::strerror(errno));
-  return unpacked(std::make_unique<BufferStream<FileBytes>>(descriptor));
+  auto input = core::InputFile::open(file);
+  if (!input) return tl::unexpected(input.error());
+  return unpacked(std::make_unique<BufferStream<FileBytes>>(input->release()));
 }
 
 }  // namespace

@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 
+#include "shared/core/input_file.h"
 #include "shared/core/sink_file.h"
 #include "shared/core/whole_file.h"
 
@@ -93,4 +95,49 @@ TEST_CASE("what can't be written into is told, and nobody waits for a pipe's rea
   const auto full = create_file("/dev/full");
   REQUIRE(full);
   CHECK(full->sink->write("x").error().text() == "/dev/full: No space left on device");
+}
+
+TEST_CASE("what somebody else named is opened in its folder alone, wherever links lead") {
+  const Folder outer;
+  const fs::path folder = outer.path / "came";
+  fs::create_directories(folder / "deep");
+  write(outer.path / "secret", "secret");
+  write(folder / "map", "map");
+  write(folder / "deep" / "grid", "grid");
+  fs::create_directory_symlink(outer.path, folder / "up");
+  fs::create_directory_symlink("deep", folder / "also_deep");
+  fs::create_symlink(outer.path / "secret", folder / "out");
+  fs::create_symlink("/proc/self/environ", folder / "process");
+  fs::create_symlink("map", folder / "near");
+  fs::create_symlink(folder / "map", folder / "absolute");
+  fs::create_symlink("none", folder / "dangling");
+  const auto read = [&](const fs::path& name) { return read_whole_file_within(folder, folder / name, 100); };
+  const std::pair<const char*, const char*> inside[] = {{"map", "map"},
+                                                        {"deep/grid", "grid"},
+                                                        {"also_deep/grid", "grid"},
+                                                        {"near", "map"},
+                                                        {"absolute", "map"}};
+  for (const auto& [name, text] : inside) CHECK(read(name).value() == text);
+  for (const char* name : {"out", "up/secret", "process", "../secret", "up/came/../secret"}) {
+    const auto refused = read(name);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().text() ==
+          (folder / name).string() + ": leads out of its folder (put the file itself there, not a link)");
+  }
+  CHECK(read("dangling").error().what == "no such file");
+  CHECK(read("map/x").error().what == "no such file");
+  CHECK(read("deep").error().what == "is a folder, not a file");
+  CHECK(read(".").error().what == "is a folder, not a file");
+  const fs::path pipe = folder / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  CHECK(read("pipe").error().what == "is no regular file");
+  CHECK(read_whole_file(folder / "out", 100).value() == "secret");  // the user's own links are his
+}
+
+TEST_CASE("a file that the system makes up is read without waiting, to its end or to the bound") {
+  CHECK(read_whole_file("/proc/self/status", 1u << 20).value().find("Name:") == 0);
+  CHECK(read_whole_file("/proc/self/pagemap", 1u << 20).error().what == "longer than 1 MiB");
+  const auto input = InputFile::open("/proc/self/status");
+  REQUIRE(input);
+  CHECK((::fcntl(input->descriptor(), F_GETFL) & O_NONBLOCK) != 0);
 }

@@ -186,8 +186,7 @@ TEST_CASE("what is wrong with a float grid is told with its place and what to do
              "hills.flt: has no heights, only knots without data (check NODATA_value and byteorder");
   check_says(error_of(empty.map(R"(,"storage":"tiles")")), "has no heights");
   std::filesystem::remove(empty.file("hills.flt"));
-  check_says(error_of(empty.map("")),
-             "hills.flt: can't be opened: No such file or directory (the heights that hills.hdr describes");
+  check_says(error_of(empty.map("")), "hills.flt: no such file (the heights that hills.hdr describes");
 }
 
 }  // namespace woodlouse::map

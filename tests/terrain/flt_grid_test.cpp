@@ -194,7 +194,7 @@ TEST_CASE("bad headers and files are refused with what, where and what to do") {
   const Folder folder("refused");
   says(FltGrid::open(folder.file("big.flt")).error().text(), "big.hdr: no such file");
   folder.write("big.hdr", kHeader);
-  says(FltGrid::open(folder.file("big.flt")).error().text(), "can't be opened");
+  says(FltGrid::open(folder.file("big.flt")).error().text(), "big.flt: no such file");
   folder.write("big.flt", std::string(79, 'x'));
   says(FltGrid::open(folder.file("big.flt")).error().text(), "has 79 bytes, its header says 80");
 }
