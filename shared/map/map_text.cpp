@@ -39,9 +39,9 @@ void lay_document_surface(Map& map, const MapDefinition& definition) {
   };
 }
 
-std::shared_ptr<const Map> build(MapDefinition definition) {
+std::shared_ptr<const Map> build(MapDefinition definition, std::string canonical) {
   auto map = std::make_shared<Map>();
-  map->canonical = canonical_text(definition);
+  map->canonical = std::move(canonical);
   map->hash = core::stable_hash(map->canonical);
   if (is_of_document(definition.surface)) {
     lay_document_surface(*map, definition);
@@ -70,7 +70,23 @@ std::shared_ptr<const Map> build(MapDefinition definition) {
   return map;
 }
 
-std::optional<MapDefinition> read(std::string_view text, const GridPlace& place, json::Problems& problems) {
+/// Whether a function is only named where it is stepped on itself: a canonical text never has one sampled,
+/// and a few bytes of such a text would ask for millions of knots.
+bool samples_function(const json::Value& root) {
+  const auto terrain = root.find("terrain");
+  const auto surface = root.find("surface");
+  const bool is_function = surface && json::choice_of(*surface, surface_from_text) == SurfaceKind::kFunction;
+  return terrain && terrain->find("function") && !is_function;
+}
+
+enum class Form { kAny, kCanonical };
+
+constexpr const char* kNotCanonical =
+    "is not a map as a program writes it: another text, or in another order";
+constexpr const char* kNotCanonicalHint = "it was altered, or written by something else";
+
+std::optional<MapDefinition> read(std::string_view text, const GridPlace& place, Form form,
+                                  json::Problems& problems) {
   if (text.size() > kMaxMapBytes) {
     problems.add(0, {}, core::joined({"longer than ", std::to_string(kMaxMapBytes >> 20), " MiB"}));
     return std::nullopt;
@@ -78,6 +94,10 @@ std::optional<MapDefinition> read(std::string_view text, const GridPlace& place,
   const auto document = json::parse_file(text, problems.source(), {kMaxDepth, kMaxValues});
   if (!document) {
     problems.add(document.error());
+    return std::nullopt;
+  }
+  if (form == Form::kCanonical && samples_function(document->root())) {
+    problems.add(0, {}, kNotCanonical, kNotCanonicalHint);
     return std::nullopt;
   }
   return read_definition(document->root(), place, problems);
@@ -88,15 +108,27 @@ std::optional<MapDefinition> read(std::string_view text, const GridPlace& place,
 core::Expected<std::shared_ptr<const Map>> parse_map(std::string_view text, std::string_view source,
                                                      const GridFolder* folder) {
   json::Problems problems{std::string(source)};
-  std::optional<MapDefinition> definition = read(text, folder, problems);
+  std::optional<MapDefinition> definition = read(text, folder, Form::kAny, problems);
   if (!definition) return tl::unexpected(problems.errors().front());
-  return build(std::move(*definition));
+  std::string canonical = canonical_text(*definition);
+  return build(std::move(*definition), std::move(canonical));
+}
+
+core::Expected<std::shared_ptr<const Map>> parse_canonical_map(std::string_view text,
+                                                               std::string_view source) {
+  json::Problems problems{std::string(source)};
+  std::optional<MapDefinition> definition =
+      read(text, static_cast<const GridFolder*>(nullptr), Form::kCanonical, problems);
+  if (!definition) return tl::unexpected(problems.errors().front());
+  std::string canonical = canonical_text(*definition);
+  if (canonical != text) return core::fail(std::string(source), kNotCanonical, kNotCanonicalHint);
+  return build(std::move(*definition), std::move(canonical));
 }
 
 core::Expected<std::shared_ptr<const Map>> parse_overview(std::string_view text, std::string_view source,
                                                           const terrain::HeightGrid& overview) {
   json::Problems problems{std::string(source)};
-  std::optional<MapDefinition> definition = read(text, overview, problems);
+  std::optional<MapDefinition> definition = read(text, overview, Form::kAny, problems);
   if (!definition) return tl::unexpected(problems.errors().front());
   auto map = std::make_shared<Map>();
   map->detail = Detail::kOverview;
@@ -109,7 +141,7 @@ core::Expected<std::shared_ptr<const Map>> parse_overview(std::string_view text,
 
 std::vector<core::Error> check_map(std::string_view text, std::string_view source, const GridFolder* folder) {
   json::Problems problems{std::string(source)};
-  read(text, folder, problems);
+  read(text, folder, Form::kAny, problems);
   return std::move(problems.errors());
 }
 

@@ -21,6 +21,12 @@ inline constexpr std::size_t kMaxKnots = 4'000'000;  ///< of one terrain
 core::Expected<std::shared_ptr<const Map>> parse_map(std::string_view text, std::string_view source,
                                                      const GridFolder* folder);
 
+/// A map that a program wrote, as into a recording: `text` must be its own canonical text (canonical_map.h).
+/// So a short text makes no large map: a spline's heights stand in it. Errors as above, or that it is
+/// another.
+core::Expected<std::shared_ptr<const Map>> parse_canonical_map(std::string_view text,
+                                                               std::string_view source);
+
 /// A big map as a client gets it: the text of its definition, which names a file that is not here, and an
 /// overview of that file's heights. Detail::kOverview; its hash is that of the text. Errors as above.
 core::Expected<std::shared_ptr<const Map>> parse_overview(std::string_view text, std::string_view source,

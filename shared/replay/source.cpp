@@ -29,8 +29,13 @@ bool is_compressed(std::istream& in) {
 }
 
 core::Expected<MapPointer> map_of(const Header& header, const ReplaySource& source) {
-  if (!header.map_definition.empty())
-    return map::parse_map(header.map_definition, joined({source.name, ":1: map.definition"}), nullptr);
+  if (!header.map_definition.empty()) {
+    const std::string where = joined({source.name, ":1: map.definition"});
+    if (header.map_definition.size() > kMaxInlineMapBytes)
+      return core::fail(where, joined({"longer than ", std::to_string(kMaxInlineMapBytes >> 20), " MiB"}),
+                        "a server names a larger map by its file");
+    return map::parse_canonical_map(header.map_definition, where);
+  }
   if (source.find_map) return source.find_map(header);
   return core::fail(joined({source.name, ":1: map.file"}),
                     "is only named, and files are not looked for here");

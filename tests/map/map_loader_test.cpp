@@ -71,6 +71,21 @@ std::string random_map(core::Random& random) {
 
 }  // namespace
 
+TEST_CASE("a canonical map is read back as it stands, and any other text is refused") {
+  for (const char* surface : {"spline", "function", "natural_spline"}) {
+    const auto map = parse(
+        core::joined({R"({"name":"m","terrain":{"function":"hills","grid":3},"surface":")", surface, "\"}"}));
+    const auto again = parse_canonical_map(map->canonical, "wire");
+    REQUIRE(again);
+    CHECK((*again)->hash == map->hash);
+    CHECK_FALSE(parse_canonical_map(map->canonical + " ", "wire"));
+    CHECK_FALSE(parse_canonical_map(map->canonical.substr(1), "wire"));
+  }
+  const auto sampled = parse_canonical_map(R"({"name":"m","terrain":{"function":"hills"}})", "wire");
+  REQUIRE_FALSE(sampled);
+  CHECK(sampled.error().text().find("wire: is not a map as a program writes it") == 0);
+}
+
 TEST_CASE("a map's canonical text reads back to the same map, bit for bit") {
   core::Random random(11);
   for (int round = 0; round < 400; ++round) {

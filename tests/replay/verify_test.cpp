@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include "shared/core/joined.h"
 #include "shared/map/map_file.h"
 #include "shared/replay/parallel_verify.h"
 #include "shared/replay/source_file.h"
@@ -161,6 +162,30 @@ TEST_CASE("a map that was altered in the recording is refused") {
   const auto verification = verify_text(recording.text());
   REQUIRE_FALSE(verification);
   CHECK(verification.error().text().find("r.jsonl:1: map.hash: the map's hash is ") == 0);
+}
+
+TEST_CASE("a recorded definition is the canonical text that a server writes, or refused before it costs") {
+  const Recording recording = record({});
+  const std::string& header = recording.lines[0];
+  constexpr std::string_view kKey = "\"definition\":";
+  const std::size_t at = header.find(kKey) + kKey.size();
+  const std::string own = header.substr(at, header.size() - std::string_view("}}\n").size() - at);
+  const auto refusal = [&](const std::string& definition) {
+    Recording altered = recording;
+    altered.lines[0] = core::joined({std::string_view(header).substr(0, at), definition, "}}\n"});
+    const auto verification = verify_text(altered.text());
+    return verification ? to_text(*verification) : verification.error().text();
+  };
+  CHECK(refusal(own).find("ok ticks") == 0);
+  const std::string canonical = ":1: map.definition: is not a map as a program writes it";
+  CHECK(refusal("{ " + own.substr(1)).find(canonical) != std::string::npos);
+  // Would be four million knots and a spline through them: 700 MB.
+  for (const char* surface : {"", R"(,"surface":"spline")", R"(,"surface":"blended")"}) {
+    CHECK(refusal(core::joined({R"({"name":"m","terrain":{"function":"volcano","grid":999})", surface, "}"}))
+              .find(canonical) != std::string::npos);
+  }
+  const std::string padded = core::joined({"{", std::string(kMaxInlineMapBytes, ' '), own.substr(1)});
+  CHECK(refusal(padded).find(":1: map.definition: longer than 1 MiB") != std::string::npos);
 }
 
 TEST_CASE("a large map is named by its hash and found beside the recording") {
