@@ -167,7 +167,7 @@ ReadScenario read_scenario(const std::filesystem::path& file, const std::filesys
   const auto document = json::parse_file(*text, file.string(), {});
   if (!document) return {std::nullopt, {document.error()}};
   Scenario scenario = read_fields(document->root(), file, maps, *text, problems);
-  if (problems.count() != 0) return {std::nullopt, std::move(problems.errors())};
+  if (problems.count() != 0) return {std::nullopt, std::move(problems).told()};
   scenario.name = file.stem().string();
   scenario.file = file;
   scenario.text = std::move(*text);

@@ -79,13 +79,24 @@ void Problems::add(std::size_t line, std::string_view field, std::string what, s
 }
 
 void Problems::add(const Value& value, std::string what, std::string hint) {
-  if (is_full()) return;  // a line and a path cost a walk through the text
+  if (is_full()) return leave_out(1);  // a line and a path cost a walk through the text
   add(value.line(), value.path(), std::move(what), std::move(hint));
 }
 
 void Problems::add(core::Error error) {
-  if (is_full()) return;
+  if (is_full()) return leave_out(1);
   errors_.push_back(std::move(error));
+}
+
+void Problems::take_over(Problems&& other) {
+  for (core::Error& error : other.errors_) add(std::move(error));
+  leave_out(other.left_out_);
+}
+
+std::vector<core::Error> Problems::told() && {
+  if (left_out_ != 0)
+    errors_.emplace_back(source_, core::joined({"and ", std::to_string(left_out_), " more"}));
+  return std::move(errors_);
 }
 
 std::optional<double> number_in(const Value& value, const Range& range, Problems& problems) {
@@ -168,8 +179,11 @@ Fields::Fields(const Value& object, std::initializer_list<std::string_view> know
     return;
   }
   for (const Value& member : object.children()) {
-    if (problems.is_full()) return;  // a suggestion costs more than its key
     if (std::find(known.begin(), known.end(), member.key()) != known.end()) continue;
+    if (problems.is_full()) {  // a suggestion costs more than its key
+      problems.leave_out(1);
+      continue;
+    }
     std::string hint = did_you_mean(member.key(), known);
     if (hint.empty()) {
       hint = "known here:";

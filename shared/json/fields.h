@@ -39,7 +39,8 @@ std::optional<std::uint64_t> unsigned_text(std::string_view text, int base);
 // ---- every problem, with its line
 // -------------------------------------------------------------------------------
 
-/// What is wrong with one source; the first kMaxProblems, so that a file of garbage stays readable.
+/// What is wrong with one source; the first kMaxProblems, so that a file of garbage stays readable, and how
+/// many more there are.
 class Problems {
  public:
   static constexpr std::size_t kMaxProblems = 100;
@@ -54,11 +55,20 @@ class Problems {
   [[nodiscard]] bool is_full() const { return errors_.size() >= kMaxProblems; }
   [[nodiscard]] std::size_t count() const { return errors_.size(); }
   [[nodiscard]] std::vector<core::Error>& errors() { return errors_; }
+  /// What was added when it was full.
+  [[nodiscard]] std::size_t left_out() const { return left_out_; }
+  /// So many more that nobody puts into words.
+  void leave_out(std::size_t count) { left_out_ += count; }
+  /// Those of `other`, which is of a file that this source names.
+  void take_over(Problems&& other);
+  /// The errors, and in the last line how many were left out.
+  [[nodiscard]] std::vector<core::Error> told() &&;
   [[nodiscard]] const std::string& source() const { return source_; }
 
  private:
   std::string source_;
   std::vector<core::Error> errors_;
+  std::size_t left_out_ = 0;
 };
 
 /// A closed range and its unit, for checks and for their message.

@@ -111,12 +111,16 @@ Header read_header(Words& words, json::Problems& problems) {
     const Word word = words.take();
     const std::string key = lower_case(word.text.substr(0, 32));
     Entry* entry = header.find(key);
+    if (entry == nullptr && problems.is_full()) {
+      problems.leave_out(1);
+      if (!begins_like_a_key(words.peek())) words.take();
+      continue;
+    }
     if (entry == nullptr) {
       problems.add(word.line, quoted(word.text), "is no header key",
                    json::did_you_mean(key, {"ncols", "nrows", "xllcorner", "xllcenter", "yllcorner",
                                             "yllcenter", "cellsize", "dx", "dy", "nodata_value"}));
       if (!begins_like_a_key(words.peek())) words.take();
-      if (problems.is_full()) break;
       continue;
     }
     if (entry->line != 0) problems.add(word.line, key, "stands twice", "keep one of them");
@@ -187,7 +191,7 @@ std::string cell_name(std::size_t index, std::size_t columns) {
 void read_heights(Words& words, const Header& header, terrain::HeightGrid& grid, json::Problems& problems) {
   const std::size_t total = grid.columns * grid.rows;
   grid.heights.resize(total);
-  for (std::size_t index = 0; index < total && !problems.is_full(); ++index) {
+  for (std::size_t index = 0; index < total; ++index) {
     const Word word = words.take();
     if (word.text.empty()) {
       problems.add(word.line, cell_name(index, grid.columns),
@@ -213,7 +217,7 @@ void read_heights(Words& words, const Header& header, terrain::HeightGrid& grid,
     const std::size_t row_from_south = grid.rows - 1 - index / grid.columns;
     grid.heights[row_from_south * grid.columns + index % grid.columns] = *height;
   }
-  if (!problems.is_full() && !words.peek().text.empty()) {
+  if (!words.peek().text.empty()) {
     problems.add(words.peek().line, {},
                  core::joined({"more than ncols * nrows = ", std::to_string(total), " heights"}));
   }

@@ -18,7 +18,8 @@ core::Expected<std::shared_ptr<const Map>> load_map(const std::filesystem::path&
 core::Expected<std::shared_ptr<const Map>> load_map_within(const std::filesystem::path& folder,
                                                            const std::filesystem::path& file);
 
-/// Everything that is wrong with a map file, for `woodlouse-server check`; empty: nothing.
+/// What is wrong with a map file, the first hundred and how many more, for `woodlouse-server check`; empty:
+/// nothing.
 std::vector<core::Error> check_map(const std::filesystem::path& file);
 
 }  // namespace woodlouse::map

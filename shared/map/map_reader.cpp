@@ -153,7 +153,6 @@ std::vector<SpawnPoint> read_spawns(const json::Value& value, const terrain::Rec
     if (const auto heading = fields.find("heading")) spawn.heading = read_heading(*heading, problems);
     spawn.speed = fields.number_or("speed", kSpawnSpeed, spawn.speed) + 0.0;  // as central_gravity
     result.push_back(spawn);
-    if (problems.is_full()) break;
   }
   return result;
 }

@@ -142,7 +142,7 @@ core::Expected<std::shared_ptr<const Map>> parse_overview(std::string_view text,
 std::vector<core::Error> check_map(std::string_view text, std::string_view source, const GridFolder* folder) {
   json::Problems problems{std::string(source)};
   read(text, folder, Form::kAny, problems);
-  return std::move(problems.errors());
+  return std::move(problems).told();
 }
 
 }  // namespace woodlouse::map

@@ -32,7 +32,7 @@ core::Expected<std::shared_ptr<const Map>> parse_canonical_map(std::string_view 
 core::Expected<std::shared_ptr<const Map>> parse_overview(std::string_view text, std::string_view source,
                                                           const terrain::HeightGrid& overview);
 
-/// Everything that is wrong with a map's text; empty: nothing. As parse_map().
+/// What is wrong with a map's text, told as json::Problems tells it; empty: nothing. As parse_map().
 std::vector<core::Error> check_map(std::string_view text, std::string_view source, const GridFolder* folder);
 
 }  // namespace woodlouse::map

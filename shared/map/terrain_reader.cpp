@@ -70,7 +70,7 @@ std::optional<HeightGrid> read_ascii_grid(const json::Value& value, const json::
   }
   json::Problems grid_problems(path);
   std::optional<HeightGrid> grid = parse_esri_ascii_grid(*text, grid_problems);
-  for (core::Error& error : grid_problems.errors()) problems.add(std::move(error));
+  problems.take_over(std::move(grid_problems));
   if (!grid) return std::nullopt;
   grid->dx *= scale;
   grid->dy *= scale;
@@ -130,7 +130,6 @@ void read_rows(const json::Value& value, double scale, HeightGrid& grid, json::P
       problems.add(row, core::joined({std::to_string(heights.size()), " heights, the first row has ",
                                       std::to_string(grid.columns)}));
     }
-    if (problems.is_full()) return;
     for (const json::Value& height : heights) {
       grid.heights.push_back(scale * json::number_in(height, kHeight, problems).value_or(0.0));
     }

@@ -215,6 +215,25 @@ TEST_CASE("check tells every problem of a map and of its grid") {
   CHECK(texts[5].find(json + ":5: spawns[0].position: a pair [x, y] is wanted") == 0);
 }
 
+TEST_CASE("of many faults the first hundred are told, and how many more there are") {
+  const Folder folder;
+  std::string keys;
+  for (int k = 0; k < 137; ++k) keys += ",\n\"key" + std::to_string(k) + "\":0";
+  const auto file = folder.write("m.json", R"({"name":"m","terrain":{"function":"hills"})" + keys + "}");
+  const auto errors = check_map(file);
+  REQUIRE(errors.size() == 101);
+  CHECK(errors[99].text().find(file.string() + ":101: key99: is not known") == 0);
+  CHECK(errors[100].text() == file.string() + ": and 37 more");
+
+  std::string rows;
+  for (int k = 0; k < 15 * 10; ++k) rows += "x ";
+  folder.write("bad.asc", "ncols 15\nnrows 10\ncellsize 1\nxllcorner 0\nyllcorner 0\n" + rows);
+  const auto grid = folder.write("g.json", R"({"nme":"m","terrain":{"file":"bad.asc"}})");
+  const auto bad = check_map(grid);
+  REQUIRE(bad.size() == 101);
+  CHECK(bad[100].text() == grid.string() + ": and 52 more");  // "name" is missing, "nme" is not known
+}
+
 TEST_CASE("a grid file never leaves the map's folder") {
   const Folder folder;
   folder.write("good.asc", kGrid);
