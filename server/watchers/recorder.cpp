@@ -23,8 +23,9 @@ core::Expected<std::unique_ptr<Recorder>> Recorder::open(const std::filesystem::
                                                          std::shared_ptr<spdlog::logger> log) {
   auto out = core::create_file(file);
   if (!out)
-    return core::fail("cannot write the recording " + file.string(), out.error().what,
-                      "does its folder exist, and may you write there?");
+    return core::fail(
+        "cannot write the recording " + file.string(), out.error().what,
+        out.error().hint.empty() ? "does its folder exist, and may you write there?" : out.error().hint);
   if (out->path != file)
     log->warn(fmt::format("{} is there already: recording to {}", file.string(), out->path.string()));
   return std::make_unique<Recorder>(std::move(out->sink), out->path.string(), std::move(header), disk,

@@ -57,6 +57,15 @@ int open_for_writing(const fs::path& file) {
   return descriptor;
 }
 
+/// Why `name`, the number-th for this file, can't be created: by errno.
+tl::unexpected<Error> not_created(const fs::path& name, std::size_t number) {
+  const char* const hint = errno != ENAMETOOLONG ? ""
+                           : number == 0         ? "take a shorter one"
+                                         : "there is one without a number, and this is too long: take a "
+                                           "shorter one";
+  return fail(name.string(), std::strerror(errno), hint);
+}
+
 }  // namespace
 
 fs::path numbered(const fs::path& file, std::size_t number) {
@@ -79,7 +88,7 @@ Expected<NewFile> create_file(const fs::path& file) {
       auto sink = std::make_unique<FileSink>(descriptor, name.string());
       return NewFile{std::move(sink), std::move(name)};
     }
-    if (errno != EEXIST) return fail(name.string(), std::strerror(errno));
+    if (errno != EEXIST) return not_created(name, number);
   }
   return fail(file.string(), "is there, and so is every numbered one of it");
 }

@@ -77,6 +77,17 @@ TEST_CASE("a file that is there is never written over: the next one is numbered"
   CHECK_FALSE(fs::exists(folder.path / "nowhere"));
 }
 
+TEST_CASE("a name that is too long is told, and whether its number makes it so") {
+  const Folder folder;
+  CHECK(create_file(folder.path / std::string(256, 'n')).error().hint == "take a shorter one");
+  const fs::path longest = folder.path / std::string(255, 'n');
+  REQUIRE(create_file(longest));
+  const auto second = create_file(longest);
+  REQUIRE_FALSE(second);
+  CHECK(second.error().what == "File name too long");
+  CHECK(second.error().hint == "there is one without a number, and this is too long: take a shorter one");
+}
+
 TEST_CASE("what can't be written into is told, and nobody waits for a pipe's reader") {
   const Folder folder;
   CHECK(create_file(folder.path).error().text() == folder.path.string() + ": Is a directory");
