@@ -130,6 +130,13 @@ class Layout {
   Layout(std::uint64_t seed, Problems& problems) : random_(seed), problems_(problems) {}
 
   void apply(const Rule& rule, std::uint64_t step) {
+    if (is_full()) return;
+    if (++occurrences_ > kMaxOccurrences) {
+      return problems_.add(
+          rule.place,
+          core::joined({"the script's rules are due more than ", std::to_string(kMaxOccurrences), " times"}),
+          "fewer rules, or \"every\" more steps");
+    }
     if (rule.kind == Event::Kind::kJoin) {
       for (std::uint64_t k = 0; k < rule.joins; ++k) join(rule, step);
       return;
@@ -145,13 +152,16 @@ class Layout {
                       "players are numbered from 1 in the order they join");
         return;
       }
+      if (is_full()) return;
       if (rule.kind == Event::Kind::kLeave) present_.erase(player);
       add(rule, step, player);
     }
   }
 
   std::vector<Event> events() && { return std::move(events_); }
-  [[nodiscard]] bool is_full() const { return events_.size() >= kMaxEvents; }
+  [[nodiscard]] bool is_full() const {
+    return events_.size() >= kMaxEvents || occurrences_ > kMaxOccurrences;
+  }
 
  private:
   void join(const Rule& rule, std::uint64_t step) {
@@ -198,6 +208,7 @@ class Layout {
   core::Random random_;
   Problems& problems_;
   std::vector<Event> events_;
+  std::size_t occurrences_ = 0;
   std::set<match::PlayerId> present_;
   match::PlayerId next_player_ = 1;
   std::uint64_t counted_step_ = 0;

@@ -1,5 +1,6 @@
 #include "bench/scenario/scenario_reader.h"
 
+#include "shared/core/joined.h"
 #include "tests/scenarios/written_scenario.h"
 
 using namespace woodlouse;
@@ -88,6 +89,17 @@ TEST_CASE("a rule is repeated every so many steps up to its last one") {
   CHECK(events[5].player == 3);
   CHECK(events[5].thrust == state::Thrust{state::ThrustKind::kAlongHeading, {-0.5, 0.0}});
   CHECK(events[5].ticks == state::kHeld);
+}
+
+TEST_CASE("rules that are due too often are refused, be it that they do nothing") {
+  std::string rules;
+  for (int k = 0; k < 1'100; ++k) rules += R"(, {"at": 1, "every": 1, "leave": "all"})";
+  const std::string many =
+      with(with(kSmall, "\"ticks\": 5}", core::joined({"\"ticks\": 5}", rules})), "\"20\"", "\"1000\"");
+  const WrittenScenario written(with(many, R"({"at": 2, "player": 1)", R"({"at": 0, "player": 1)"));
+  const ReadScenario read = read_scenario(written.file(), {});
+  REQUIRE_FALSE(read.scenario);
+  CHECK_THAT(read.errors.front().text(), Contains("the script's rules are due more than 1000000 times"));
 }
 
 TEST_CASE("all means those who are there, and events of one step keep the order of the file") {
