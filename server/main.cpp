@@ -1,5 +1,6 @@
 // woodlouse-server: parses, wires, runs.
 #include <csignal>
+#include <cstdlib>
 #include <iostream>
 #include <variant>
 
@@ -35,7 +36,16 @@ int run(const CheckConfig& config) { return check_command(config.maps, std::cout
 int run(const VerifyConfig& config) { return verify_command(config.request, std::cout); }
 int run(const InspectConfig& config) { return inspect_command(config.request, std::cout, std::cerr); }
 
+/// While maps are loaded, or a recording to go on from: nothing is begun yet, and whoever stops the server
+/// need not wait for it. Once rooms open, Server takes the signals over.
+void end_when_signalled() {
+  constexpr auto kEnd = [](int) { std::_Exit(kOk); };
+  std::signal(SIGINT, kEnd);
+  std::signal(SIGTERM, kEnd);
+}
+
 int run(const ServeConfig& config) {
+  end_when_signalled();
   auto server = Server::create(config, make_logger(config.log_format));
   if (!server) return report(server.error(), kFailed);
   std::cout << "listening " << (*server)->address() << std::endl;

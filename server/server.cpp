@@ -86,7 +86,7 @@ Server::Server(const ServeConfig& config, std::shared_ptr<spdlog::logger> log)
     : log_(std::move(log)),
       io_(static_cast<int>(kIoThreads)),
       strand_(asio::make_strand(io_)),
-      signals_(strand_, SIGINT, SIGTERM),
+      signals_(strand_),
       deadline_(strand_),
       environment_{lobby_, limits_, traffic_, timekeeper_, kServerName, log_},
       acceptor_(io_, environment_) {
@@ -111,8 +111,7 @@ core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config,
   if (!endpoint) return tl::unexpected(endpoint.error());
   server->address_ = to_text(*endpoint);
   if (config.shadow) server->shadows_.emplace(tick_threads(std::max<std::size_t>(1, config.maps.size())));
-  const std::string name = fork ? fork->map->definition.name : std::string();
-  const auto opened = fork ? server->open_room(config, name, std::move(*fork)) : server->open_rooms(config);
+  const auto opened = fork ? server->open_fork_room(config, std::move(*fork)) : server->open_rooms(config);
   if (!opened) return tl::unexpected(opened.error());
   return server;
 }
@@ -120,6 +119,7 @@ core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config,
 core::Expected<void> Server::open_rooms(const ServeConfig& config) {
   const std::uint64_t seed = config.seed ? *config.seed : entropy();
   std::set<std::string> names;
+  std::vector<std::pair<std::string, Start>> rooms;
   for (const fs::path& word : config.maps) {
     const auto file = map::find_map(word.string());
     if (!file) return tl::unexpected(file.error());
@@ -127,10 +127,24 @@ core::Expected<void> Server::open_rooms(const ServeConfig& config) {
     if (!map) return tl::unexpected(map.error());
     const match::MatchSettings settings{config.tick_hz, seed + names.size()};
     Start start{*map, std::make_unique<match::Match>(*map, settings), file->string(), {}, {}};
-    const std::string name = unique_name((*map)->definition.name, names);
+    rooms.emplace_back(unique_name((*map)->definition.name, names), std::move(start));
+  }
+  take_signals();
+  for (auto& [name, start] : rooms) {
     if (auto opened = open_room(config, name, std::move(start)); !opened) return opened;
   }
   return {};
+}
+
+core::Expected<void> Server::open_fork_room(const ServeConfig& config, Start start) {
+  take_signals();
+  const std::string name = start.map->definition.name;
+  return open_room(config, name, std::move(start));
+}
+
+void Server::take_signals() {
+  signals_.add(SIGINT);
+  signals_.add(SIGTERM);
 }
 
 core::Expected<void> Server::open_room(const ServeConfig& config, const std::string& name, Start start) {

@@ -56,6 +56,10 @@ class Server {
  private:
   Server(const ServeConfig& config, std::shared_ptr<spdlog::logger> log);
   core::Expected<void> open_rooms(const ServeConfig& config);
+  core::Expected<void> open_fork_room(const ServeConfig& config, Start start);
+  /// From here on a signal waits for run(), which writes down and says bye. Before, nothing is begun that it
+  /// would cut short: maps, which may take long, are loaded, and no recording is created.
+  void take_signals();
   core::Expected<void> open_room(const ServeConfig& config, const std::string& name, Start start);
   core::Expected<Watchers> make_watchers(const ServeConfig& config, const std::string& room,
                                          const Start& start);

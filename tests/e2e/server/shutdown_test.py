@@ -3,10 +3,24 @@
 import os
 import re
 import signal
+import subprocess
 import tempfile
+import time
 import unittest
 
-from wire import Server, run
+from wire import PATIENCE, PROGRAM, Server, map_file, run
+
+
+def wait_until_caught(pid, number):
+    """Until the process has set a handler for that signal."""
+    end = time.monotonic() + PATIENCE
+    while time.monotonic() < end:
+        with open(f"/proc/{pid}/status", encoding="ascii") as status:
+            caught = int(re.search(r"^SigCgt:\s*([0-9a-f]+)", status.read(), re.MULTILINE)[1], 16)
+        if caught >> (number - 1) & 1:
+            return
+        time.sleep(0.005)
+    raise AssertionError("no handler was set")
 
 
 class Shutdown(unittest.TestCase):
@@ -29,6 +43,25 @@ class Shutdown(unittest.TestCase):
                         client.socket.close()
                 code, verdict, errors = run("verify", file)
                 self.assertEqual((code, verdict.split()[0]), (0, "ok"), verdict + errors)
+
+    def test_a_signal_while_a_big_map_is_loaded_ends_it_at_once_and_leaves_no_recording(self):
+        for by in (signal.SIGTERM, signal.SIGINT):
+            with tempfile.TemporaryDirectory() as folder:
+                big = os.path.join(folder, "big.json")
+                with open(big, "w") as out:
+                    out.write('{"name":"big","terrain":{"function":"hills","grid":999}}')
+                process = subprocess.Popen([PROGRAM, "--map", map_file("volcano"), big, "--listen", "127.0.0.1:0",
+                                            "--record", os.path.join(folder, "game")], stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                try:
+                    wait_until_caught(process.pid, by)
+                    begun = time.monotonic()
+                    process.send_signal(by)
+                    printed, errors = process.communicate(timeout=PATIENCE)
+                    self.assertLess(time.monotonic() - begun, 1.0)
+                    self.assertEqual((process.returncode, printed, errors), (0, b"", b""))
+                    self.assertEqual(os.listdir(folder), ["big.json"])
+                finally:
+                    process.kill()
 
     def test_a_client_that_does_not_read_cannot_hold_up_the_exit(self):
         with Server("--bots", "40") as server, server.client(receive_buffer=4096) as stuck:
