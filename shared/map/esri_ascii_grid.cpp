@@ -10,13 +10,12 @@
 
 #include "shared/core/joined.h"
 #include "shared/json/text.h"
+#include "shared/map/esri_header.h"
 #include "shared/map/map_text.h"
+#include "shared/map/terrain_ranges.h"
 
 namespace woodlouse::map {
 namespace {
-
-constexpr std::size_t kMinKnotsEachWay = 4;
-constexpr double kMaxCoordinate = 1e9;
 
 struct Word {
   std::string_view text;
@@ -64,14 +63,6 @@ std::optional<double> to_number(std::string_view word) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
   return value;
-}
-
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return result;
 }
 
 /// A word of the file within a message, cut to a readable length.
@@ -153,7 +144,7 @@ std::size_t count_of(const Entry& entry, std::string_view key, json::Problems& p
 
 double checked_spacing(const Entry& entry, std::string_view key, json::Problems& problems) {
   if (!entry.value) return 1.0;
-  if (*entry.value > 0.0 && *entry.value <= kMaxCoordinate) return *entry.value;
+  if (*entry.value > 0.0 && *entry.value <= kMaxHeaderCoordinate) return *entry.value;
   problems.add(entry.line, key, "is not above 0, or too large");
   return 1.0;
 }
@@ -178,7 +169,7 @@ double origin_of(const Entry& corner, const Entry& center, std::string_view axis
   }
   const double origin =
       center.line != 0 ? center.value.value_or(0.0) : corner.value.value_or(0.0) + 0.5 * spacing;
-  if (std::abs(origin) <= kMaxCoordinate) return origin;
+  if (std::abs(origin) <= kMaxHeaderCoordinate) return origin;
   problems.add(std::max(corner.line, center.line), either, "is out of range", "-1e9 to 1e9");
   return 0.0;
 }

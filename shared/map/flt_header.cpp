@@ -13,31 +13,23 @@
 
 #include "shared/core/joined.h"
 #include "shared/json/text.h"
+#include "shared/map/esri_header.h"
 
 namespace woodlouse::map {
 namespace {
 
 constexpr double kMaxSide = 1e6;  ///< knots each way
-constexpr double kMaxCoordinate = 1e9;
 
 constexpr std::array<std::string_view, 22> kKeys = {
     "ncols",  "nrows",  "xllcorner", "xllcenter",    "yllcorner",     "yllcenter",   "cellsize", "ulxmap",
     "ulymap", "xdim",   "ydim",      "nodata_value", "nodata",        "byteorder",   "nbits",    "pixeltype",
     "nbands", "layout", "skipbytes", "bandrowbytes", "totalrowbytes", "bandgapbytes"};
 
-struct Entry {
+struct FltEntry {
   std::string key;    ///< lower case
   std::string value;  ///< lower case
   std::size_t line;
 };
-
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return result;
-}
 
 std::vector<std::string_view> words_of(std::string_view line) {
   std::vector<std::string_view> words;
@@ -50,12 +42,12 @@ std::vector<std::string_view> words_of(std::string_view line) {
   return words;
 }
 
-std::string place(const std::string& source, const Entry& entry) {
+std::string place(const std::string& source, const FltEntry& entry) {
   return source + ":" + std::to_string(entry.line) + ": " + entry.key;
 }
 
-core::Expected<std::vector<Entry>> read_entries(std::string_view text, const std::string& source) {
-  std::vector<Entry> entries;
+core::Expected<std::vector<FltEntry>> read_entries(std::string_view text, const std::string& source) {
+  std::vector<FltEntry> entries;
   std::size_t number = 0;
   while (!text.empty()) {
     ++number;
@@ -65,13 +57,13 @@ core::Expected<std::vector<Entry>> read_entries(std::string_view text, const std
     if (words.empty()) continue;
     const std::string where = source + ":" + std::to_string(number);
     if (words.size() != 2) return core::fail(where, "is no key and value", "as in: ncols 10001");
-    Entry entry{lower_case(words[0].substr(0, 32)), lower_case(words[1].substr(0, 64)), number};
+    FltEntry entry{lower_case(words[0].substr(0, 32)), lower_case(words[1].substr(0, 64)), number};
     if (std::find(kKeys.begin(), kKeys.end(), entry.key) == kKeys.end()) {
       return core::fail(where, core::joined({"\"", json::shown(entry.key), "\" is no header key"}),
                         "a float grid has ncols, nrows, xllcorner, "
                         "yllcorner, cellsize, NODATA_value, byteorder");
     }
-    for (const Entry& other : entries) {
+    for (const FltEntry& other : entries) {
       if (other.key == entry.key) return core::fail(place(source, entry), "stands twice", "keep one of them");
     }
     entries.push_back(std::move(entry));
@@ -80,13 +72,13 @@ core::Expected<std::vector<Entry>> read_entries(std::string_view text, const std
 }
 
 /// Looks keys up and collects the first thing that is wrong.
-class Header {
+class FltKeys {
  public:
-  Header(std::vector<Entry> entries, std::string source)
+  FltKeys(std::vector<FltEntry> entries, std::string source)
       : entries_(std::move(entries)), source_(std::move(source)) {}
 
-  [[nodiscard]] const Entry* find(std::string_view key) const {
-    for (const Entry& entry : entries_) {
+  [[nodiscard]] const FltEntry* find(std::string_view key) const {
+    for (const FltEntry& entry : entries_) {
       if (entry.key == key) return &entry;
     }
     return nullptr;
@@ -94,7 +86,7 @@ class Header {
   [[nodiscard]] bool has(std::string_view key) const { return find(key) != nullptr; }
 
   double number(std::string_view key, double min, double max, std::string_view range) {
-    const Entry* entry = find(key);
+    const FltEntry* entry = find(key);
     if (entry == nullptr) {
       complain(source_, std::string(key) + " is missing", {});
       return min;
@@ -120,7 +112,7 @@ class Header {
   }
   /// The key, if it stands there, has this value.
   void demand(std::string_view key, std::initializer_list<std::string_view> allowed, std::string hint) {
-    const Entry* entry = find(key);
+    const FltEntry* entry = find(key);
     if (entry == nullptr || std::find(allowed.begin(), allowed.end(), entry->value) != allowed.end()) return;
     complain(place(source_, *entry), core::joined({"\"", json::shown(entry->value), "\" can't be read"}),
              std::move(hint));
@@ -132,23 +124,23 @@ class Header {
   [[nodiscard]] const std::string& source() const { return source_; }
 
  private:
-  std::vector<Entry> entries_;
+  std::vector<FltEntry> entries_;
   std::string source_;
   std::optional<core::Error> error_;
 };
 
-double spacing(Header& header, std::string_view own) {
+double spacing(FltKeys& header, std::string_view own) {
   const std::string_view key = header.has(own) ? own : "cellsize";
-  return header.number(key, std::numeric_limits<double>::min(), kMaxCoordinate, "above 0 to 1e9");
+  return header.number(key, std::numeric_limits<double>::min(), kMaxHeaderCoordinate, "above 0 to 1e9");
 }
 
-double coordinate(Header& header, std::string_view key) {
-  return header.number(key, -kMaxCoordinate, kMaxCoordinate, "-1e9 to 1e9");
+double coordinate(FltKeys& header, std::string_view key) {
+  return header.number(key, -kMaxHeaderCoordinate, kMaxHeaderCoordinate, "-1e9 to 1e9");
 }
 
 /// The centre of the south-western cell along one axis. `from_upper` [m] from the upper left cell's centre to
 /// it.
-double origin(Header& header, std::string_view corner, std::string_view center, std::string_view upper,
+double origin(FltKeys& header, std::string_view corner, std::string_view center, std::string_view upper,
               double step, double from_upper) {
   const int given = int{header.has(corner)} + int{header.has(center)} + int{header.has(upper)};
   if (given > 1) {
@@ -162,7 +154,7 @@ double origin(Header& header, std::string_view corner, std::string_view center, 
   return coordinate(header, corner) + 0.5 * step;
 }
 
-void demand_plain_layout(Header& header, std::size_t columns) {
+void demand_plain_layout(FltKeys& header, std::size_t columns) {
   const std::string row_bytes = std::to_string(4 * columns);
   header.demand("nbits", {"32"}, "convert with gdal_translate -of EHdr -ot Float32");
   header.demand("pixeltype", {"float"}, "convert with gdal_translate -of EHdr -ot Float32");
@@ -175,9 +167,9 @@ void demand_plain_layout(Header& header, std::size_t columns) {
   header.demand("byteorder", {"lsbfirst", "i", "msbfirst", "m"}, "LSBFIRST or MSBFIRST");
 }
 
-float no_data_of(Header& header) {
+float no_data_of(FltKeys& header) {
   const std::string_view key = header.has("nodata_value") ? "nodata_value" : "nodata";
-  const Entry* entry = header.find(key);
+  const FltEntry* entry = header.find(key);
   if (entry == nullptr || entry->value == "nan" || entry->value == "-nan")
     return std::numeric_limits<float>::quiet_NaN();
   const double value = header.number(key, -std::numeric_limits<double>::max(),
@@ -191,7 +183,7 @@ float no_data_of(Header& header) {
 core::Expected<FltHeader> parse_flt_header(std::string_view text, const std::string& source) {
   auto entries = read_entries(text, source);
   if (!entries) return tl::unexpected(std::move(entries.error()));
-  Header header(std::move(*entries), source);
+  FltKeys header(std::move(*entries), source);
   FltHeader result;
   terrain::GridFrame& frame = result.frame;
   frame.columns = header.count("ncols");
@@ -203,7 +195,7 @@ core::Expected<FltHeader> parse_flt_header(std::string_view text, const std::str
                           -static_cast<double>(frame.rows - 1) * frame.dy);
   demand_plain_layout(header, frame.columns);
   result.no_data = no_data_of(header);
-  if (const Entry* order = header.find("byteorder")) {
+  if (const FltEntry* order = header.find("byteorder")) {
     if (order->value == "msbfirst" || order->value == "m") result.byte_order = ByteOrder::kBigEndian;
   }
   if (header.error()) return tl::unexpected(*header.error());

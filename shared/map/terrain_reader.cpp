@@ -18,7 +18,6 @@ using terrain::HeightGrid;
 constexpr json::Range kFunctionScale{0.1, 1e5, "m"};
 constexpr std::uint64_t kMinFunctionGrid = 2;
 constexpr std::uint64_t kMaxFunctionGrid = 999;
-constexpr std::size_t kMinKnotsEachWay = 4;
 
 FunctionTerrain read_function(const json::Value& value, const json::Value& name, json::Problems& problems) {
   const json::Fields fields(value, {"function", "grid", "scale"}, problems);
