@@ -55,6 +55,17 @@ TEST_CASE("update begins a register beside scenarios of one's own, which then ho
   CHECK(update(golden.file()).exit != Exit::kSame);
 }
 
+TEST_CASE("update writes through no link that stands beside the files") {
+  const WrittenScenario written;
+  written.write("other", "untouched");
+  for (const char* name : {"small.json.new", "goldens.txt.new"})
+    std::filesystem::create_symlink("other", written.folder() / name);
+  CHECK(update(written.folder()).exit == Exit::kSame);
+  CHECK(written.read("other") == "untouched");
+  CHECK(written.read("small.json").find("\"10\": \"") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(written.folder() / "small.json.new"));
+}
+
 TEST_CASE("a wrong hash is told with its scenario, tick, line and both hashes") {
   const Golden golden;
   const std::string hash = golden.hash();
