@@ -9,6 +9,12 @@
 #include "shared/replay/zstd_table.h"
 
 namespace woodlouse::replay {
+namespace {
+
+/// Of the frames found by unpacking, one is kept for so much text: a file of empty frames takes no memory.
+constexpr std::uint64_t kFoundFrameBytes = 1u << 16;
+
+}  // namespace
 
 ZstdInput::ZstdInput(std::unique_ptr<std::istream> packed)
     : packed_(std::move(packed)),
@@ -17,7 +23,12 @@ ZstdInput::ZstdInput(std::unique_ptr<std::istream> packed)
       out_(ZSTD_DStreamOutSize()) {
   if (!context_) core::out_of_memory();
   ZSTD_DCtx_setParameter(context_.get(), ZSTD_d_windowLogMax, kMaxWindowLog);
-  pending_ = {in_.data(), 0, 0};
+  if (std::optional<ZstdTable> table = read_zstd_table(*packed_)) {
+    frames_ = std::move(table->frames);
+    total_ = frames_.back().unpacked;
+    has_table_ = has_frames_ = true;
+  }
+  restart({});
 }
 
 std::uint64_t ZstdInput::position() const {
@@ -46,7 +57,8 @@ bool ZstdInput::unpack_some() {
       if (!has_more) return false;
       frame_ = {at, unpacked_end_};
       is_frame_open_ = true;
-      if (!has_frames_) frames_.push_back(frame_);
+      if (!has_frames_ && (frames_.empty() || frame_.unpacked - frames_.back().unpacked >= kFoundFrameBytes))
+        frames_.push_back(frame_);
     }
     ZSTD_outBuffer out{out_.data(), out_.size(), 0};
     const std::size_t left = ZSTD_decompressStream(context_.get(), &out, &pending_);
@@ -68,11 +80,29 @@ bool ZstdInput::unpack_some() {
                              std::to_string(packed_read_), " bytes: no recording"});
       return false;
     }
+    if (has_table_ && !check_frame_end()) return false;
     setg(out_.data(), out_.data(), out_.data() + out.pos);
     if (out.pos > 0) return true;
     if (!has_more) is_drained_ = true;
   }
   return false;
+}
+
+/// The frame being read goes as far as the table says, and no further.
+bool ZstdInput::check_frame_end() {
+  const auto next = std::upper_bound(frames_.begin(), frames_.end(), frame_.packed,
+                                     [](std::uint64_t at, const ZstdFrame& f) { return at < f.packed; });
+  if (next == frames_.end()) return true;  // the table itself
+  const std::uint64_t packed_end = packed_read_ - (pending_.size - pending_.pos);
+  const bool fits = is_frame_open_ ? unpacked_end_ <= next->unpacked
+                                   : unpacked_end_ == next->unpacked && packed_end == next->packed;
+  if (!fits) {
+    fault_ = core::joined({"the table of frames at its end says that the one at byte ",
+                           std::to_string(frame_.packed), " unpacks to ",
+                           std::to_string(next->unpacked - frame_.unpacked), " bytes, it unpacks to ",
+                           is_frame_open_ ? "more" : std::to_string(unpacked_end_ - frame_.unpacked)});
+  }
+  return fits;
 }
 
 ZstdInput::int_type ZstdInput::underflow() {
@@ -96,19 +126,14 @@ void ZstdInput::restart(const ZstdFrame& frame) {
   setg(out_.data(), out_.data(), out_.data());
 }
 
-/// By the table at the end or by unpacking it all.
+/// By unpacking it all, where no table names them.
 void ZstdInput::find_frames() {
   if (has_frames_) return;
-  if (std::optional<ZstdTable> table = read_zstd_table(*packed_)) {
-    frames_ = std::move(table->frames);
-    total_ = table->unpacked;
-  } else {
-    frames_.clear();
-    restart({});
-    while (unpack_some()) {
-    }
-    total_ = unpacked_end_;
+  frames_.clear();
+  restart({});
+  while (unpack_some()) {
   }
+  total_ = unpacked_end_;
   has_frames_ = true;
   restart({});
 }

@@ -1,10 +1,12 @@
 // Reads a recording of zstd frames as the text it was: a stream buffer that seeks by the unpacked byte.
 //
 // Frames are independent. A finished recording ends with a table of them, in zstd's own seekable format (a
-// skippable frame, which zstd passes over); where it is missing they are found by unpacking the file once.
-// A file that was cut off gives what its last frame holds. Bombs are refused: a window past kMaxWindow, a
-// frame that unpacks to more than kMaxFrameBytes, more than kMaxRatio bytes of text for each byte of the
-// file.
+// skippable frame, which zstd passes over); where it is missing, or names other frames than there are
+// (zstd_table.h), they are found by unpacking the file once. What the table says a frame unpacks to is
+// compared whenever the end of one is reached, however it is read: whoever reads all of it without a fault
+// has read what any jump finds. A file that was cut off gives what its last frame holds. Bombs are refused: a
+// window past kMaxWindow, a frame that unpacks to more than kMaxFrameBytes, more than kMaxRatio bytes of text
+// for each byte of the file.
 #pragma once
 
 #include <zstd.h>
@@ -50,6 +52,7 @@ class ZstdInput : public FaultTellingBuffer {
   [[nodiscard]] std::uint64_t position() const;
   bool refill_packed();
   bool unpack_some();
+  bool check_frame_end();
   void restart(const ZstdFrame& frame);
   void find_frames();
 
@@ -63,9 +66,10 @@ class ZstdInput : public FaultTellingBuffer {
   ZstdFrame frame_;                 ///< being read
   bool is_frame_open_ = false;
   bool is_drained_ = false;        ///< the file was cut off within a frame, all of which is unpacked
-  std::vector<ZstdFrame> frames_;  ///< by offset; once known
+  std::vector<ZstdFrame> frames_;  ///< by offset; the table's, or those to begin at that were met so far
   std::uint64_t total_ = 0;        ///< bytes unpacked; once known
-  bool has_frames_ = false;
+  bool has_table_ = false;
+  bool has_frames_ = false;  ///< frames_ and total_ are known to the end
 };
 
 }  // namespace woodlouse::replay
