@@ -114,8 +114,9 @@ CLI::App* add_fork(CLI::App& app, Typed& typed) {
 CLI::App* add_verify(CLI::App& app, VerifyRequest& request) {
   CLI::App* verify = app.add_subcommand(
       "verify",
-      "Re-run a recording and compare: places and hashes, inputs, who joined and left; names and chat are "
-      "what the file says");
+      "Re-run a recording and compare: places and hashes, inputs, who joined and left, and the index. Names, "
+      "chat, "
+      "margins, that it was this game a server played and that it ended there are what the file says");
   verify->add_option("file", request.files, "Recordings")->required();
   verify->add_option("--jobs", request.jobs, "Threads; each takes a stretch between keyframes")
       ->check(whole_number(1, kMaxJobs))

@@ -20,6 +20,7 @@
 #include "server/watchers/ground_ahead.h"
 #include "server/watchers/recorder.h"
 #include "server/watchers/shadow.h"
+#include "shared/core/joined.h"
 #include "shared/core/printable.h"
 #include "shared/core/stable_hash.h"
 #include "shared/map/map_file.h"
@@ -170,9 +171,10 @@ void Server::log_opened(const std::string& room, const ServeConfig& config, cons
   const match::Match& match = *start.match;
   if (start.parent)
     log_->info(
-        fmt::format("room {}: goes on from {}, tick {}, hash {}, with {} lice, {} ticks/s, {} frames/s", room,
-                    start.parent->file, match.tick(), core::to_hex(match.hash()), match.world().lice().size(),
-                    config.tick_hz, config.state_hz));
+        fmt::format("room {}: goes on from {}, tick {}, hash {}, with {} lice, {} ticks/s, {} frames/s{}",
+                    room, start.parent->file, match.tick(), core::to_hex(match.hash()),
+                    match.world().lice().size(), config.tick_hz, config.state_hz,
+                    start.on_trust.empty() ? "" : core::joined({"; on trust: ", start.on_trust})));
   else
     log_->info(fmt::format("room {}: map {}, {} ticks/s, {} frames/s, seed {}", room, start.map_file,
                            config.tick_hz, config.state_hz, match.settings().seed));

@@ -25,18 +25,15 @@ core::Error without_tick(const ReplayArchive& archive, const ForkPoint& point) {
 }
 
 /// By louse. A louse that nobody named can't be asked for.
-std::vector<Seat> unclaimed_seats(const ReplayArchive& archive, const match::Match& match) {
+std::vector<Seat> unclaimed_seats(const replay::PlayerLabels& labels, const match::Match& match) {
   std::vector<Seat> seats;
   for (const match::PlayerSeq& player : match.state().players) {
     if (!match.contains(player.player)) continue;
-    const auto& spans = archive.players();
-    const auto span =
-        std::lower_bound(spans.begin(), spans.end(), player.player,
-                         [](const replay::PlayerSpan& p, match::PlayerId id) { return p.player < id; });
-    if (span == spans.end() || span->player != player.player) continue;
-    std::string name = protocol::clean_text(span->label.name, protocol::kMaxNameBytes);
+    const auto label = labels.find(player.player);
+    if (label == labels.end()) continue;
+    std::string name = protocol::clean_text(label->second.name, protocol::kMaxNameBytes);
     if (name.empty()) continue;
-    seats.push_back({player.player, std::move(name), span->label.role,
+    seats.push_back({player.player, std::move(name), label->second.role,
                      player.last_seq ? *player.last_seq + 1 : 0, Nobody{}});
   }
   return seats;
@@ -48,6 +45,47 @@ core::Error with_advice(const core::Error& error, const ForkPoint& point) {
           joined({"is it whole?   try:  woodlouse-server verify ", point.recording.string()})};
 }
 
+core::Expected<void> check_played(const replay::Playback& playback, const ForkPoint& point) {
+  const auto& difference = playback.first_difference();
+  if (!difference) return {};
+  return core::fail(
+      point.recording.string(),
+      joined({"differs at tick ", std::to_string(difference->tick), ": ", difference->what,
+              ": what follows was never played"}),
+      joined({"take a tick before it, or ask:  woodlouse-server verify ", point.recording.string()}));
+}
+
+/// The inputs that wait at the fork's tick are those that the recording goes on to apply: it is re-run until
+/// all of them were due, two seconds at most. How many the recording does not tell of, because it ends before
+/// or their player left: what waits stands in a keyframe, and in no hash.
+core::Expected<std::size_t> check_waiting(replay::Playback& playback,
+                                          const std::vector<match::AppliedInput>& waiting,
+                                          const ForkPoint& point) {
+  std::size_t met = 0;
+  while (!waiting.empty() && playback.tick() <= waiting.back().tick) {
+    const auto step = playback.advance();
+    if (!step) return tl::unexpected(with_advice(step.error(), point));
+    if (auto played = check_played(playback, point); !played) return tl::unexpected(played.error());
+    if (!*step) break;
+    const std::vector<match::AppliedInput>& applied = (*step)->recorded.step.inputs;
+    met += static_cast<std::size_t>(
+        std::count_if(waiting.begin(), waiting.end(), [&](const match::AppliedInput& input) {
+          return std::find(applied.begin(), applied.end(), input) != applied.end();
+        }));
+  }
+  return waiting.size() - met;
+}
+
+/// "the keyframe of tick 900 and 2 waiting inputs"; empty: nothing.
+std::string on_trust(const replay::Playback& playback, std::size_t inputs) {
+  const std::uint64_t keyframe = playback.proven_since();
+  std::string text =
+      keyframe == 0 ? std::string() : joined({"the keyframe of tick ", std::to_string(keyframe)});
+  if (inputs == 0) return text;
+  return joined({text, text.empty() ? "" : " and ", std::to_string(inputs),
+                 inputs == 1 ? " waiting input" : " waiting inputs"});
+}
+
 }  // namespace
 
 core::Expected<Start> open_fork(const ForkPoint& point) {
@@ -57,11 +95,7 @@ core::Expected<Start> open_fork(const ForkPoint& point) {
     return tl::unexpected(without_tick(**archive, point));
   const auto playback = (*archive)->play(point.tick);
   if (!playback) return tl::unexpected(with_advice(playback.error(), point));
-  if (const auto difference = (*playback)->first_difference())
-    return core::fail(
-        point.recording.string(),
-        joined({"differs at tick ", std::to_string(*difference), ": what follows was never played"}),
-        joined({"take a tick before it, or ask:  woodlouse-server verify ", point.recording.string()}));
+  if (auto played = check_played(**playback, point); !played) return tl::unexpected(played.error());
   const match::MatchState state = (*playback)->match().state();
   if (!state.roster.empty())
     return core::fail(point.recording.string(),
@@ -72,8 +106,11 @@ core::Expected<Start> open_fork(const ForkPoint& point) {
   start.match = match::Match::restore(start.map, (*playback)->match().settings(), state);
   start.map_file =
       replay::map_file_of((*archive)->header(), {point.recording.parent_path(), point.maps}).string();
-  start.unclaimed = unclaimed_seats(**archive, *start.match);
+  start.unclaimed = unclaimed_seats((*playback)->labels(), *start.match);
   start.parent = replay::Parent{point.recording.string(), state.tick, state.hash};
+  const auto untold = check_waiting(**playback, state.waiting, point);
+  if (!untold) return tl::unexpected(untold.error());
+  start.on_trust = on_trust(**playback, *untold);
   return start;
 }
 

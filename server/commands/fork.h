@@ -15,9 +15,10 @@ struct ForkPoint {
   std::filesystem::path maps{};  ///< where its map is, if it is only named; empty: beside the recording
 };
 
-/// The match at that tick, proven up to there since the keyframe before it; inputs that waited for a later
-/// tick are those that keyframe knew. Errors: no recording or a damaged one, its map is not found or another,
-/// the tick is not in it, or what was recorded is not what a re-run gives.
+/// The match at that tick, proven up to there since the keyframe before it, which is taken on trust. Inputs
+/// that waited for a later tick are those that keyframe knew; the recording has to go on to apply them.
+/// Errors: no recording or a damaged one, its map is not found or another, the tick is not in it, or what was
+/// recorded is not what a re-run gives.
 core::Expected<Start> open_fork(const ForkPoint& point);
 
 }  // namespace woodlouse::server

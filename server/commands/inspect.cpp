@@ -37,10 +37,11 @@ int inspect_command(const InspectRequest& request, std::ostream& out, std::ostre
   if (!state) return report(state.error(), errors);
   out << json::printable_json(state->json);
   if (!state->difference) return 0;
-  return report(
-      {request.file.string(), core::joined({"differs at tick ", std::to_string(*state->difference)}),
-       "the state printed is the re-run's; ask verify"},
-      errors);
+  return report({request.file.string(),
+                 core::joined({"differs at tick ", std::to_string(state->difference->tick), ": ",
+                               state->difference->what}),
+                 "the state printed is the re-run's; ask verify"},
+                errors);
 }
 
 }  // namespace woodlouse::server

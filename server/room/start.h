@@ -18,6 +18,7 @@ struct Start {
   std::string map_file;                 ///< where the map is, for recordings
   std::vector<Seat> unclaimed;          ///< by louse; they have one each
   std::optional<replay::Parent> parent;
+  std::string on_trust{};  ///< of a parent's tick, what no re-run proves, for the log; empty: nothing
 };
 
 }  // namespace woodlouse::server

@@ -32,17 +32,36 @@ core::Expected<std::shared_ptr<const ReplayArchive>> ReplayArchive::open(ReplayS
       new ReplayArchive(std::move(source), std::move(*header), *map, std::move(*scanned)));
 }
 
-/// Its first and last keyframe stand where it says.
+/// Its first keyframe stands behind the header, its last one where it says, and from there steps lead to its
+/// last tick, itself and the end: so far a recording's two ends are known. Each place between is looked at
+/// when it is used (playback.cpp).
 bool ReplayArchive::is_index_sound(std::istream& in) const {
-  for (const KeyframePlace& place : {index_.keyframes.front(), index_.keyframes.back()}) {
-    in.clear();
-    in.seekg(static_cast<std::streamoff>(place.offset));
-    const auto line = ReplayReader(in, source_.name).next();
-    if (!line || !*line) return false;
-    const auto* keyframe = std::get_if<Keyframe>(&**line);
-    if (keyframe == nullptr || keyframe->state.tick != place.tick) return false;
+  in.clear();
+  in.seekg(0);
+  ReplayReader reader(in, source_.name);
+  if (!reader.read_header()) return false;
+  const auto is_keyframe = [](const core::Expected<std::optional<Line>>& line, std::uint64_t tick) {
+    const auto* keyframe = line && *line ? std::get_if<Keyframe>(&**line) : nullptr;
+    return keyframe != nullptr && keyframe->state.tick == tick;
+  };
+  const KeyframePlace& first = index_.keyframes.front();
+  if (!is_keyframe(reader.next(), first.tick) ||
+      first != KeyframePlace{first.tick, reader.line_offset(), reader.line_number()})
+    return false;
+  const KeyframePlace& last = index_.keyframes.back();
+  in.clear();
+  in.seekg(static_cast<std::streamoff>(last.offset));
+  ReplayReader tail(in, source_.name);
+  if (!is_keyframe(tail.next(), last.tick)) return false;
+  for (bool has_index = false;;) {
+    const auto line = tail.next();
+    if (!line || !*line || std::holds_alternative<Keyframe>(**line)) return false;
+    if (const auto* index = std::get_if<IndexLine>(&**line)) {
+      has_index = index->tick == index_.last_tick && index_.end &&
+                  last.offset + tail.line_offset() == index_.end->index_offset;
+    }
+    if (std::holds_alternative<End>(**line)) return has_index;
   }
-  return true;
 }
 
 core::Expected<std::unique_ptr<Playback>> ReplayArchive::play(std::uint64_t tick) const {

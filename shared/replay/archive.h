@@ -29,8 +29,9 @@ namespace woodlouse::replay {
 /// holds on to the archive.
 class ReplayArchive : public std::enable_shared_from_this<ReplayArchive> {
  public:
-  /// Reads header, map and index; an index that is missing or damaged is made anew by scanning the file.
-  /// Errors: no recording, another version or behavior (both are named), a map that is not the recorded one.
+  /// Reads header, map and index; an index that is missing, damaged, or wrong of the recording's first or
+  /// last tick is made anew by scanning the file. Errors: no recording, another version or behavior (both are
+  /// named), a map that is not the recorded one.
   static core::Expected<std::shared_ptr<const ReplayArchive>> open(ReplaySource source);
 
   [[nodiscard]] const Header& header() const { return header_; }
@@ -49,16 +50,16 @@ class ReplayArchive : public std::enable_shared_from_this<ReplayArchive> {
   [[nodiscard]] std::string_view end_reason() const {
     return index_.end ? std::string_view(index_.end->reason) : std::string_view();
   }
-  /// Whoever played, by id, and from which tick to which.
+  /// Whoever played, by id, and from which tick to which; as the index says, which verify() alone compares.
   [[nodiscard]] std::span<const PlayerSpan> players() const { return index_.players; }
-  /// Joins, leaves, respawns and chat, by tick.
+  /// Joins, leaves, respawns and chat, by tick; likewise.
   [[nodiscard]] std::span<const Mark> marks() const { return index_.marks; }
   [[nodiscard]] const ReplayIndex& index() const { return index_; }
   [[nodiscard]] const ReplaySource& source() const { return source_; }
 
   /// A playback that stands at a tick of first_tick() .. last_tick(), the exact match: the keyframe before it
   /// and at most kKeyframeSeconds re-run. Inputs that waited for a later tick are those the keyframe knew.
-  /// Errors: the tick is not in the recording; the file is damaged there.
+  /// Errors: the tick is not in the recording; the file is damaged there; the index misleads.
   [[nodiscard]] core::Expected<std::unique_ptr<Playback>> play(std::uint64_t tick) const;
 
  private:

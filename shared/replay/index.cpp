@@ -4,6 +4,7 @@
 #include <cassert>
 #include <iterator>
 
+#include "shared/core/joined.h"
 #include "shared/replay/line_reader.h"
 
 namespace woodlouse::replay {
@@ -53,7 +54,8 @@ void ReplayIndex::add(const StepLine& line) {
         add_mark({step.tick, MarkKind::kJoin, change.player});
         break;
       case match::RosterAction::kLeave:
-        if (PlayerSpan* player = find(change.player)) player->left = step.tick + 1;
+        if (const PlayerSpan* player = find(change.player))
+          players[static_cast<std::size_t>(player - players.data())].left = step.tick + 1;
         add_mark({step.tick, MarkKind::kLeave, change.player});
         break;
       case match::RosterAction::kRespawn:
@@ -73,10 +75,34 @@ void ReplayIndex::add_mark(const Mark& mark) {
   if (marks.size() < kMaxMarks) marks.push_back(mark);
 }
 
-PlayerSpan* ReplayIndex::find(match::PlayerId player) {
+const PlayerSpan* ReplayIndex::find(match::PlayerId player) const {
   const auto at = std::lower_bound(players.begin(), players.end(), player,
                                    [](const PlayerSpan& p, match::PlayerId id) { return p.player < id; });
   return at != players.end() && at->player == player ? &*at : nullptr;
+}
+
+namespace {
+
+/// "row 3 of keyframes", of the first that is another.
+template <typename Row>
+std::string unlike_rows(std::string_view name, const std::vector<Row>& recorded,
+                        const std::vector<Row>& lines) {
+  if (recorded == lines) return {};
+  const auto [a, b] = std::mismatch(recorded.begin(), recorded.end(), lines.begin(), lines.end());
+  return core::joined({"row ", std::to_string(a - recorded.begin() + 1), " of its ", name});
+}
+
+}  // namespace
+
+std::string unlike_index(const ReplayIndex& recorded, const ReplayIndex& lines) {
+  std::string unlike = unlike_rows("keyframes", recorded.keyframes, lines.keyframes);
+  if (unlike.empty()) unlike = unlike_rows("players", recorded.players, lines.players);
+  if (unlike.empty()) unlike = unlike_rows("marks", recorded.marks, lines.marks);
+  if (unlike.empty() && recorded.inputs != lines.inputs) {
+    unlike = core::joined(
+        {"its inputs, ", std::to_string(recorded.inputs), ": there are ", std::to_string(lines.inputs)});
+  }
+  return unlike;
 }
 
 core::Expected<ReplayIndex> scan_index(std::istream& in, const std::string& source) {

@@ -62,15 +62,23 @@ struct ReplayIndex {
   void add(const StepLine& line);
   void add(const ChatLine& line);
 
+  /// Null: no such player.
+  [[nodiscard]] const PlayerSpan* find(match::PlayerId player) const;
+
  private:
   void add_player(PlayerSpan player);
   void add_mark(const Mark& mark);
-  PlayerSpan* find(match::PlayerId player);
 };
+
+/// What a recorded index says that the lines it stands behind do not; empty: nothing. `lines`: made of all of
+/// them by add().
+std::string unlike_index(const ReplayIndex& recorded, const ReplayIndex& lines);
 
 /// The index line, newline included (index_text.cpp).
 void append_index(std::string& out, const ReplayIndex& index);
 
+/// The index of such a line. Errors: fields that are wrong or out of order. `line`: its number.
+core::Expected<ReplayIndex> parse_index(const std::string& text, const std::string& source, std::size_t line);
 /// The index that stands at the end of the recording; nothing where it is missing, cut off or damaged.
 std::optional<ReplayIndex> read_index(std::istream& in, const std::string& source);
 /// The index made anew by reading the whole recording. Errors: a damaged line; not one whole keyframe.

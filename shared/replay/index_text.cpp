@@ -4,6 +4,7 @@
 #include <istream>
 #include <utility>
 
+#include "shared/core/joined.h"
 #include "shared/json/document.h"
 #include "shared/json/fields.h"
 #include "shared/json/object_text.h"
@@ -111,14 +112,20 @@ ReplayIndex read_fields(const json::Value& root, Problems& problems) {
   return index;
 }
 
+/// By tick or id, as who looks something up in it trusts.
 bool is_in_order(const ReplayIndex& index) {
   const auto follows = [](const KeyframePlace& a, const KeyframePlace& b) {
     return a.tick >= b.tick || a.offset >= b.offset || a.line >= b.line;
   };
   const auto& places = index.keyframes;
   return !places.empty() && std::adjacent_find(places.begin(), places.end(), follows) == places.end() &&
-         places.back().tick <= index.last_tick && index.players.size() <= ReplayIndex::kMaxPlayers &&
-         index.marks.size() <= ReplayIndex::kMaxMarks;
+         places.back().tick <= index.last_tick &&
+         std::adjacent_find(index.players.begin(), index.players.end(),
+                            [](const PlayerSpan& a, const PlayerSpan& b) { return a.player >= b.player; }) ==
+             index.players.end() &&
+         std::is_sorted(index.marks.begin(), index.marks.end(),
+                        [](const Mark& a, const Mark& b) { return a.tick < b.tick; }) &&
+         index.players.size() <= ReplayIndex::kMaxPlayers && index.marks.size() <= ReplayIndex::kMaxMarks;
 }
 
 /// The last whole line; nothing when it is longer than an end can be.
@@ -163,6 +170,20 @@ void append_index(std::string& out, const ReplayIndex& index) {
   out += '\n';
 }
 
+core::Expected<ReplayIndex> parse_index(const std::string& text, const std::string& source,
+                                        std::size_t line) {
+  const auto document = json::parse_file(text, source, kLimits, line);
+  if (!document) return tl::unexpected(document.error());
+  Problems problems(source);
+  ReplayIndex index = read_fields(document->root(), problems);
+  if (problems.count() != 0) return tl::unexpected(problems.errors().front());
+  if (!is_in_order(index)) {
+    return core::fail(core::joined({source, ":", std::to_string(line), ": index"}),
+                      "keyframes, players or marks are out of order", "it was altered");
+  }
+  return index;
+}
+
 std::optional<ReplayIndex> read_index(std::istream& in, const std::string& source) {
   std::optional<End> end = read_end(in, source);
   if (!end) return std::nullopt;
@@ -174,13 +195,10 @@ std::optional<ReplayIndex> read_index(std::istream& in, const std::string& sourc
     line += static_cast<char>(c);
   }
   if (line.compare(0, 9, "{\"index\":") != 0) return std::nullopt;
-  const auto document = json::parse_file(line, source, kLimits);
-  if (!document) return std::nullopt;
-  Problems problems(source);
-  ReplayIndex index = read_fields(document->root(), problems);
-  if (problems.count() != 0 || !is_in_order(index) || index.last_tick != end->tick) return std::nullopt;
-  index.end = std::move(end);
-  return index;
+  core::Expected<ReplayIndex> index = parse_index(line, source, 0);
+  if (!index || index->last_tick != end->tick) return std::nullopt;
+  index->end = std::move(end);
+  return std::move(*index);
 }
 
 }  // namespace woodlouse::replay

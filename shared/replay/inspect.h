@@ -14,12 +14,12 @@ namespace woodlouse::replay {
 /// told by `difference`.
 struct InspectedState {
   std::string json;
-  std::optional<std::uint64_t> difference;  ///< the first tick since the keyframe before whose hash differs
+  std::optional<Difference> difference;  ///< the first since the keyframe before
 };
 core::Expected<InspectedState> inspect_state(const ReplayArchive& archive, std::uint64_t tick);
 
-/// Header, players, events, and for each player how many inputs, how many of them late, and their margins:
-/// reads the whole recording. A table for people.
+/// Header, players, events, and for each player how many inputs, how many of them late, and their margins: as
+/// the lines say, all of which are read, and where the index says otherwise. A table for people.
 core::Expected<std::string> inspect_summary(const ReplayArchive& archive);
 
 }  // namespace woodlouse::replay

@@ -44,27 +44,34 @@ struct Punctuality {
   }
 };
 
-using ByPlayer = std::map<match::PlayerId, Punctuality>;
+/// What all lines say.
+struct Reading {
+  ReplayIndex lines;
+  std::map<match::PlayerId, Punctuality> inputs;
+};
 
-core::Expected<ByPlayer> read_margins(const ReplayArchive& archive) {
+core::Expected<Reading> read_through(const ReplayArchive& archive) {
   const auto stream = archive.source().open();
   if (!stream) return tl::unexpected(stream.error());
   ReplayReader reader(**stream, archive.source().name);
   if (const auto header = reader.read_header(); !header) return tl::unexpected(header.error());
-  ByPlayer players;
-  for (const PlayerSpan& player : archive.players()) players[player.player];  // nobody else is told of
+  Reading reading;
   std::size_t margins = 0;
   for (;;) {
     const core::Expected<std::optional<Line>> line = reader.next();
     if (!line) return tl::unexpected(line.error());
-    if (!*line) return players;
+    if (!*line) return reading;
+    if (const auto* keyframe = std::get_if<Keyframe>(&**line))
+      reading.lines.add({keyframe->state.tick, reader.line_offset(), reader.line_number()}, *keyframe);
+    if (const auto* chat = std::get_if<ChatLine>(&**line)) reading.lines.add(*chat);
+    if (auto* end = std::get_if<End>(&**line)) reading.lines.end = std::move(*end);
     const auto* step = std::get_if<StepLine>(&**line);
     if (step == nullptr) continue;
+    reading.lines.add(*step);
     for (std::size_t k = 0; k < step->step.inputs.size(); ++k) {
-      const auto player = players.find(step->step.inputs[k].player);
-      if (player != players.end() &&
-          player->second.add(step->margins_ms[k], margins < kExactMargins ? 1 : 1000))
-        ++margins;
+      const match::PlayerId player = step->step.inputs[k].player;
+      if (reading.lines.find(player) == nullptr) continue;  // nobody else is told of
+      if (reading.inputs[player].add(step->margins_ms[k], margins < kExactMargins ? 1 : 1000)) ++margins;
     }
   }
 }
@@ -80,7 +87,7 @@ std::string formatted(const char* format, Values... values) {
 /// What came in a file, for a terminal.
 std::string shown(std::string_view text) { return protocol::clean_text(text, kMaxTextBytes); }
 
-std::string head(const ReplayArchive& archive) {
+std::string head(const ReplayArchive& archive, const ReplayIndex& lines) {
   const Header& header = archive.header();
   std::string out = core::joined(
       {archive.source().name, "\nmap      ", shown(header.map_name), " ", core::to_hex(header.map_hash),
@@ -90,19 +97,23 @@ std::string head(const ReplayArchive& archive) {
     out += core::joined({"forked   from ", shown(header.parent->file), " at tick ",
                          std::to_string(header.parent->tick), "\n"});
   }
-  const std::uint64_t ticks = archive.last_tick() - archive.first_tick();
-  out += core::joined({"ticks    ", std::to_string(archive.first_tick()), " to ",
-                       std::to_string(archive.last_tick()),
+  const std::uint64_t first = lines.keyframes.front().tick;
+  const std::uint64_t ticks = lines.last_tick - first;
+  out += core::joined({"ticks    ", std::to_string(first), " to ", std::to_string(lines.last_tick),
                        formatted(", %.1f s; ", static_cast<double>(ticks) / header.tick_hz),
-                       archive.is_cut_off() ? std::string("cut off, without an end")
-                                            : core::joined({"ended: ", shown(archive.end_reason())}),
+                       lines.end ? core::joined({"ended: ", shown(lines.end->reason)})
+                                 : std::string("cut off, without an end"),
                        "\n"});
   std::uint64_t counts[4] = {};
-  for (const Mark& mark : archive.marks()) ++counts[static_cast<std::size_t>(mark.kind)];
+  for (const Mark& mark : lines.marks) ++counts[static_cast<std::size_t>(mark.kind)];
   out += core::joined({"events   ", std::to_string(counts[0]), " joins, ", std::to_string(counts[1]),
                        " leaves, ", std::to_string(counts[2]), " respawns, ", std::to_string(counts[3]),
                        " chats\n"});
-  return out + core::joined({"inputs   ", std::to_string(archive.index().inputs), "\n\n"});
+  out += core::joined({"inputs   ", std::to_string(lines.inputs), "\n"});
+  const std::string unlike = unlike_index(archive.index(), lines);
+  if (!unlike.empty())
+    out += core::joined({"index    is not that of the lines, which are told here: ", unlike, "\n"});
+  return out + "\n";
 }
 
 std::string row(const PlayerSpan& player, const Punctuality& inputs) {
@@ -124,14 +135,14 @@ std::string row(const PlayerSpan& player, const Punctuality& inputs) {
 }  // namespace
 
 core::Expected<std::string> inspect_summary(const ReplayArchive& archive) {
-  const core::Expected<ByPlayer> inputs = read_margins(archive);
-  if (!inputs) return tl::unexpected(inputs.error());
-  std::string out = head(archive);
+  const core::Expected<Reading> reading = read_through(archive);
+  if (!reading) return tl::unexpected(reading.error());
+  std::string out = head(archive, reading->lines);
   out += "margin: how long before its step an input came; 99 of 100 came at least `99%` ms before\n";
   out += "player role     joined     left    inputs     late  median     99%   least  name\n";
-  for (const PlayerSpan& player : archive.players()) {
-    const auto found = inputs->find(player.player);
-    out += row(player, found != inputs->end() ? found->second : Punctuality{});
+  for (const PlayerSpan& player : reading->lines.players) {
+    const auto found = reading->inputs.find(player.player);
+    out += row(player, found != reading->inputs.end() ? found->second : Punctuality{});
   }
   return out;
 }

@@ -94,6 +94,8 @@ core::Expected<void> LineOrder::index(std::uint64_t tick) {
 }
 
 core::Expected<void> LineOrder::end(std::uint64_t tick) {
+  if (due_ && !has_index_)
+    return core::fail("end", "has no index before it", "a server writes both or neither");
   if (due_ && tick != *due_) {
     return core::fail("end", joined({"tick ", number(tick), " after step lines up to tick ", number(*due_)}),
                       "lines are missing");

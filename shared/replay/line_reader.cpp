@@ -22,7 +22,8 @@ using json::Fields;
 using json::Problems;
 using json::Range;
 
-constexpr json::Limits kLimits{8, 4'000'000};
+constexpr std::size_t kMaxDepth = 8;
+constexpr std::size_t kMaxValues = 4'000'000;  // of a line of kMaxReplayLineBytes
 constexpr std::uint64_t kMaxUint32 = std::numeric_limits<std::uint32_t>::max();
 constexpr Range kCoordinate{-1e300, 1e300, ""};
 
@@ -271,9 +272,10 @@ core::Expected<bool> ReplayReader::read_line() {
       ++line_number_;
       return true;
     }
-    if (line_.size() >= kMaxReplayLineBytes) {
+    if (line_.size() >= longest_line_) {
+      wants_longer_lines_ = longest_line_ < kMaxReplayLineBytes;
       return core::fail(joined({source_, ":", std::to_string(line_number_ + 1)}),
-                        joined({"a line longer than ", std::to_string(kMaxReplayLineBytes >> 20), " MiB"}));
+                        joined({"a line longer than ", std::to_string(longest_line_ >> 20), " MiB"}));
     }
     line_ += static_cast<char>(c);
   }
@@ -289,7 +291,7 @@ core::Expected<Header> ReplayReader::read_header() {
   if (!*whole)
     return core::fail(source_,
                       line_.empty() ? "is empty" : "has no whole line: it was cut off in the header");
-  const auto document = json::parse_file(line_, source_, kLimits, line_number_);
+  const auto document = json::parse_file(line_, source_, {kMaxDepth, kMaxValues}, line_number_);
   if (!document) return tl::unexpected(document.error());
   Problems problems(source_);
   Header header = replay::read_header(document->root(), problems);
@@ -302,8 +304,13 @@ core::Expected<std::optional<Line>> ReplayReader::next() {
   const core::Expected<bool> whole = read_line();
   if (!whole) return tl::unexpected(whole.error());
   if (!*whole) return std::optional<Line>();
-  const auto document = json::parse_file(line_, source_, kLimits, line_number_);
-  if (!document) return tl::unexpected(document.error());
+  // Memory goes with the bytes and with the values: who takes shorter lines takes fewer values.
+  const std::size_t values = kMaxValues * longest_line_ / kMaxReplayLineBytes;
+  const auto document = json::parse_file(line_, source_, {kMaxDepth, values}, line_number_);
+  if (!document) {
+    wants_longer_lines_ = longest_line_ < kMaxReplayLineBytes;
+    return tl::unexpected(document.error());
+  }
   Problems problems(source_);
   Line line = read_object(document->root(), problems);
   if (problems.count() != 0) return tl::unexpected(problems.errors().front());

@@ -20,9 +20,11 @@ namespace woodlouse::replay {
 class ReplayReader {
  public:
   /// `in` outlives the reader; `source` names it in errors ("FILE:LINE: field: what"). `line`: how many lines
-  /// stand before where `in` is.
-  ReplayReader(std::istream& in, std::string source, std::size_t line = 0)
-      : in_(in), source_(std::move(source)), line_number_(line) {}
+  /// stand before where `in` is. `longest_line`: fewer bytes than kMaxReplayLineBytes for who has less
+  /// memory.
+  ReplayReader(std::istream& in, std::string source, std::size_t line = 0,
+               std::size_t longest_line = kMaxReplayLineBytes)
+      : in_(in), source_(std::move(source)), line_number_(line), longest_line_(longest_line) {}
 
   /// The first line. Refuses another format, version or behavior, naming both.
   core::Expected<Header> read_header();
@@ -31,6 +33,10 @@ class ReplayReader {
 
   /// The file's last line has no newline: whoever wrote it was interrupted. Known once next() gave nothing.
   [[nodiscard]] bool is_cut_off() const { return cut_off_; }
+  /// next() failed at a line that a reader of longer lines may take.
+  [[nodiscard]] bool wants_longer_lines() const { return wants_longer_lines_; }
+  /// That line, without its newline.
+  [[nodiscard]] const std::string& line() const { return line_; }
   /// The line read last, from 1.
   [[nodiscard]] std::size_t line_number() const { return line_number_; }
   [[nodiscard]] const std::string& source() const { return source_; }
@@ -47,7 +53,9 @@ class ReplayReader {
   std::string line_;
   std::size_t line_number_ = 0;
   std::uint64_t line_offset_ = 0;
+  std::size_t longest_line_;
   bool cut_off_ = false;
+  bool wants_longer_lines_ = false;
   LineOrder order_;
 };
 

@@ -8,8 +8,8 @@
 namespace woodlouse::replay {
 
 /// verify()'s verdict, with the segments between keyframes checked by `jobs` >= 1 threads at once, which have
-/// ended when it returns. An index that does not lead from each segment to the next is not trusted: then the
-/// recording is read through.
+/// ended when it returns. An index that does not tell each segment and what is in it is not trusted: then,
+/// and where a line is longer than a job's share of memory, the recording is read through after all.
 core::Expected<Verification> verify(const ReplaySource& source, unsigned jobs);
 
 }  // namespace woodlouse::replay

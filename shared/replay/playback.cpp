@@ -37,13 +37,39 @@ core::Expected<void> Playback::restore(std::size_t keyframe) {
                                     " is not where the index has it"}));
   }
   const Header& header = archive_->header();
-  auto rerun =
-      Rerun::from(archive_->map(), {header.tick_hz, header.seed}, std::move(*found), reader->place());
+  labels_ = std::move(found->labels);
+  auto rerun = Rerun::from_recorded(archive_->map(), {header.tick_hz, header.seed}, std::move(*found),
+                                    reader->place());
   if (!rerun) return tl::unexpected(rerun.error());
   reader_ = std::move(reader);
   rerun_ = std::move(*rerun);
   first_difference_.reset();
+  proven_since_ = place.tick;
   return {};
+}
+
+/// A keyframe on the way: the index has it, and it shows what the re-run led to.
+core::Expected<void> Playback::pass(const Keyframe& keyframe) {
+  const std::uint64_t at = keyframe.state.tick;
+  const ReplayIndex& index = archive_->index();
+  if (index.keyframes[index.keyframe_before(at)].tick != at) {
+    return core::fail(reader_->place(),
+                      core::joined({"the index leaves out the keyframe of tick ", std::to_string(at)}));
+  }
+  if (first_difference_) return {};
+  std::string unlike = rerun_->difference_to(keyframe);
+  if (!unlike.empty())
+    first_difference_ = Difference{at, core::joined({"keyframe ", std::to_string(at), ": ", unlike}), {}};
+  return {};
+}
+
+void Playback::note_labels(const StepLine& step) {
+  for (std::size_t k = 0; k < step.step.roster.size(); ++k) {
+    const match::RosterChange& change = step.step.roster[k];
+    if (change.action == match::RosterAction::kLeave) labels_.erase(change.player);
+    if (change.action == match::RosterAction::kJoin && step.labels[k])
+      labels_[change.player] = *step.labels[k];
+  }
 }
 
 core::Expected<void> Playback::seek(std::uint64_t tick) {
@@ -75,13 +101,17 @@ core::Expected<std::optional<PlayedStep>> Playback::advance() {
     if (!line) return tl::unexpected(line.error());
     if (!*line || std::holds_alternative<End>(**line)) return std::optional<PlayedStep>();
     if (auto* chat = std::get_if<ChatLine>(&**line)) played.chats.push_back(std::move(*chat));
+    if (const auto* keyframe = std::get_if<Keyframe>(&**line)) {
+      if (auto passed = pass(*keyframe); !passed) return tl::unexpected(passed.error());
+    }
     auto* step = std::get_if<StepLine>(&**line);
     if (step == nullptr) continue;
-    const auto difference = rerun_->step(*step, reader_->place());
+    auto difference = rerun_->step(*step, reader_->place());
     if (!difference) return tl::unexpected(difference.error());
+    note_labels(*step);
     played.recorded = std::move(*step);
     played.hash = match().hash();
-    if (*difference && !first_difference_) first_difference_ = (*difference)->tick;
+    if (!first_difference_) first_difference_ = std::move(*difference);
     return std::optional(std::move(played));
   }
 }

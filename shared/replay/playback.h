@@ -11,11 +11,11 @@
 #include "shared/core/error.h"
 #include "shared/match/match.h"
 #include "shared/replay/line_reader.h"
+#include "shared/replay/rerun.h"
 
 namespace woodlouse::replay {
 
 class ReplayArchive;
-class Rerun;
 
 /// What one step forth did.
 struct PlayedStep {
@@ -40,20 +40,28 @@ class Playback {
   /// Goes to any tick of the recording, forth or back; at most kKeyframeSeconds are re-run. After an error
   /// the playback stands somewhere else in the recording, but whole.
   core::Expected<void> seek(std::uint64_t tick);
-  /// The first tick whose hash differed since the last jump's keyframe, when one did.
-  [[nodiscard]] std::optional<std::uint64_t> first_difference() const { return first_difference_; }
+  /// Where the re-run first parted from the recording since the last jump's keyframe, when it did.
+  [[nodiscard]] const std::optional<Difference>& first_difference() const { return first_difference_; }
+  /// The keyframe that the last jump restored: what is shown is proven since there.
+  [[nodiscard]] std::uint64_t proven_since() const { return proven_since_; }
+  /// Of those who are there, where known; as that keyframe and the steps since say.
+  [[nodiscard]] const PlayerLabels& labels() const { return labels_; }
 
  private:
   friend class ReplayArchive;
   explicit Playback(std::shared_ptr<const ReplayArchive> archive);
 
   core::Expected<void> restore(std::size_t keyframe);
+  core::Expected<void> pass(const Keyframe& keyframe);
+  void note_labels(const StepLine& step);
 
   std::shared_ptr<const ReplayArchive> archive_;
   std::unique_ptr<std::istream> stream_;
   std::unique_ptr<ReplayReader> reader_;
   std::unique_ptr<Rerun> rerun_;
-  std::optional<std::uint64_t> first_difference_;
+  std::optional<Difference> first_difference_;
+  std::uint64_t proven_since_ = 0;
+  PlayerLabels labels_;
 };
 
 }  // namespace woodlouse::replay

@@ -140,6 +140,22 @@ core::Expected<std::unique_ptr<Rerun>> Rerun::from(std::shared_ptr<const map::Ma
       new Rerun(match::Match::restore(std::move(map), settings, state), last_joined));
 }
 
+core::Expected<std::unique_ptr<Rerun>> Rerun::from_recorded(std::shared_ptr<const map::Map> map,
+                                                            const match::MatchSettings& settings,
+                                                            Keyframe keyframe, const std::string& place) {
+  std::string unlike;
+  if (keyframe.state.tick == 0) {
+    const Rerun fresh(std::make_unique<match::Match>(map, settings), 0);
+    unlike = fresh.difference_to(keyframe);
+    const std::size_t waiting = keyframe.state.waiting.size();
+    if (waiting != 0) unlike = joined({"waiting: ", both(std::to_string(waiting), "0")});
+  }
+  auto rerun = from(std::move(map), settings, std::move(keyframe), place);
+  if (rerun && !unlike.empty())
+    return core::fail(place, joined({"keyframe 0: ", unlike}), "no game begins so: it was altered");
+  return rerun;
+}
+
 core::Expected<std::optional<Difference>> Rerun::step(const StepLine& line, const std::string& place) {
   const match::StepRecord& recorded = line.step;
   if (recorded.tick != match_->tick()) {

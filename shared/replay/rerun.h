@@ -33,6 +33,13 @@ class Rerun {
                                                      const match::MatchSettings& settings, Keyframe keyframe,
                                                      const std::string& place);
 
+  /// The same of a keyframe that stands in a recording: one of tick 0 is the beginning of a game of that map
+  /// and seed, in every field (a live match at tick 0 may have joins behind it). Errors: as from(), or it is
+  /// not.
+  static core::Expected<std::unique_ptr<Rerun>> from_recorded(std::shared_ptr<const map::Map> map,
+                                                              const match::MatchSettings& settings,
+                                                              Keyframe keyframe, const std::string& place);
+
   /// Performs the step as recorded; nothing: it went so. Errors: it can't follow what came before.
   core::Expected<std::optional<Difference>> step(const StepLine& line, const std::string& place);
   /// What of the keyframe is otherwise than here: "louse 3, x: .. recorded, .. re-run"; empty: nothing.

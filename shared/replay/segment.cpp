@@ -28,8 +28,9 @@ void compare(const Rerun& rerun, const Keyframe& keyframe, Segment& segment) {
 }  // namespace
 
 core::Expected<Segment> run_segment(ReplayReader& reader, const std::shared_ptr<const map::Map>& map,
-                                    const match::MatchSettings& settings, Keyframe start) {
-  auto rerun = Rerun::from(map, settings, std::move(start), reader.place());
+                                    const match::MatchSettings& settings, Keyframe start,
+                                    ReplayIndex& lines) {
+  auto rerun = Rerun::from_recorded(map, settings, std::move(start), reader.place());
   if (!rerun) return tl::unexpected(rerun.error());
   Segment segment;
   for (;;) {
@@ -40,6 +41,7 @@ core::Expected<Segment> run_segment(ReplayReader& reader, const std::shared_ptr<
       auto difference = (*rerun)->step(*step, reader.place());
       if (!difference) return tl::unexpected(difference.error());
       ++segment.steps;
+      lines.add(*step);
       if (!segment.difference) segment.difference = std::move(*difference);
     }
     if (auto* keyframe = std::get_if<Keyframe>(&**line)) {
@@ -47,10 +49,31 @@ core::Expected<Segment> run_segment(ReplayReader& reader, const std::shared_ptr<
       segment.next = std::move(*keyframe);
       return segment;
     }
-    segment.has_end |= std::holds_alternative<End>(**line);
+    if (const auto* chat = std::get_if<ChatLine>(&**line)) lines.add(*chat);
+    if (std::holds_alternative<IndexLine>(**line)) {
+      auto index = parse_index(reader.line(), reader.source(), reader.line_number());
+      if (!index) return tl::unexpected(index.error());
+      segment.index = std::move(*index);
+      segment.index_offset = reader.line_offset();
+    }
+    if (auto* end = std::get_if<End>(&**line)) segment.end = std::move(*end);
   }
   if (segment.difference) segment.difference->detail = "no keyframe follows that could say which louse";
   return segment;
+}
+
+std::optional<Difference> index_difference(const Segment& last, std::uint64_t begin,
+                                           const ReplayIndex& lines) {
+  if (!last.index) return std::nullopt;
+  const std::uint64_t offset = begin + last.index_offset;
+  std::string unlike = unlike_index(*last.index, lines);
+  if (unlike.empty() && last.end && last.end->index_offset != offset) {
+    unlike = joined({"where it stands, ", std::to_string(last.end->index_offset), " bytes: it is ",
+                     std::to_string(offset)});
+  }
+  if (unlike.empty()) return std::nullopt;
+  return Difference{lines.last_tick, joined({"the index is not that of the lines before it: ", unlike}),
+                    "every tick up to it is the same"};
 }
 
 }  // namespace woodlouse::replay

@@ -24,15 +24,22 @@ core::Expected<Verification> verify(const ReplaySource& source) {
   std::optional<Keyframe> start = std::get<Keyframe>(std::move(**first));
   Verification verification;
   verification.first_tick = start->state.tick;
+  ReplayIndex lines;
+  const auto add = [&](const Keyframe& keyframe) {
+    lines.add({keyframe.state.tick, reader.line_offset(), reader.line_number()}, keyframe);
+  };
+  add(*start);
   bool has_end = false;
   while (start && !verification.difference) {
-    core::Expected<Segment> segment =
-        run_segment(reader, *map, {header->tick_hz, header->seed}, *std::exchange(start, std::nullopt));
+    core::Expected<Segment> segment = run_segment(reader, *map, {header->tick_hz, header->seed},
+                                                  *std::exchange(start, std::nullopt), lines);
     if (!segment) return tl::unexpected(segment.error());
     verification.ticks += segment->steps;
     verification.difference = std::move(segment->difference);
+    if (segment->next) add(*segment->next);
+    if (!verification.difference) verification.difference = index_difference(*segment, 0, lines);
     start = std::move(segment->next);
-    has_end = segment->has_end;
+    has_end = segment->end.has_value();
   }
   verification.cut_off = !has_end && !verification.difference;
   return verification;

@@ -20,7 +20,7 @@ namespace woodlouse::replay {
 struct Verification {
   std::uint64_t first_tick = 0;  ///< where it begins
   std::uint64_t ticks = 0;       ///< steps re-run up to the end, or to where the first difference showed
-  /// It begins at tick 0, of which map and seed say all (match::why_not). Else whoever wrote the first
+  /// It begins at tick 0, of which map and seed say all (Rerun::from_recorded). Else whoever wrote the first
   /// keyframe may have made it up, and what follows from it alone is proven: a fork's, or a recording whose
   /// beginning is missing.
   [[nodiscard]] bool from_start() const { return first_tick == 0; }
@@ -29,7 +29,8 @@ struct Verification {
   [[nodiscard]] bool ok() const { return !difference.has_value(); }
 };
 
-/// Re-runs a recording from its first line to its last; the index plays no part. Errors: a file that is no
+/// Re-runs a recording from its first line to its last, and once; the index plays no part but that it has to
+/// tell what the lines before it do. Errors: a file that is no
 /// recording, of another version or behavior, or damaged before its last line. parallel_verify.h: by several
 /// threads.
 core::Expected<Verification> verify(const ReplaySource& source);

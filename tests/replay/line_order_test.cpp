@@ -46,11 +46,12 @@ TEST_CASE("chat stands before the step that was due, and so much of it as a serv
   const auto with_chats = [&](std::uint64_t tick, std::size_t count) {
     auto lines = recording.lines;
     lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(at), count, chat(tick));
+    lines.resize(lines.size() - 2);  // the index, which knows of no such chat, and the end
     return lines;
   };
   const auto place = [&](std::size_t line) { return "r.jsonl:" + std::to_string(at + line) + ": chat: "; };
   const std::size_t own = kMaxChatsAStep;
-  CHECK(error_of(with_chats(100, own)) == "ok ticks 0 to 130\n");
+  CHECK(error_of(with_chats(100, own)).find("ok ticks 0 to 130, then ") == 0);
   CHECK(error_of(with_chats(100, own + 1)) ==
         place(own + 1) + "more than 4096 lines of chat before step 100 (no server lets so many pass)");
   CHECK(error_of(with_chats(99, 1)).find(place(1) + "of step 99 stands where step 100 is due") == 0);

@@ -1,8 +1,10 @@
 // However many threads verify, and whatever was altered, they say the same.
 #include <catch2/catch.hpp>
+#include <sstream>
 #include <string>
 
 #include "shared/core/random.h"
+#include "shared/replay/line_reader.h"
 #include "shared/replay/parallel_verify.h"
 #include "tests/replay/recorded_match.h"
 
@@ -32,6 +34,22 @@ TEST_CASE("an altered byte anywhere gives the same words with one job and with s
     INFO(at << " " << altered.substr(at < 40 ? 0 : at - 40, 80));
     CHECK(said(altered, 3) == said(altered, 1));
   }
+}
+
+TEST_CASE("a line that is longer than a job's share of memory is read all the same") {
+  Recording recording = record({.steps = 130});
+  std::string& line = recording.lines[recording.line_of_step(70)];
+  line.insert(1, std::string(200'000, ' '));
+  const std::string text = recording.text_with_own_index();
+  for (const unsigned jobs : {2u, 100u, 256u}) CHECK(said(text, jobs) == "ok ticks 0 to 130\n");
+  // Its share is less than that line: the reader that has it says so, and nothing else.
+  std::istringstream in(text);
+  ReplayReader reader(in, "r.jsonl", 0, 100'000);
+  REQUIRE(reader.read_header());
+  core::Expected<std::optional<Line>> next = reader.next();
+  while (next && *next) next = reader.next();
+  CHECK_FALSE(next);
+  CHECK(reader.wants_longer_lines());
 }
 
 TEST_CASE("lines between two keyframes of the same tick are not passed over") {

@@ -139,6 +139,20 @@ Recording record_packed(const Scenario& scenario) { return RandomGame(scenario, 
 
 std::string Recording::text() const { return std::accumulate(lines.begin(), lines.end(), std::string()); }
 
+std::string Recording::text_with_own_index() const {
+  std::string text;
+  for (const std::string& line : lines) {
+    if (line.compare(0, 9, "{\"index\":") != 0 && line.compare(0, 7, "{\"end\":") != 0) text += line;
+  }
+  std::istringstream in(text);
+  const auto index = scan_index(in, "r.jsonl");
+  if (!index) FAIL(index.error().text());
+  const std::uint64_t offset = text.size();
+  append_index(text, *index);
+  append_end(text, {index->last_tick, "steps done", offset});
+  return text;
+}
+
 std::size_t Recording::line_of_step(std::uint64_t step) const {
   const std::string begin = core::joined({"{\"step\":", std::to_string(step), ","});
   for (std::size_t k = 0; k < lines.size(); ++k) {

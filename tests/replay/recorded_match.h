@@ -36,6 +36,8 @@ struct Recording {
 
   /// The lines as they are now.
   [[nodiscard]] std::string text() const;
+  /// Those lines with an index and an end made anew, as whoever alters the others can.
+  [[nodiscard]] std::string text_with_own_index() const;
   /// The index of the line of that step.
   [[nodiscard]] std::size_t line_of_step(std::uint64_t step) const;
 };

@@ -7,6 +7,7 @@
 
 #include "shared/core/joined.h"
 #include "shared/map/map_file.h"
+#include "shared/replay/inspect.h"
 #include "shared/replay/parallel_verify.h"
 #include "shared/replay/source_file.h"
 #include "shared/replay/writer.h"
@@ -55,8 +56,11 @@ TEST_CASE("a start that a game does not begin with is taken on trust, and said t
   const std::size_t keyframe = recording.line_of_step(59) + 1;
   Recording late = recording;  // the first sixty steps and the keyframe before them cut away
   late.lines.erase(late.lines.begin() + 1, late.lines.begin() + static_cast<std::ptrdiff_t>(keyframe));
+  CHECK(to_text(verdict(late.text())) ==
+        "differs at tick 130: the index is not that of the lines before it: row 1 of its keyframes\n"
+        "every tick up to it is the same\n");
   for (const unsigned jobs : {1u, 3u}) {
-    const auto found = verify(ReplaySource::of_bytes(late.text(), "r.jsonl"), jobs);
+    const auto found = verify(ReplaySource::of_bytes(late.text_with_own_index(), "r.jsonl"), jobs);
     REQUIRE(found);
     CHECK_FALSE(found->from_start());
     CHECK(to_text(*found) == "ok ticks 60 to 130, the start is taken on trust\n");
@@ -71,6 +75,84 @@ TEST_CASE("a start that a game does not begin with is taken on trust, and said t
   header.replace(header.find("\"seed\":\"1\""), 10, "\"seed\":\"2\"");
   CHECK(verify_text(other.text()).error().text().find("at tick 0 there are no lice") != std::string::npos);
   CHECK(verdict(recording.text()).from_start());
+}
+
+TEST_CASE("a game begins with nobody there, nobody's input waiting and every id free, from a start or not") {
+  const Recording recording = record({.steps = 130});
+  const auto said = [&](const std::string& from, const std::string& to, unsigned jobs) {
+    Recording altered = recording;
+    std::string& keyframe = altered.lines[1];
+    const std::size_t at = keyframe.find(from);
+    REQUIRE(at != std::string::npos);
+    keyframe.replace(at, from.size(), to);
+    const auto found = verify(ReplaySource::of_bytes(altered.text_with_own_index(), "r.jsonl"), jobs);
+    CHECK_FALSE(ReplayArchive::open(ReplaySource::of_bytes(altered.text(), "r.jsonl")).value()->play(3));
+    return found ? to_text(*found) : found.error().text();
+  };
+  const std::string place = "r.jsonl:2: keyframe 0: ";
+  const std::string hint = " (no game begins so: it was altered)";
+  for (const unsigned jobs : {1u, 3u}) {
+    CHECK(said("\"next_player\":1,", "\"next_player\":3,", jobs) ==
+          place + "next_player: 3 recorded, 1 re-run" + hint);
+    CHECK(said("\"next_player\":1,\"players\":[]", "\"next_player\":3,\"players\":[[2,7]]", jobs) ==
+          place + "next_player: 3 recorded, 1 re-run" + hint);
+    CHECK(said("\"next_player\":1,\"players\":[],\"waiting\":[]",
+               "\"next_player\":3,\"players\":[[2,7]],\"waiting\":[[9,2,7,64]]",
+               jobs) == place + "waiting: 1 recorded, 0 re-run" + hint);
+  }
+}
+
+TEST_CASE("an index that says what the lines do not is told, with one job and with several") {
+  const Recording recording = record({.seed = 6, .steps = 130});
+  const std::size_t index = recording.lines.size() - 2;
+  REQUIRE(recording.leaves > 0);
+  const auto said = [&](const std::string& key, std::size_t line) {
+    Recording altered = recording;
+    const NumberPlace number = find_number(altered.lines[line], key);
+    REQUIRE(number.begin != std::string::npos);
+    char& digit = altered.lines[line][number.end - 1];
+    digit = digit == '9' ? '8' : static_cast<char>(digit + 1);
+    std::string first;
+    for (const unsigned jobs : {1u, 3u}) {
+      const auto found = verify(ReplaySource::of_bytes(altered.text(), "r.jsonl"), jobs);
+      REQUIRE(found);
+      CHECK_FALSE(found->ok());
+      const std::string text = to_text(*found);
+      if (jobs == 1) first = text;
+      CHECK(text == first);
+    }
+    return first;
+  };
+  const std::string head = "differs at tick 130: the index is not that of the lines before it: ";
+  const std::string tail = "\nevery tick up to it is the same\n";
+  CHECK(said("\"inputs\":", index).find(head + "its inputs, ") == 0);
+  CHECK(said("[60,", index) == head + "row 2 of its keyframes" + tail);
+  CHECK(said("\"bot\",", index) == head + "row 1 of its players" + tail);
+  CHECK(said("\"leave\",", index).find("of its marks") != std::string::npos);
+  CHECK(said("\"index\":", index + 1).find(head + "where it stands, ") == 0);
+  // Names, and whole rows.
+  Recording altered = recording;
+  std::string& line = altered.lines[index];
+  line.replace(line.find("louse 2"), 7, "lousy 2");
+  CHECK(to_text(verdict(altered.text())) == head + "row 2 of its players" + tail);
+  const auto jobs = verify(ReplaySource::of_bytes(altered.text(), "r.jsonl"), 3);
+  CHECK(to_text(*jobs) == head + "row 2 of its players" + tail);
+  // What a summary says is from the lines.
+  const auto summary = inspect_summary(*opened(altered.text()));
+  REQUIRE(summary);
+  CHECK(summary->find("louse 2\n") != std::string::npos);
+  CHECK(summary->find("lousy") == std::string::npos);
+  CHECK(summary->find("index    is not that of the lines, which are told here: row 2 of its players\n") !=
+        std::string::npos);
+  CHECK(inspect_summary(*opened(recording.text()))->find("index  ") == std::string::npos);
+}
+
+TEST_CASE("an end without an index is none") {
+  Recording recording = record({.steps = 61});
+  recording.lines.erase(recording.lines.end() - 2);
+  CHECK(verify_text(recording.text()).error().text() ==
+        "r.jsonl:" + std::to_string(recording.lines.size()) +
+            ": end: has no index before it (a server writes both or neither)");
 }
 
 TEST_CASE("a file that can't be read to its end is told, not thrown") {

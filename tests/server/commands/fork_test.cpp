@@ -49,11 +49,15 @@ class Played {
   Played(const Played&) = delete;
   Played& operator=(const Played&) = delete;
 
-  /// The text's one `from` becomes `to`.
-  void alter(const std::string& from, const std::string& to) {
-    const std::size_t at = bytes_.find(from);
+  /// The first `from` behind `mark` becomes `to`.
+  void alter(const std::string& from, const std::string& to, const std::string& mark = {}) {
+    const std::size_t at = bytes_.find(from, bytes_.find(mark));
     REQUIRE(at != std::string::npos);
     bytes_.replace(at, from.size(), to);
+    write();
+  }
+  void cut_before(const std::string& mark) {
+    bytes_.resize(bytes_.find(mark));
     write();
   }
   [[nodiscard]] std::string failure_at(std::uint64_t tick) const {
@@ -119,6 +123,36 @@ TEST_CASE("a fork that nobody joins goes on as the recording does while that has
     start->match->advance();
     CHECK(start->match->hash() == played.states[start->match->tick()].hash);
   }
+}
+
+TEST_CASE("an input that waits in a keyframe, and that the recording does not go on to apply, is no fork's") {
+  Played played;
+  played.alter("\"waiting\":[]", "\"waiting\":[[290,1,240,[64,32]]]", "{\"keyframe\":250,");
+  for (const std::uint64_t tick : {250u, 260u, 290u}) {
+    CHECK_THAT(played.failure_at(tick), Catch::Contains("differs at tick 290: inputs of step 290: none "
+                                                        "recorded, player 1 seq 240 re-run: what"));
+  }
+  CHECK(open_fork({played.file, 240}));
+}
+
+TEST_CASE("a fork says what it takes on trust: the keyframe it began with, and inputs nobody saw applied") {
+  Played played;
+  CHECK(open_fork({played.file, 249})->on_trust.empty());
+  CHECK(open_fork({played.file, 499})->on_trust == "the keyframe of tick 250");
+  played.alter("\"waiting\":[]", "\"waiting\":[[600,1,240,[64,32]]]", "{\"keyframe\":500,");
+  played.cut_before("{\"step\":550,");
+  CHECK(open_fork({played.file, 520})->on_trust == "the keyframe of tick 500 and 1 waiting input");
+}
+
+TEST_CASE("a fork by an index that leaves a keyframe out is refused") {
+  Played played;
+  const std::string index = "{\"index\":700,";
+  played.alter("[250,", "[251,", index);
+  CHECK_THAT(played.failure_at(300),
+             Catch::Contains("the keyframe of tick 251 is not where the index has it"));
+  CHECK(open_fork({played.file, 250})->on_trust.empty());  // led to from tick 0
+  played.alter("[251,", "[499,", index);
+  CHECK_THAT(played.failure_at(300), Catch::Contains("the index leaves out the keyframe of tick 250"));
 }
 
 TEST_CASE("a fork of what is not there is refused with what to do") {
