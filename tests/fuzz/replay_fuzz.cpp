@@ -1,11 +1,17 @@
 // Recordings, plain or compressed: each line reads back the same once written anew or is refused with its
 // place; the archive opens, plays to its end and jumps, or says why not; and a keyframe that was altered, but
 // whose hash was made to fit, is refused or can be gone on from; it can be inspected, forked and viewed. The
-// re-run is as long as the file, which the fuzzer bounds.
+// re-run is as long as the file, which the fuzzer bounds. What is read from the front without a fault is what
+// jumps find.
 //
-// Input: the file.
+// Input: the file; or 'P', a number of lies, each of 3 bytes, and a text that is packed into frames with a
+// table of them that lies so (a fuzzer makes no frames whose checksums hold).
+#include <zstd.h>
+
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -18,11 +24,13 @@
 #include "shared/core/error.h"
 #include "shared/core/stable_hash.h"
 #include "shared/replay/archive.h"
+#include "shared/replay/fault_telling_buffer.h"
 #include "shared/replay/inspect.h"
 #include "shared/replay/line_reader.h"
 #include "shared/replay/line_writer.h"
 #include "shared/replay/rerun.h"
 #include "shared/replay/source.h"
+#include "shared/replay/zstd_table.h"
 #include "shared/state/state_hash.h"
 #include "tests/fuzz/map_size.h"
 #include "tests/fuzz/property.h"
@@ -259,11 +267,67 @@ void check_archive(const ReplaySource& source) {
   check_view(source);
 }
 
+// ---- packed ----------------------------------------------------------------------------------------------
+
+std::string read_to_end(std::istream& in) { return {std::istreambuf_iterator<char>(in.rdbuf()), {}}; }
+
+/// Jumps find what reading from the front finds, if that meets no fault.
+void check_jumps(const ReplaySource& source) {
+  const auto front = source.open();
+  const auto jumping = source.open();
+  if (!front || !jumping) return;
+  const std::string text = read_to_end(**front);
+  if (!fault_of(**front).empty()) return;
+  (*jumping)->seekg(0, std::ios::end);
+  demand(static_cast<std::size_t>((*jumping)->tellg()) == text.size(), "a text is as long as it is");
+  for (const std::size_t at :
+       {text.size() / 2, text.size() / 5, text.size() - text.size() / 5, std::size_t{0}}) {
+    (*jumping)->clear();
+    (*jumping)->seekg(static_cast<std::streamoff>(at));
+    demand(read_to_end(**jumping) == text.substr(at), "a jump finds what stands there");
+    demand(fault_of(**jumping).empty(), "a jump meets no fault in a text that has none", fault_of(**jumping));
+  }
+}
+
+std::string packed_frame(std::string_view text) {
+  std::string frame(ZSTD_compressBound(text.size()), '\0');
+  frame.resize(ZSTD_compress(frame.data(), frame.size(), text.data(), text.size(), 1));
+  return frame;
+}
+
+/// One frame a keyframe, as a server packs, and a table with those lies: which entry, what of it, by how
+/// much.
+std::string packed_with_lies(std::string_view input) {
+  const std::size_t lies = input.empty() ? 0 : static_cast<unsigned char>(input.front()) % 8;
+  input.remove_prefix(std::min<std::size_t>(input.size(), 1));
+  const std::string_view table = input.substr(0, 3 * lies);
+  input.remove_prefix(table.size());
+  std::string file;
+  std::vector<ZstdFrameSize> sizes;
+  while (!input.empty()) {
+    const std::size_t next = input.find("{\"keyframe\"", 1);
+    const std::string_view part = input.substr(0, next);
+    const std::string frame = packed_frame(part);
+    file += frame;
+    sizes.push_back({static_cast<std::uint32_t>(frame.size()), static_cast<std::uint32_t>(part.size())});
+    input.remove_prefix(part.size());
+  }
+  for (std::size_t at = 0; at + 3 <= table.size() && !sizes.empty(); at += 3) {
+    ZstdFrameSize& size = sizes[static_cast<unsigned char>(table[at]) % sizes.size()];
+    std::uint32_t& lie = table[at + 1] % 2 == 0 ? size.packed : size.unpacked;
+    lie += static_cast<std::uint32_t>(static_cast<signed char>(table[at + 2]));
+  }
+  append_zstd_table(file, sizes);
+  return file;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const ReplaySource source =
-      ReplaySource::of_bytes(std::string(reinterpret_cast<const char*>(data), size), kSource);
+  std::string file(reinterpret_cast<const char*>(data), size);
+  if (file.starts_with('P')) file = packed_with_lies(std::string_view(file).substr(1));
+  const ReplaySource source = ReplaySource::of_bytes(std::move(file), kSource);
+  check_jumps(source);
   if (check_lines(source)) check_archive(source);
   return 0;
 }

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -76,6 +77,18 @@ std::string recording(const Seed& seed, replay::Encoding encoding) {
   return out;
 }
 
+/// The replay target packs what stands behind these: no lie, a frame's text told longer and the next's
+/// shorter, a frame's bytes told fewer.
+constexpr std::string_view kPackings[] = {{"P\0", 2}, {"P\2\1\1\7\2\1\xf9", 8}, {"P\1\1\0\xff", 5}};
+
+bool is_written(const std::filesystem::path& file, const std::string& bytes) {
+  std::ofstream out(file, std::ios::binary);
+  out << bytes;
+  if (!bytes.empty() && out.flush()) return true;
+  std::fprintf(stderr, "%s: can't be written\n", file.c_str());
+  return false;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -89,13 +102,12 @@ int main(int argc, char** argv) {
   for (const Seed& seed : kSeeds) {
     for (const std::string_view ending : {".ndjson", ".ndjson.zst"}) {
       const std::filesystem::path file = folder / (std::string(seed.name) + std::string(ending));
-      const std::string bytes = recording(seed, replay::encoding_of(file.string()));
-      std::ofstream out(file, std::ios::binary);
-      out << bytes;
-      if (bytes.empty() || !out.flush()) {
-        std::fprintf(stderr, "%s: can't be written\n", file.c_str());
-        return 1;
-      }
+      if (!is_written(file, recording(seed, replay::encoding_of(file.string())))) return 1;
+    }
+    for (std::size_t k = 0; k < std::size(kPackings); ++k) {
+      const std::filesystem::path file =
+          folder / (std::string(seed.name) + "." + std::to_string(k) + ".packing");
+      if (!is_written(file, std::string(kPackings[k]) + recording(seed, replay::Encoding::kPlain))) return 1;
     }
   }
   return 0;
