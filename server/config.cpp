@@ -21,7 +21,9 @@ constexpr std::uint64_t kMaxJobs = 256;
 constexpr const char* kExamples = R"(Examples:
   woodlouse-server --map maps/volcano.json --bots 3 --record game.ndjson --shadow
   woodlouse-server verify game.ndjson
-  woodlouse-server fork game.ndjson --tick 1200 --listen :7778)";
+  woodlouse-server fork game.ndjson --tick 1200 --listen :7778
+
+Exit: 0 fine; 1 a recording that differs, or what can't be read or served; 2 usage.)";
 
 constexpr const char* kForkExamples =
     R"(Its lice go on as they were; who joins under a recorded name takes that louse
@@ -115,8 +117,7 @@ CLI::App* add_verify(CLI::App& app, VerifyRequest& request) {
   CLI::App* verify = app.add_subcommand(
       "verify",
       "Re-run a recording and compare: places and hashes, inputs, who joined and left, and the index. Names, "
-      "chat, "
-      "margins, that it was this game a server played and that it ended there are what the file says");
+      "chat, margins, that a server played this game and that it ended there are what the file says");
   verify->add_option("file", request.files, "Recordings")->required();
   verify->add_option("--jobs", request.jobs, "Threads; each takes a stretch between keyframes")
       ->check(whole_number(1, kMaxJobs))

@@ -1,5 +1,7 @@
 #include "server/commands/verify.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -8,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "server/commands/fork.h"
+#include "server/commands/inspect.h"
 #include "tests/replay/recorded_match.h"
 
 using namespace woodlouse;
@@ -41,6 +45,29 @@ TEST_CASE("verify says its verdict and exits with it") {
   CHECK(out.str() == (folder / "none.jsonl").string() +
                          ": no such file (check the path, and the folder it starts from)\n" +
                          folder.string() + ": is a folder, not a file\n");
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("what is no file to be read ends every command about recordings the same way") {
+  const auto folder = std::filesystem::path(WOODLOUSE_BINARY_DIR) / "tests" / "no_recordings";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder / "folder");
+  std::ofstream(folder / "empty", std::ios::binary).flush();
+  REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  for (const auto& [name, what] :
+       {std::pair("none", ": no such file"), std::pair("folder", ": is a folder"),
+        std::pair("pipe", ": is no regular file"), std::pair("empty", ": is empty")}) {
+    const std::string told = (folder / name).string() + what;
+    std::ostringstream out;
+    std::ostringstream errors;
+    CHECK(verify_command({{folder / name}, {}}, out) == 1);
+    CHECK(out.str().find(told) == 0);
+    InspectRequest request;
+    request.file = folder / name;
+    CHECK(inspect_command(request, out, errors) == 1);
+    CHECK(errors.str().find(told) == 0);
+    CHECK(open_fork({folder / name, 3}).error().text().find(told) == 0);
+  }
   std::filesystem::remove_all(folder);
 }
 
