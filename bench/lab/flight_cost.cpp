@@ -15,6 +15,7 @@
 #include "bench/lab/problems/motion.h"
 #include "bench/lab/report/race.h"
 #include "shared/core/random.h"
+#include "shared/physics/central_gravity.h"
 #include "shared/physics/world.h"
 
 namespace woodlouse::lab {
@@ -33,6 +34,7 @@ state::Parameters parameters(SurfaceContact contact, double central_gravity = 0.
   state::Parameters p{4.0, 0.1, 0.02, 6.0, 0.5};
   p.contact = contact;
   p.central_gravity = central_gravity;
+  if (central_gravity > 0.0) p.core_radius = physics::default_core_radius(central_gravity);
   return p;
 }
 

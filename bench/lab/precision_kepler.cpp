@@ -14,6 +14,7 @@
 #include "bench/lab/report/progress.h"
 #include "bench/lab/report/race.h"
 #include "bench/lab/report/work_precision.h"
+#include "shared/physics/central_gravity.h"
 
 namespace woodlouse::lab {
 namespace {
@@ -25,6 +26,7 @@ constexpr double kManyPeriods = 100.0;
 state::Parameters planet() {
   state::Parameters p{0.0, 0.0, 0.0, 0.0, 1.0};
   p.central_gravity = kPull;
+  p.core_radius = physics::default_core_radius(kPull);
   return p;
 }
 

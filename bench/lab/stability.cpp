@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/lab/gains.h"
 #include "bench/lab/job.h"
 #include "bench/lab/problems/egg_crate.h"
 #include "bench/lab/problems/motion.h"
@@ -244,20 +245,25 @@ core::Expected<void> run(const StabilityOptions& options) {
   const Table soaked = soak(output.effort());
   std::cout << "\nSoak\n";
   soaked.print(std::cout);
-  return output.write(soaked, "lab-soak");
+  if (auto done = output.write(soaked, "lab-soak"); !done) return done;
+  const Table gained = gains(output.effort());
+  std::cout << "\nEnergy from nothing, of that above the map's lowest place\n";
+  gained.print(std::cout);
+  return output.write(gained, "lab-gains");
 }
 
 }  // namespace
 
 void add_stability(CLI::App& app, Job& job) {
   CLI::App* command = app.add_subcommand(
-      "stability", "Energy, NaN and walls over slopes, curvatures, speeds and rates; a soak.");
+      "stability",
+      "Energy, NaN and walls over slopes, curvatures, speeds and rates; a soak; gains by force.");
   const auto options = std::make_shared<StabilityOptions>();
   command->add_option("--integrator", options->integrator, "all, or one of: " + names_of(kIntegrators))
       ->capture_default_str();
   add_output_options(*command, options->output);
   command->footer(
-      "Writes lab-stability.csv, lab-soak.csv and a heat map per integrator.\n"
+      "Writes lab-stability.csv, lab-soak.csv, lab-gains.csv and a heat map per integrator.\n"
       "Example:\n  woodlouse-lab stability --quick --integrator nystrom4");
   command->callback([options, &job] { job = [options] { return run(*options); }; });
 }

@@ -12,6 +12,7 @@
 #include "bench/lab/report/numbers.h"
 #include "bench/lab/report/progress.h"
 #include "bench/lab/report/table.h"
+#include "shared/physics/central_gravity.h"
 
 namespace woodlouse::lab {
 namespace {
@@ -41,8 +42,7 @@ void print_row(double t, const document::AnySurface& surface, const state::Louse
   const double z = flies ? louse.flight_z : s.z;
   double energy = flies ? 0.5 * (dot(v, v) + louse.flight_vz * louse.flight_vz) + parameters.gravity * z
                         : energy_of(s, v, parameters.gravity);
-  if (parameters.central_gravity > 0.0)
-    energy -= parameters.central_gravity / std::hypot(louse.position.x, louse.position.y);
+  if (parameters.central_gravity > 0.0) energy += physics::central_potential(louse.position, parameters);
   std::cout << exact_text(t);
   for (const double value : {louse.position.x, louse.position.y, z, v.x, v.y, energy})
     std::cout << ',' << exact_text(value);
@@ -59,6 +59,8 @@ core::Expected<state::Parameters> parameters_of(const TrajectoryOptions& options
   state::Parameters parameters{options.gravity, options.drag, options.friction, thrust_max, 1.0};
   parameters.contact = *contact;
   parameters.central_gravity = options.central_gravity;
+  if (options.central_gravity > 0.0)
+    parameters.core_radius = physics::default_core_radius(options.central_gravity);
   const bool flies = *contact == state::SurfaceContact::kUnilateral;
   if (equations != Equations::kSurface && (flies || options.central_gravity > 0.0)) {
     return core::fail("--equations", "the document's have neither flight nor central gravity",

@@ -79,8 +79,9 @@ class Game:
 
     physics: gravity [m/s^2], drag [1/s], friction (Coulomb's), thrust_max [m/s^2], edge_restitution (0 to 1); equations
     ("exact", "local_plane", "as_printed"), method ("standard", "cheap", "precise", "false_euler"), contact ("bilateral",
-    "unilateral"), edges ("walls", "wrap"), central_gravity (k of k / r^2 [m^3/s^2]; 0: none). Of a server that does not
-    send the last five they are there once map() has asked for the map, from its definition."""
+    "unilateral"), edges ("walls", "wrap"), central_gravity (k of k / r^2 [m^3/s^2]; 0: none), core_radius (within which
+    that pull is smooth [m]; 0 where there is none). Of a server that does not send the last six they are there once map()
+    has asked for the map, from its definition."""
 
     def __init__(self, lines, join, verify=False):
         self._lines = lines
@@ -172,10 +173,11 @@ class Game:
     # ---- what you do ----
 
     def thrust(self, value, ticks=None, tick=None):
-        """Pushes. A number in [-1, 1] drives along the heading (negative brakes); a pair (x, y) of length at most 1
-        pushes along the ground's tangent over that direction of the map. 1 is physics["thrust_max"], in space: on a slope
-        less of it is seen on the map (bots/README.md). ticks: for how long; else until the next
-        thrust. tick: the step that shall take it. Returns the seq that its ack will carry."""
+        """Pushes. A pair (x, y) of length at most 1 pushes along the ground's tangent over that direction of the map; a
+        number above 0, at most 1, over the heading, which meanwhile turns into the velocity's direction within some 0.3 m
+        of way, and is where the louse looks while it stands; a number below 0, at least -1, brakes. 1 is
+        physics["thrust_max"], in space: on a slope less of it is seen on the map (bots/README.md). ticks: for how long;
+        else until the next thrust. tick: the step that shall take it. Returns the seq that its ack will carry."""
         pair = isinstance(value, (tuple, list))
         numbers = [float(v) for v in value] if pair else [float(value)]
         if len(numbers) > 2 or (pair and len(numbers) != 2) or not all(map(math.isfinite, numbers)):
@@ -317,6 +319,8 @@ class Game:
         for field, value in _MAP_DEFAULTS.items():  # what an older server's welcome leaves out
             of_map = definition if field == "edges" else definition.get("physics", {})
             self.physics.setdefault(field, of_map.get(field, value))
+        central = self.physics["central_gravity"]
+        self.physics.setdefault("core_radius", definition.get("physics", {}).get("core_radius", _core_radius(central)))
         self._ground = Ground(message["name"], knots["origin"], knots["spacing"], knots["heights"],
                               self.physics["edges"] == "wrap", definition, message.get("overview", False))
 
@@ -330,6 +334,11 @@ class Game:
         self._pongs[message["t"]] = time.monotonic_ns() % (1 << 53)
         while len(self._pongs) > 16:
             del self._pongs[next(iter(self._pongs))]
+
+
+def _core_radius(central_gravity):
+    """That of a map that names none [m]: maps/README.md."""
+    return (35 / 8 * central_gravity / (15 * 256 * 0.05) ** 2) ** (1 / 3)
 
 
 def _drain(queue):

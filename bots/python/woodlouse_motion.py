@@ -2,17 +2,20 @@
 
 From an exact state - the `you` of an ack, or a row of all columns in exact format - `Motion.after` tells where the louse
 will be if its thrust stays as it is. Units: m, m/s, ticks. What it takes is some 10 ms of processor time for half a second
-of motion; how far it errs is tested against a server (test_predict.py). Two things it knows but roughly: a louse at walls,
-and one that grazes a crest of a unilateral map - whether it hops there hangs on the server's own steps, and half a second
-later it may be two centimetres elsewhere.
+of motion; how far it errs is tested against a server (test_predict.py). Two things it knows but roughly: who comes to a wall
+at less than 5 cm/s, whom it does not throw back here, and who grazes a crest of a unilateral map - whether it hops there
+hangs on the server's own steps, and half a second later it may be two centimetres elsewhere.
 """
 
 import collections
 from math import floor, hypot, sqrt
 
+from woodlouse_walls import NO_WALLS, bounced, supported
+
 LONGEST_S = 1 / 240  # of a step
 SHORTEST_S = 1 / 8192  # slower than this resolves, a louse stands
-CORE_RADIUS = 1e-3  # [m]: nearer to the origin central gravity grows linearly, as on the server
+SLOWEST_BOUNCE = 0.05  # [m/s]
+HEADING_LENGTH = 0.3  # [m] of way over the map: how slowly the heading turns into the velocity's direction
 MOVING, RESTING, FLYING = 0, 1, 2  # phase
 ALONG_HEADING, MAP_VECTOR = 1, 2  # thrust_kind
 HELD = 4294967295  # ticks_left of a thrust that holds until the next one
@@ -20,6 +23,10 @@ HELD = 4294967295  # ticks_left of a thrust that holds until the next one
 Body = collections.namedtuple("Body", "tick x y vx vy heading_x heading_y tx ty thrust_kind ticks_left phase flight_z "
                                       "flight_vz")
 Body.__doc__ = "A louse's state at `tick`; the fields are those of docs/protocol.md's columns in exact format."
+
+Drive = collections.namedtuple("Drive", "push direction turns brake")
+Drive.__doc__ = """What a thrust does: it pushes [m/s^2] over a direction of the map, or over the heading, that turns; or it
+brakes [m/s^2]."""
 
 
 def body_of_ack(you):
@@ -49,8 +56,8 @@ class Motion:
                              % (physics["equations"], physics["method"]))
         self._sample, self._extent, self._tick = surface.sample, extent, 1.0 / tick_hz
         self._gravity, self._drag, self._friction = physics["gravity"], physics["drag"], physics["friction"]
-        self._full, self._bounce, self._central = (physics["thrust_max"], physics["edge_restitution"],
-                                                   physics["central_gravity"])
+        self._full, self._bounce = physics["thrust_max"], physics["edge_restitution"]
+        self._central, self._core = physics["central_gravity"], physics["core_radius"]
         self._wraps, self._flies = physics["edges"] == "wrap", physics["contact"] == "unilateral"
         # The server looks for the ends of contact and of flight where its own steps end, mostly a tick long: who looks more
         # often sees hops over crests that are none there.
@@ -78,96 +85,104 @@ class Motion:
 
     def _slide(self, body, left):
         """One step of at most `left` seconds: the body after it, and the time it took."""
-        at = (body.x, body.y, body.vx, body.vy)
-        ground = self._sample(body.x, body.y)
-        along, push = self._drive(body)
-        speed, resistance = _in_space(ground, body.vx, body.vy), self._resistance(ground, at, along)
+        at = (body.x, body.y, body.vx, body.vy, body.heading_x, body.heading_y)
+        ground, drive, walls = self._sample(body.x, body.y), self._drive(body), self._leant_on(at)
+        ax, ay, load = self._forces(ground, at, drive, walls)
+        speed, hold = _in_space(ground, body.vx, body.vy), self._hold(ground, load, drive)
         h = min(left, self._longest)
-        while h > SHORTEST_S and self._too_long(ground, at, speed, resistance, h):
+        while h > SHORTEST_S and self._too_long(ground, at, (ax, ay), speed, hold, drive, h):
             h *= 0.5
-        if speed <= resistance * min(h, SHORTEST_S):  # friction or a brake ends what is left, or it stands already
-            pull = self._pull_at_rest(ground, body, along, push)
-            if _in_space(ground, *pull) <= self._resistance(ground, at[:2] + (0.0, 0.0), along):
+        if speed <= hold * min(h, SHORTEST_S):  # friction or a brake ends what is left, or it stands already
+            at = at[:2] + (0.0, 0.0) + at[4:]
+            ax, ay, load = self._forces(ground, at, drive, self._leant_on(at))
+            if _in_space(ground, ax, ay) <= self._hold(ground, load, drive):
                 return body._replace(vx=0.0, vy=0.0, phase=RESTING), left
-            at = at[:2] + (1e-6 * pull[0], 1e-6 * pull[1])  # off it goes: the speed of a microsecond
-        end = self._runge_kutta(at, along, push, h)
+            at = at[:2] + (1e-9 * ax, 1e-9 * ay) + at[4:]  # off it goes: the speed of a nanosecond
+            walls = self._leant_on(at)
+        end = self._runge_kutta(at, drive, walls, h)
         if not self._wraps and self._beyond(end):
-            end, h = self._at_wall(at, along, push, h)
-        if self._flies and self._lifts_off(end):
-            h = _first(lambda t: self._lifts_off(self._runge_kutta(at, along, push, t)), h)
-            end = self._runge_kutta(at, along, push, h)
+            end, h = self._at_wall(at, drive, walls, h)
+        if self._flies and self._lifts_off(end, drive, walls):
+            h = _first(lambda t: self._lifts_off(self._runge_kutta(at, drive, walls, t), drive, walls), h)
+            end = self._runge_kutta(at, drive, walls, h)
             ground = self._sample(end[0], end[1])
             climb = ground[1] * end[2] + ground[2] * end[3]
             body = body._replace(phase=FLYING, flight_z=ground[0], flight_vz=climb)
         else:
             body = body._replace(phase=MOVING)
-        return self._moved(body, end), h
+        return self._moved(body, end[:4], end[4:] if drive.turns else None), h
 
     def _drive(self, body):
-        """The thrust: along the velocity [m/s^2], and (direction over the map, along its tangent [m/s^2]) or None."""
         if body.thrust_kind == ALONG_HEADING:
-            return body.tx * self._full, None
-        size = hypot(body.tx, body.ty)
-        return 0.0, ((body.tx, body.ty), size * self._full) if body.thrust_kind == MAP_VECTOR and size else None
+            f = body.tx * self._full
+            return Drive(f, None, True, 0.0) if f > 0 else Drive(0.0, None, False, -f)
+        size = hypot(body.tx, body.ty) if body.thrust_kind == MAP_VECTOR else 0.0
+        return Drive(size * self._full, (body.tx, body.ty), False, 0.0)
 
-    def _acceleration(self, x, y, vx, vy, along, push):
-        ground = self._sample(x, y)
+    def _forces(self, ground, at, drive, walls):
+        """The acceleration as the walls leave it, but for friction and a brake; and the load, the normal force times
+        sqrt(1 + slope^2) [m/s^2]."""
+        x, y, vx, vy, hx, hy = at
         _, zx, zy, _, _, _ = ground
-        load = self._load(ground, x, y, vx, vy)
-        share = load / (1 + zx * zx + zy * zy)
-        resistance = self._drag
-        speed = _in_space(ground, vx, vy)
-        if speed > 0:
-            resistance += (self._friction * abs(load) / sqrt(1 + zx * zx + zy * zy) - along) / speed
-        ax, ay = -share * zx - resistance * vx, -share * zy - resistance * vy
+        load = self._gravity + _bend(ground, vx, vy)
+        ax, ay = -self._drag * vx, -self._drag * vy
         if self._central:
             pull = self._central_pull(x, y)
+            load -= pull * (zx * x + zy * y)
             ax, ay = ax - pull * x, ay - pull * y
-        if push:
-            direction, f = push
-            f /= _in_space(ground, *direction)
-            ax, ay = ax + f * direction[0], ay + f * direction[1]
-        return ax, ay
+        share = load / (1 + zx * zx + zy * zy)
+        ax, ay = ax - share * zx, ay - share * zy
+        if drive.push:
+            dx, dy = (hx, hy) if drive.turns else drive.direction
+            f = drive.push / _in_space(ground, dx, dy)
+            ax, ay = ax + f * dx, ay + f * dy
+        if walls != NO_WALLS:
+            (ax, ay), carried = supported(ground, walls, (ax, ay))
+            load += carried
+        return ax, ay, load
 
-    def _load(self, ground, x, y, vx, vy):
-        """The normal force times sqrt(1 + slope^2) [m/s^2]."""
-        load = self._gravity + _bend(ground, vx, vy)
-        return load - self._central_pull(x, y) * (ground[1] * x + ground[2] * y) if self._central else load
+    def _hold(self, ground, load, drive):
+        """What friction and a brake hold against [m/s^2]."""
+        return self._friction * abs(load) / sqrt(1 + ground[1] ** 2 + ground[2] ** 2) + drive.brake
 
     def _central_pull(self, x, y):
-        r2 = max(x * x + y * y, CORE_RADIUS * CORE_RADIUS)
-        return self._central / (r2 * sqrt(r2))
+        """Its acceleration by the distance from the origin [1/s^2]; within the core it is smooth."""
+        r2, core2 = x * x + y * y, self._core * self._core
+        if r2 >= core2:
+            return self._central / (r2 * sqrt(r2))
+        q = r2 / core2
+        return self._central / (core2 * self._core) * (35 / 8 - (21 / 4 - 15 / 8 * q) * q)
 
-    def _resistance(self, ground, at, along):
-        """What friction and a brake hold against [m/s^2]."""
-        load = abs(self._load(ground, *at))
-        return self._friction * load / sqrt(1 + ground[1] ** 2 + ground[2] ** 2) + max(0.0, -along)
-
-    def _pull_at_rest(self, ground, body, along, push):
-        heading = ((body.heading_x, body.heading_y), along) if along > 0 else push
-        return self._acceleration(body.x, body.y, 0.0, 0.0, 0.0, heading)
-
-    def _too_long(self, ground, at, speed, resistance, h):
+    def _too_long(self, ground, at, a, speed, hold, drive, h):
         bend = hypot(ground[3], ground[5], ground[4] * 1.5)
         swing = self._gravity * bend + (self._central_pull(at[0], at[1]) if self._central else 0.0)
         return (h * h * swing > 0.0025 or h * speed * bend > 0.1 or h * self._drag > 0.25 or
-                h * resistance > 0.25 * speed > 0)
+                h * hold > 0.25 * speed > 0 or
+                (drive.turns and h * hypot(at[2], at[3], h * a[0], h * a[1]) > 0.5 * HEADING_LENGTH))
 
-    def _lifts_off(self, at):
-        return self._gravity + _bend(self._sample(at[0], at[1]), at[2], at[3]) < 0
+    def _lifts_off(self, at, drive, walls):
+        return self._forces(self._sample(at[0], at[1]), at, drive, walls)[2] < 0
 
-    def _runge_kutta(self, at, along, push, h):
-        x, y, vx, vy = at
-        ax, ay = self._acceleration(x, y, vx, vy, along, push)
-        half = 0.5 * h
-        ux, uy = vx + half * ax, vy + half * ay
-        bx, by = self._acceleration(x + half * vx, y + half * vy, ux, uy, along, push)
-        wx, wy = vx + half * bx, vy + half * by
-        cx, cy = self._acceleration(x + half * ux, y + half * uy, wx, wy, along, push)
-        qx, qy = vx + h * cx, vy + h * cy
-        dx, dy = self._acceleration(x + h * wx, y + h * wy, qx, qy, along, push)
-        return (x + h / 6 * (vx + 2 * ux + 2 * wx + qx), y + h / 6 * (vy + 2 * uy + 2 * wy + qy),
-                vx + h / 6 * (ax + 2 * bx + 2 * cx + dx), vy + h / 6 * (ay + 2 * by + 2 * cy + dy))
+    def _rates(self, at, drive, walls):
+        x, y, vx, vy, hx, hy = at
+        ground = self._sample(x, y)
+        ax, ay, load = self._forces(ground, at, drive, walls)
+        speed = _in_space(ground, vx, vy)
+        if speed > 0:
+            resistance = self._hold(ground, load, drive) / speed
+            ax, ay = ax - resistance * vx, ay - resistance * vy
+        if not drive.turns:
+            return vx, vy, ax, ay, 0.0, 0.0
+        along = hx * vx + hy * vy
+        return vx, vy, ax, ay, (vx - along * hx) / HEADING_LENGTH, (vy - along * hy) / HEADING_LENGTH
+
+    def _runge_kutta(self, at, drive, walls, h):
+        a = self._rates(at, drive, walls)
+        b = self._rates(_moved_on(at, a, 0.5 * h), drive, walls)
+        c = self._rates(_moved_on(at, b, 0.5 * h), drive, walls)
+        d = self._rates(_moved_on(at, c, h), drive, walls)
+        end = _moved_on(at, [r1 + 2 * (r2 + r3) + r4 for r1, r2, r3, r4 in zip(a, b, c, d)], h / 6)
+        return end[:4] + _unit(*end[4:]) if drive.turns else end
 
     # ---- walls and seams ----
 
@@ -175,32 +190,39 @@ class Motion:
         x0, y0, x1, y1 = self._extent
         return at[0] < x0 or at[0] > x1 or at[1] < y0 or at[1] > y1
 
-    def _at_wall(self, at, along, push, h):
-        """Where the step meets a wall, the velocity as the wall leaves it; and when. Who leans on a wall slides along it
-        for the whole step, as if there were no corner."""
+    def _touched(self, x, y):
         x0, y0, x1, y1 = self._extent
-        if x0 < at[0] < x1 and y0 < at[1] < y1:
-            h = _first(lambda t: self._beyond(self._runge_kutta(at, along, push, t)), h)
-        x, y, vx, vy = self._runge_kutta(at, along, push, h)
-        _, zx, zy, _, _, _ = self._sample(x, y)
-        if x < x0 or x > x1:
-            vx, vy = vx - self._hit(vx), vy + self._hit(vx) * zx * zy / (1 + zy * zy)
-        if y < y0 or y > y1:
-            vx, vy = vx + self._hit(vy) * zx * zy / (1 + zx * zx), vy - self._hit(vy)
-        return (min(max(x, x0), x1), min(max(y, y0), y1), vx, vy), max(h, SHORTEST_S)
+        return (x >= x1) - (x <= x0), (y >= y1) - (y <= y0)
 
-    def _hit(self, speed):
-        return speed * (1 + self._bounce if abs(speed) > 0.05 else 1.0)
+    def _leant_on(self, at):
+        """The walls it touches without a velocity along their normals."""
+        if self._wraps:
+            return NO_WALLS
+        x, y = self._touched(at[0], at[1])
+        return 0 if at[2] else x, 0 if at[3] else y
 
-    def _moved(self, body, end):
+    def _at_wall(self, at, drive, walls, h):
+        """Where the step meets a wall, with the velocity as the wall throws it back, the heading likewise; and when. Who
+        comes slowly keeps no velocity into the wall."""
+        h = _first(lambda t: self._beyond(self._runge_kutta(at, drive, walls, t)), h)
+        x, y, vx, vy, hx, hy = self._runge_kutta(at, drive, walls, h)
+        x0, y0, x1, y1 = self._extent
+        x, y = min(max(x, x0), x1), min(max(y, y0), y1)
+        ground, touched = self._sample(x, y), self._touched(x, y)
+        slow = max(touched[0] * vx, touched[1] * vy) < SLOWEST_BOUNCE
+        heading = bounced(ground, touched, (hx, hy), self._bounce)
+        return ((x, y) + bounced(ground, touched, (vx, vy), 0.0 if slow else self._bounce) +
+                (_unit(*heading) if heading != (0, 0) else (hx, hy))), h
+
+    def _moved(self, body, end, heading=None):
+        """heading: where it has one of its own; left out: the velocity's direction."""
         x, y, vx, vy = end
         if self._wraps:
             x0, y0, x1, y1 = self._extent
             x, y = x - floor((x - x0) / (x1 - x0)) * (x1 - x0), y - floor((y - y0) / (y1 - y0)) * (y1 - y0)
-        speed = hypot(vx, vy)
-        if speed > 0:
-            body = body._replace(heading_x=vx / speed, heading_y=vy / speed)
-        return body._replace(x=x, y=y, vx=vx, vy=vy)
+        if not heading:
+            heading = _unit(vx, vy) if vx or vy else (body.heading_x, body.heading_y)
+        return body._replace(x=x, y=y, vx=vx, vy=vy, heading_x=heading[0], heading_y=heading[1])
 
     # ---- in the air ----
 
@@ -243,6 +265,17 @@ def _first(happens, h):
         middle = 0.5 * (low + h)
         low, h = (low, middle) if happens(middle) else (middle, h)
     return h
+
+
+def _moved_on(at, rates, h):
+    x, y, vx, vy, hx, hy = at
+    dx, dy, ax, ay, rx, ry = rates
+    return x + h * dx, y + h * dy, vx + h * ax, vy + h * ay, hx + h * rx, hy + h * ry
+
+
+def _unit(ux, uy):
+    size = hypot(ux, uy)
+    return ux / size, uy / size
 
 
 def _in_space(ground, ux, uy):

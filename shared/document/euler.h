@@ -11,21 +11,25 @@ namespace woodlouse::document {
 /// x += h v, v += h a. Order 1.
 struct ExplicitEuler {
   static constexpr bool kSubSteps = false;
+  static constexpr int kSamples = 0;
   static constexpr bool kKeepsEnergy = false;
   template <typename Start, typename Field>
-  physics::StepResult step(const Start& start, const Field&, double h) const {
-    return {{start.at.position + h * start.at.velocity, start.at.velocity + h * start.acceleration}, h};
+  physics::StepResult step(const Start& start, const Field& field, double h) const {
+    return physics::plain_result(
+        start, field, {start.at.position + h * start.at.velocity, start.at.velocity + h * start.acceleration},
+        h);
   }
 };
 
 /// v += h a, then x += h v with the new v. Order 1; not symplectic here, since a depends on v.
 struct FalseEuler {
   static constexpr bool kSubSteps = false;
+  static constexpr int kSamples = 0;
   static constexpr bool kKeepsEnergy = false;
   template <typename Start, typename Field>
-  physics::StepResult step(const Start& start, const Field&, double h) const {
+  physics::StepResult step(const Start& start, const Field& field, double h) const {
     const core::Vec2 v = start.at.velocity + h * start.acceleration;
-    return {{start.at.position + h * v, v}, h};
+    return physics::plain_result(start, field, {start.at.position + h * v, v}, h);
   }
 };
 

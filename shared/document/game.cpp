@@ -16,14 +16,15 @@ namespace {
 
 /// The document's choice, its speed kept finite.
 struct GameEuler {
+  static constexpr int kSamples = 0;
   static constexpr bool kSubSteps = false;
   static constexpr bool kKeepsEnergy = false;
   template <typename Start, typename Field>
-  physics::StepResult step(const Start& start, const Field&, double h) const {
+  physics::StepResult step(const Start& start, const Field& field, double h) const {
     core::Vec2 v = start.at.velocity + h * start.acceleration;
     const double speed2 = dot(v, v);
     if (speed2 > kMaxGameSpeed * kMaxGameSpeed) v = (kMaxGameSpeed / std::sqrt(speed2)) * v;
-    return {{start.at.position + h * v, v}, h};
+    return physics::plain_result(start, field, {start.at.position + h * v, v}, h);
   }
 };
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "shared/json/object_text.h"
+#include "shared/physics/central_gravity.h"
 
 namespace woodlouse::map {
 namespace {
@@ -41,6 +42,9 @@ void add_physics(json::ObjectText& text, const state::Parameters& physics) {
   const state::Parameters usual;
   if (physics.central_gravity != usual.central_gravity)
     text.number("central_gravity", physics.central_gravity);
+  if (physics.central_gravity > 0.0 &&
+      physics.core_radius != physics::default_core_radius(physics.central_gravity))
+    text.number("core_radius", physics.core_radius);
   if (physics.contact != usual.contact) text.text("contact", state::to_text(physics.contact));
   if (physics.equations != usual.equations) text.text("equations", state::to_text(physics.equations));
   if (physics.method != usual.method) text.text("method", state::to_text(physics.method));

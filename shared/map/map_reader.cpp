@@ -11,6 +11,7 @@
 #include "shared/map/document_surface.h"
 #include "shared/map/edges_reader.h"
 #include "shared/map/terrain_reader.h"
+#include "shared/physics/central_gravity.h"
 
 namespace woodlouse::map {
 namespace {
@@ -22,6 +23,7 @@ constexpr json::Range kThrustMax{0.0, 1000.0, "m/s^2"};
 constexpr json::Range kEdgeRestitution{0.0, 1.0, ""};
 constexpr json::Range kSpawnSpeed{0.0, 1000.0, "m/s"};
 constexpr json::Range kCentralGravity{0.0, 1e6, "m^3/s^2"};
+constexpr json::Range kCoreRadius{1e-3, 1e6, "m"};
 constexpr json::Range kDegrees{-360.0, 360.0, "degrees"};
 constexpr json::Range kCoordinate{-1e12, 1e12, "m"};
 constexpr json::Range kHeadingComponent{-1e6, 1e6, ""};
@@ -85,7 +87,7 @@ void check_equations(const json::Value& physics, const state::Parameters& p, jso
 state::Parameters read_physics(const json::Value& value, json::Problems& problems) {
   const json::Fields fields(value,
                             {"gravity", "drag", "friction", "thrust_max", "edge_restitution",
-                             "central_gravity", "contact", "equations", "method"},
+                             "central_gravity", "core_radius", "contact", "equations", "method"},
                             problems);
   state::Parameters result;
   result.gravity = fields.number_or("gravity", kGravity, result.gravity);
@@ -95,6 +97,13 @@ state::Parameters read_physics(const json::Value& value, json::Problems& problem
   result.edge_restitution = fields.number_or("edge_restitution", kEdgeRestitution, result.edge_restitution);
   // "+ 0.0" turns -0.0 into 0.0: the canonical text leaves both out, and must read back the same.
   result.central_gravity = fields.number_or("central_gravity", kCentralGravity, result.central_gravity) + 0.0;
+  if (result.central_gravity > 0.0) {
+    result.core_radius =
+        fields.number_or("core_radius", kCoreRadius, physics::default_core_radius(result.central_gravity));
+  } else if (const auto radius = fields.find("core_radius")) {
+    problems.add(*radius, "there is no central gravity to have a core",
+                 "leave it out, or add central_gravity");
+  }
   read_choice(fields, "contact", result.contact, state::contact_from_text, "bilateral or unilateral",
               problems);
   read_choice(fields, "equations", result.equations, state::equations_from_text,

@@ -97,7 +97,8 @@ std::unique_ptr<const GroundSteps> with_main_forces(const S& ground, const StepR
   };
   if (rules.parameters.central_gravity > 0.0) return make(Forces<true, true, true, true>{});
   if constexpr (E::kExact) {
-    if (conserves_energy(rules.parameters)) return make(Forces<false, false, false>{});
+    if (conserves_energy(rules.parameters) && !(rules.parameters.thrust_max > 0.0))
+      return make(Forces<false, false, false>{});
   }
   return rules.parameters.friction > 0.0 ? make(Forces<true, true, true>{})
                                          : make(Forces<true, false, true>{});

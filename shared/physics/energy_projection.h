@@ -22,14 +22,8 @@
 
 namespace woodlouse::physics {
 
-/// Whether a map with forces F has an energy to keep.
-template <typename F>
-inline constexpr bool kConservative = !F::drag && !F::friction && !F::thrust && !F::central;
-
-/// Whether such a map is stepped with none of these forces compiled in.
-inline bool conserves_energy(const state::Parameters& p) {
-  return !(p.drag > 0.0) && !(p.friction > 0.0) && !(p.thrust_max > 0.0) && !(p.central_gravity > 0.0);
-}
+/// Whether nothing on the map takes energy: there, who has no thrust keeps his.
+inline bool conserves_energy(const state::Parameters& p) { return !(p.drag > 0.0) && !(p.friction > 0.0); }
 
 /// |v|3^2 / 2 + g z [m^2/s^2].
 template <typename T>
@@ -43,10 +37,14 @@ struct EnergyKept {
   decltype(T{} < T{}) near;  ///< whether such a state was near; where not, `end` is as it was
 };
 
-/// `end`, moved to the energy `energy0`; s: the surface at end; h: the step's length.
-template <typename T>
-[[gnu::always_inline]] inline EnergyKept<T> with_energy(T energy0, const BasicSurfaceSample<T>& s,
-                                                        const BasicMotion<T>& end, T h, double gravity) {
+/// `end`, moved to the energy `energy0` that it had at the start, but for a potential that has risen by
+/// `climbed` since and pulls with `pull` at the end (central gravity: 0 of both elsewhere); s: the surface at
+/// end; h: the step's length.
+template <bool kCentral = false, typename Sample, typename T>
+[[gnu::always_inline]] inline EnergyKept<T> with_energy(T energy0, const Sample& s, const BasicMotion<T>& end,
+                                                        T h, double gravity,
+                                                        [[maybe_unused]] T climbed = T(0.0),
+                                                        [[maybe_unused]] Pair<T> pull = {}) {
   using core::select;
   using Truth = decltype(T{} < T{});
   const Pair<T> v = end.velocity;
@@ -55,10 +53,11 @@ template <typename T>
   const T vz = dot(gradient, v);
   const Pair<T> by_velocity{v.x + vz * s.zx, v.y + vz * s.zy};  // A
   const Pair<T> turned = curvature_times(s, v);
-  const Pair<T> by_place{h * (T(gravity) * s.zx + vz * turned.x),
-                         h * (T(gravity) * s.zy + vz * turned.y)};  // h B
+  Pair<T> by_place{h * (T(gravity) * s.zx + vz * turned.x), h * (T(gravity) * s.zy + vz * turned.y)};  // h B
+  if constexpr (kCentral) by_place = by_place - h * pull;
   const T speed2 = dot(v, v) + vz * vz;
-  const T excess = T(0.5) * speed2 + T(gravity) * s.z - energy0;
+  T excess = T(0.5) * speed2 + T(gravity) * s.z - energy0;
+  if constexpr (kCentral) excess = excess + climbed;
   const T excess2 = excess * excess;
   constexpr double kDrift = 5e-7;  // of v^2, a second
   const T borne = T(kDrift) * h * speed2;
@@ -71,8 +70,9 @@ template <typename T>
   const T slope_along = v_share * v_share + x_share * x_share;
   const Truth along = slope_along > T(0.5) * gradient2 * nearest;  // at most sqrt(2) times as long
   const T slope = select(along, slope_along, nearest);
-  const T scale2 =
-      dot(v, v) + h * h * (T(gravity * gravity) * gradient2);  // what v is, and what gravity makes of it in h
+  T force2 = T(gravity * gravity) * gradient2;
+  if constexpr (kCentral) force2 = force2 + dot(pull, pull);
+  const T scale2 = dot(v, v) + h * h * force2;  // what v is, and what gravity makes of it in h
   constexpr double kFar = 1e-3;
   const Truth near = excess2 < T(kFar * kFar) * nearest * scale2;
   const Truth moves = near & errs;

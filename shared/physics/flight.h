@@ -31,10 +31,18 @@ struct Flight {
   double climb = 0.0;   ///< dz/dt [m/s]
 };
 
-/// g + v'Hv: the normal force's sign; below 0 a unilateral contact ends.
-template <typename Sample>
-double lift(const Sample& s, core::Vec2 v, const state::Parameters& p) {
-  return p.gravity + curvature_along(s, v);
+/// Where in a step of h the normal force ends, that is there no more at the step's end: again(t) is the step
+/// over t, load(Motion) the force's sign. The last result that was asked for; h becomes its length.
+template <typename Load, typename Again>
+StepResult last_contact(double& h, const Load& load, const Again& again) {
+  double low = 0.0;
+  double high = h;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    (load(again(middle).end) < 0.0 ? high : low) = middle;
+  }
+  h = high;
+  return again(high);
 }
 
 /// The flight that begins where a motion on the surface ends.
@@ -113,6 +121,39 @@ class Flyer {
     return piece;
   }
 
+  /// All of `remaining` at one go, whatever is on the way: within the rim, and on the ground where it would
+  /// be below, with no more energy than it had.
+  [[nodiscard]] Flight rest_of(const Flight& flight, double remaining, bool& landed) const {
+    Flight end = after(flight, remaining);
+    if (!rim_.admits(end.over.position)) end.over.position = flight.over.position;  // also NaN
+    end.over.position = rim_.inside(end.over.position);
+    const auto s = surface_.sample(end.over.position.x, end.over.position.y);
+    landed = !(end.height > s.z);
+    if (!landed) return end;
+    const core::Vec2 v0 = flight.over.velocity;
+    const double most =
+        0.5 * (dot(v0, v0) + flight.climb * flight.climb) + parameters_.gravity * flight.height;
+    core::Vec2 v = landed_velocity(s, end);
+    const double kinetic = most - parameters_.gravity * s.z;
+    const double speed2 = squared_length_in_space(s, v);
+    if (!(kinetic > 0.0)) {
+      v = {};
+    } else if (0.5 * speed2 > kinetic) {
+      v = std::sqrt(2.0 * kinetic / speed2) * v;
+    }
+    return {{end.over.position, v}, s.z, 0.0};
+  }
+
+  /// The length of the way through the air [m]: Simpson's rule, order 4.
+  [[nodiscard]] double way(const Flight& flight, double time) const {
+    const core::Vec2 v = flight.over.velocity;
+    const auto speed = [&](double t) {
+      const double climb = flight.climb - parameters_.gravity * t;
+      return std::sqrt(dot(v, v) + climb * climb);
+    };
+    return time / 6.0 * (speed(0.0) + 4.0 * speed(0.5 * time) + speed(time));
+  }
+
  private:
   [[nodiscard]] Flight after(const Flight& f, double t) const {
     const double g = parameters_.gravity;
@@ -142,17 +183,18 @@ template <terrain::Surface S>
   ++counters.flights;
 }
 
-/// One piece of a louse's flight, landing or seam included; the time it took [s], at most `remaining`. at:
-/// its motion over the map.
+/// One piece of a louse's flight, landing or seam included; at: its motion over the map.
 template <terrain::Surface S>
-[[gnu::always_inline]] inline double fly_on(const Flyer<S>& flyer, state::Louse& louse, Motion& at,
-                                            double remaining, StepCounters& counters) {
+[[gnu::always_inline]] inline typename Flyer<S>::Piece fly_on(const Flyer<S>& flyer, state::Louse& louse,
+                                                              Motion& at, double remaining,
+                                                              StepCounters& counters) {
   Flight flight{at, louse.flight_z, louse.flight_vz};
-  const double speed = std::sqrt(dot(at.velocity, at.velocity) + louse.flight_vz * louse.flight_vz);
-  const auto piece = flyer.fly(flight, remaining);
+  const Flight start = flight;
+  auto piece = flyer.fly(flight, remaining);
+  if (!(piece.time < remaining)) piece.time = remaining;
   ++counters.sub_steps;
   if (piece.bounced) ++counters.bounces;
-  louse.distance += piece.time * speed;
+  louse.distance += flyer.way(start, piece.time);
   at = flight.over;
   if (flyer.rim().wraps()) flyer.rim().carry_home(at.position);
   louse.flight_z = flight.height;
@@ -163,7 +205,22 @@ template <terrain::Surface S>
     louse.phase = state::Phase::kMoving;
     louse.flight_z = louse.flight_vz = 0.0;
   }
-  return piece.time < remaining ? piece.time : remaining;
+  return piece;
+}
+
+/// What is left of a tick in one piece (Flyer::rest_of).
+template <terrain::Surface S>
+void fly_out(const Flyer<S>& flyer, state::Louse& louse, Motion& at, double remaining,
+             StepCounters& counters) {
+  const Flight start{at, louse.flight_z, louse.flight_vz};
+  bool landed = false;
+  const Flight end = flyer.rest_of(start, remaining, landed);
+  ++counters.sub_steps;
+  louse.distance += flyer.way(start, remaining);
+  at = end.over;
+  louse.flight_z = landed ? 0.0 : end.height;
+  louse.flight_vz = landed ? 0.0 : end.climb;
+  if (landed) louse.phase = state::Phase::kMoving;
 }
 
 }  // namespace woodlouse::physics

@@ -3,10 +3,14 @@
 // sub-step.
 #pragma once
 
+#include <cmath>
 #include <type_traits>
 #include <utility>
 
+#include "shared/physics/bounded_energy.h"
+#include "shared/physics/central_gravity.h"
 #include "shared/physics/nystrom.h"
+#include "shared/physics/rim.h"
 #include "shared/physics/surface_motion.h"
 #include "shared/physics/walls.h"
 #include "shared/state/parameters.h"
@@ -26,6 +30,7 @@ class Ground {
  public:
   using Sample = decltype(std::declval<const S&>().sample(0.0, 0.0));
   using Site = std::conditional_t<F::central, PulledSample<Sample>, Sample>;
+  static constexpr bool kTurns = E::kExact && F::thrust;  ///< a drive may act along a heading that turns
 
   /// What a sub-step knows of its start.
   struct Start {
@@ -36,14 +41,15 @@ class Ground {
     Contact contact;      ///< the walls it may lean on: no velocity along their normals
   };
 
-  Ground(const S& surface, const state::Parameters& parameters)
-      : surface_(surface), parameters_(parameters) {}
+  Ground(const S& surface, const state::Parameters& parameters) : surface_(surface), parameters_(parameters) {
+    assert(!F::central || parameters.central_gravity <= 0.0 || parameters.core_radius > 0.0);
+  }
 
   [[nodiscard]] const S& surface() const { return surface_; }
 
   [[nodiscard, gnu::always_inline]] inline Site site_of(const Sample& s, core::Vec2 x) const {
     if constexpr (F::central) {
-      return {s, -central_pull(x, parameters_.central_gravity) * x};
+      return {s, -central_pull(x, parameters_) * x};
     } else {
       return s;
     }
@@ -55,25 +61,80 @@ class Ground {
 
   [[nodiscard, gnu::always_inline]] inline core::Vec2 accelerate(const Site& s, core::Vec2 v,
                                                                  const Drive& drive, Contact contact) const {
-    const core::Vec2 a = E::template acceleration<F>(s, v, drive_at(s, drive), parameters_);
-    return contact.any() ? supported(s, contact, a) : a;
+    if (contact.any()) return accelerate_at_wall(s, v, drive, contact);
+    return E::template acceleration<F>(s, v, drive_at(s, drive), parameters_);
+  }
+
+  /// N w, the normal force that the ground carries [m/s^2]: below 0, a unilateral contact ends.
+  [[nodiscard]] double load(const Site& s, core::Vec2 v, const Drive& drive,
+                            Contact contact) const requires E::kExact {
+    double result = parameters_.gravity + curvature_along(s, v);
+    if constexpr (F::central) result += s.zx * s.pull.x + s.zy * s.pull.y;
+    return contact.any() ? result + wall_load(s, contact, frictionless(s, v, drive)) : result;
+  }
+
+  /// What a louse at rest there would have of energy [m^2/s^2].
+  [[nodiscard]] double potential_at(core::Vec2 x, const Site& s) const {
+    return potential<F::central>(x, s.z, parameters_);
   }
 
   /// v after the implicit half kick v' = v + k a(s, v').
   [[nodiscard]] core::Vec2 kick(const Site& s, core::Vec2 v, double k, const Drive& drive,
                                 Contact contact) const requires E::kExact {
-    const core::Vec2 kicked = implicit_kick<F>(s, v, k, drive_at(s, drive), parameters_);
-    return contact.any() ? bounced(s, contact, kicked, 0.0) : kicked;
+    if (!contact.any()) return implicit_kick<F>(s, v, k, drive_at(s, drive), parameters_, 0.0);
+    const double carried = wall_load(s, contact, frictionless(s, v, drive));
+    return bounced(s, contact, implicit_kick<F>(s, v, k, drive_at(s, drive), parameters_, carried), 0.0);
   }
 
   /// What pulls at v = 0, and what friction can hold there.
-  [[nodiscard]] RestingBalance balance(const Start& start, core::Vec2 heading, const Drive& drive) const {
-    RestingBalance b = resting_balance<F>(start.sample, heading, drive_at(start.sample, drive), parameters_);
-    if (start.contact.any()) b.pull = supported(start.sample, start.contact, b.pull);
+  [[nodiscard]] RestingBalance balance(const Start& start, const Drive& drive) const {
+    const Contact contact = start.contact;
+    RestingBalance b = resting_balance<F>(
+        start.sample, drive_at(start.sample, drive), parameters_,
+        [&](core::Vec2 pull) { return contact.any() ? wall_load(start.sample, contact, pull) : 0.0; });
+    if (contact.any()) b.pull = supported(start.sample, contact, b.pull);
     return b;
   }
 
+  /// Off the walls that it runs into, if any; a heading that turns is thrown back as the velocity is.
+  bool bounce(Start& start, Drive& drive, double restitution) const {
+    core::Vec2& v = start.at.velocity;
+    if (!outward(start.contact.x, v.x) && !outward(start.contact.y, v.y)) return false;
+    v = bounced(start.sample, start.contact, v, restitution);
+    if (!drive.turns) return true;
+    const core::Vec2 thrown = bounced(start.sample, start.contact, drive.direction, restitution);
+    if (dot(thrown, thrown) > kStandstill2) point(drive, unit(thrown));
+    return true;
+  }
+
+  /// Of the walls that are touched, leaves those in `contact` that the louse leans on: no velocity along
+  /// their normals. One that it leaves so slowly that it is back within rounding of the wall, it has not
+  /// left: without that, a louse in a corner would bounce off two walls without end.
+  void lean_on(Start& start, const Drive& drive, const Rim& rim) const {
+    const Contact touched = start.contact;
+    core::Vec2& v = start.at.velocity;
+    start.contact = {v.x != 0.0 ? 0 : touched.x, v.y != 0.0 ? 0 : touched.y};
+    const Contact left{touched.x - start.contact.x, touched.y - start.contact.y};
+    if (!left.any()) return;
+    const core::Vec2 a = accelerate(start.sample, v, drive, start.contact);
+    const auto falls_back = [&](int side, double leaving, double pull) {
+      return outward(side, pull) && leaving * leaving <= 4.0 * rim.tolerance() * std::fabs(pull);
+    };
+    const bool x = falls_back(left.x, v.x, a.x);
+    const bool y = falls_back(left.y, v.y, a.y);
+    if (!x && !y) return;
+    const Contact leans{x ? touched.x : start.contact.x, y ? touched.y : start.contact.y};
+    if (leans.x != 0 && leans.y != 0) {
+      v = {0.0, 0.0};
+    } else {
+      v = x ? react_x(start.sample, v, 1.0) : react_y(start.sample, v, 1.0);
+    }
+    start.contact = leans;
+  }
+
  private:
+  using Frictionless = Forces<F::drag, false, F::thrust, F::central, F::any_drag>;
+
   /// The drive with the site's pull in it.
   [[nodiscard, gnu::always_inline]] static inline decltype(auto) drive_at(const Site& s, const Drive& drive) {
     if constexpr (F::central) {
@@ -82,6 +143,28 @@ class Ground {
       return pulled;
     } else {
       return (drive);
+    }
+  }
+
+  [[nodiscard, gnu::noinline]] core::Vec2 frictionless(const Site& s, core::Vec2 v,
+                                                       const Drive& drive) const {
+    return E::template acceleration<Frictionless>(s, v, drive_at(s, drive), parameters_);
+  }
+
+  /// Friction is of what the walls leave of the load.
+  [[nodiscard, gnu::noinline]] core::Vec2 accelerate_at_wall(const Site& s, core::Vec2 v, const Drive& drive,
+                                                             Contact contact) const {
+    if constexpr (!E::kExact || !F::friction) {
+      return supported(s, contact, E::template acceleration<F>(s, v, drive_at(s, drive), parameters_));
+    } else {
+      core::Vec2 a = frictionless(s, v, drive);
+      const double speed2 = squared_length_in_space(s, v);
+      if (speed2 > kStandstill2) {
+        const double w2 = 1.0 + s.zx * s.zx + s.zy * s.zy;
+        const double carried = std::fabs(load(s, v, drive, contact));
+        a = a - (parameters_.friction * carried / std::sqrt(w2 * speed2)) * v;
+      }
+      return supported(s, contact, a);
     }
   }
 
@@ -108,6 +191,36 @@ struct Field {
   }
   [[nodiscard]] core::Vec2 kick(const typename Ground::Site& s, core::Vec2 v, double k) const {
     return ground.kick(s, v, k, drive, start.contact);
+  }
+
+  /// What energy a motion has gained since the start beyond what the push can have given it on that way, of
+  /// the kinetic energies of both.
+  [[nodiscard]] double gain(const typename Ground::Site& s, const Motion& end, double way) const {
+    const double before = 0.5 * start.speed2;
+    const double after = 0.5 * squared_length_in_space(s, end.velocity);
+    const double climbed =
+        ground.potential_at(end.position, s) - ground.potential_at(start.at.position, start.sample);
+    const double gained = after - before + climbed - drive.push * way;
+    return before + after > 0.0 ? gained / (before + after) : 0.0;
+  }
+
+  /// Whether the drive acts along a heading that turns; then the same with that heading.
+  [[nodiscard, gnu::always_inline]] inline bool turns() const { return Ground::kTurns && drive.turns; }
+  [[nodiscard]] core::Vec2 heading() const { return drive.direction; }
+  [[nodiscard]] core::Vec2 accelerate(const typename Ground::Site& s, core::Vec2 v,
+                                      core::Vec2 heading) const {
+    return ground.accelerate(s, v, along(heading), start.contact);
+  }
+  [[nodiscard]] core::Vec2 kick(const typename Ground::Site& s, core::Vec2 v, double k,
+                                core::Vec2 heading) const {
+    return ground.kick(s, v, k, along(heading), start.contact);
+  }
+
+ private:
+  [[nodiscard]] Drive along(core::Vec2 heading) const {
+    Drive turned = drive;
+    point(turned, heading);
+    return turned;
   }
 };
 

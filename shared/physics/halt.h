@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "shared/physics/ground.h"
+#include "shared/physics/rim.h"
 #include "shared/physics/sub_step_rules.h"
 #include "shared/physics/surface_motion.h"
 
@@ -25,10 +26,20 @@ template <typename Start>
   return squared_length_in_space(start.sample, b.pull) <= b.hold * b.hold;
 }
 
+/// Whether a louse that stands there is held.
+template <typename Ground>
+[[nodiscard]] bool holds_at(const Ground& ground, const Rim& rim, core::Vec2 place, const Drive& drive) {
+  typename Ground::Start start;
+  start.at = {place, {}};
+  start.sample = ground.site(place);
+  start.contact = rim.touching(place);
+  return is_held(start, ground.balance(start, drive));
+}
+
 /// At v = 0: the acceleration out of rest, friction opposing the motion about to begin. False: it is held.
 template <typename Ground>
-bool set_off(const Ground& ground, typename Ground::Start& start, core::Vec2 heading, const Drive& drive) {
-  const RestingBalance b = ground.balance(start, heading, drive);
+bool set_off(const Ground& ground, typename Ground::Start& start, const Drive& drive) {
+  const RestingBalance b = ground.balance(start, drive);
   if (is_held(start, b)) return false;
   const double pull = std::sqrt(squared_length_in_space(start.sample, b.pull));
   start.acceleration = (1.0 - b.hold / pull) * b.pull;
@@ -62,15 +73,19 @@ struct Turning {
 };
 
 /// Halves h [s] until v's direction can be trusted, or the shortest sub-step is reached; speeding up, only
-/// what acts across v swings it.
+/// what acts across v swings it. A push that does not end in a stop may lead a little astray.
 template <typename Start>
 Turning limit_turn(const SubStepRules& rules, const Start& start, const Drive& drive, double speed,
                    double h) {
   const double rate = speed_rate(start, speed);
   double a2 = squared_length_in_space(start.sample, start.acceleration) + rules.stiffness2(drive.along);
   if (rate > 0.0) a2 -= rate * rate;
-  while (h > rules.shortest() && SubStepRules::turns_too_far(a2, start.speed2, h)) h *= 0.5;
-  return {speed, rate, h, !SubStepRules::turns_too_far(a2, start.speed2, h)};
+  const auto turns = [&] {
+    return SubStepRules::turns_too_far(a2, start.speed2, h) &&
+           (!(drive.push > 0.0) || !(speed + h * rate > 0.0) || rules.strays_too_far(a2, start.speed2, h));
+  };
+  while (h > rules.shortest() && turns()) h = rules.halved(h);
+  return {speed, rate, h, !turns()};
 }
 
 /// A louse that is slower than can be resolved, and can be held, is at its end; a fast one whose friction
@@ -78,11 +93,11 @@ Turning limit_turn(const SubStepRules& rules, const Start& start, const Drive& d
 /// makes |a| at most twice itself.
 template <typename Ground>
 Halt halts(const Ground& ground, const typename Ground::Start& start, const Turning& turning,
-           core::Vec2 heading, const Drive& drive) {
+           const Drive& drive) {
   const auto [speed, rate, h, resolved] = turning;
   const bool stops = !(speed + h * rate > 0.0);
   if (!stops && resolved) return Halt::kNo;
-  const RestingBalance balance = ground.balance(start, heading, drive);
+  const RestingBalance balance = ground.balance(start, drive);
   if (!stops && speed > 20.0 * h * balance.hold) return Halt::kNo;
   if (is_held(start, balance)) return Halt::kRests;
   if (!stops) return Halt::kNo;

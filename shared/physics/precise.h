@@ -19,6 +19,7 @@ class Precise {
  public:
   static constexpr bool kSubSteps = true;
   static constexpr bool kKeepsEnergy = true;
+  static constexpr int kSamples = 8;
 
   template <typename Start, typename Field>
   StepResult step(const Start& start, const Field& field, double h) {
@@ -30,16 +31,16 @@ class Precise {
       const auto sample = [&](core::Vec2 x) { return field.at(spline.sample_in(cell_, x.x, x.y), x); };
       const auto accelerate = [&](const auto& s, core::Vec2 v) { return field.accelerate(s, v); };
       const auto run = [&](double t) {
-        return nystrom4(start.at, start.acceleration, t, sample, accelerate);
+        return field.turns() ? Nystrom4::turning_step(start, field, t, sample)
+                             : nystrom4(start.at, start.acceleration, t, sample, accelerate);
       };
-      Motion end = run(h);
-      const Exit exit = first_exit(spline.bounds(cell_), start.at, end, h);
+      const StepResult whole = run(h);
+      const Exit exit = first_exit(spline.bounds(cell_), start.at, whole.end, h);
       next_ = cell_;
-      if (exit.columns == 0 && exit.rows == 0) return {end, h};
+      if (exit.columns == 0 && exit.rows == 0) return whole;
       next_ = {cell_.column + exit.columns, cell_.row + exit.rows};
       // Never a step of nothing: the line it starts on is behind it.
-      const double t = std::max(exit.time, 1e-9 * h);
-      return {run(t), t};
+      return run(std::max(exit.time, 1e-9 * h));
     }
   }
 

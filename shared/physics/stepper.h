@@ -1,38 +1,33 @@
 // One louse through one tick: an integrator's steps (integrators.h, precise.h) with the sub-step rules
-// (sub_step_rules.h), the friction stop (halt.h) and the walls (rim.h, walls.h). ground.h: what acts on the
-// louse.
+// (sub_step_rules.h), the friction stop (halt.h), the walls (rim.h, walls.h) and flight (flight.h). ground.h:
+// what acts on the louse.
 //
 // A sub-step is halved at most to 1/256 of the tick; one that wanted to be shorter still is counted, and its
-// energy bounded.
-//
-// Flight: on a unilateral map the moment at which the normal force ends is located within the sub-step; from
-// there the louse flies (flight.h).
-//
-// Edges that wrap: there are no walls; the sub-step runs over the seam (the surface goes on for some cells
-// beyond it), and then the louse is at the opposite rim.
-//
-// Walls: the crossing is located within the sub-step, the louse bounces and the rest of the tick goes on;
-// after kMaxBounces in a tick it keeps no outward velocity and slides.
+// energy bounded. After kMaxSubSteps sub-steps and pieces of flight, or kMaxEvents walls, stops, take-offs
+// and landings, what is left of the tick is one such step. The moment of an event is located within its
+// sub-step, and the rest of the tick goes on from there; after kMaxBounces in a tick a louse keeps no
+// velocity into a wall. A sub-step runs over a seam (the surface goes on beyond it), and then the louse is at
+// the opposite rim.
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 #include "shared/physics/bounded_energy.h"
-#include "shared/physics/energy_projection.h"
 #include "shared/physics/flight.h"
 #include "shared/physics/ground.h"
 #include "shared/physics/halt.h"
+#include "shared/physics/heading.h"
 #include "shared/physics/integrators.h"
 #include "shared/physics/rim.h"
+#include "shared/physics/step_counters.h"
 #include "shared/physics/sub_step_rules.h"
 #include "shared/physics/surface_motion.h"
-#include "shared/physics/world.h"
 
 namespace woodlouse::physics {
 
 /// S: the surface; F: the Forces the map has; E: the equations; I: the integrator. Equations that are not
-/// exact and integrators without sub-steps run bare: no sub-steps, no stop, no rest. Cheap to make, one per
-/// batch; refers to `surface`.
+/// exact and integrators without sub-steps run bare: no sub-steps, no stop, no rest. Refers to `surface`.
 template <terrain::Surface S, typename F, typename E = SurfaceEquations, typename I = Nystrom4>
 class Stepper {
   static_assert(!E::kExact || terrain::kHasHessian<S>, "the exact equations need the surface's Hessian");
@@ -45,7 +40,8 @@ class Stepper {
         ground_(surface, parameters),
         rim_(walls, parameters.edges),
         tick_(tick),
-        rules_(parameters, (kKeepsEnergy ? 0.5 : 1.0) * surface.cell(), tick),
+        keeps_energy_((kMayKeepEnergy || (kRules && F::central)) && conserves_energy(parameters)),
+        rules_(parameters, (keeps_energy_ ? 0.5 : 1.0) * surface.cell(), tick),
         unilateral_(E::kExact && kCurved && parameters.contact == state::SurfaceContact::kUnilateral) {}
 
   [[nodiscard]] const SubStepRules& rules() const { return rules_; }
@@ -56,7 +52,7 @@ class Stepper {
     run(louse, tick_, 0, counters);
   }
 
-  /// The rest of a tick, of which `remaining` [s] is left after `pieces` sub-steps in lanes (batch.h).
+  /// The rest of a tick: `remaining` [s] after `pieces` sub-steps in lanes (batch.h).
   void finish(state::Louse& louse, double remaining, int pieces, StepCounters& counters) const {
     run(louse, remaining, pieces, counters);
   }
@@ -65,12 +61,7 @@ class Stepper {
   [[nodiscard]] bool holds(const state::Louse& louse) const {
     if constexpr (!kRules) return false;
     if (louse.phase == state::Phase::kFlying || louse.velocity != core::Vec2{}) return false;
-    const Drive drive = drive_of(louse);
-    Start start;
-    start.at = {louse.position, {}};
-    start.sample = ground_.site(louse.position);
-    start.contact = rim_.touching(louse.position);
-    return is_held(start, ground_.balance(start, louse.heading, drive));
+    return holds_at(ground_, rim_, louse.position, drive_of(louse));
   }
 
  private:
@@ -80,20 +71,23 @@ class Stepper {
 
   static constexpr bool kCurved = terrain::Curved<typename Ground::Sample>;
   static constexpr bool kRules = E::kExact && I::kSubSteps;
+  static constexpr bool kTurns = kRules && F::thrust;
   /// On flat ground the steps themselves are exact where nothing but gravity acts.
-  static constexpr bool kKeepsEnergy = E::kExact && I::kKeepsEnergy && kConservative<F> && kCurved;
+  static constexpr bool kMayKeepEnergy = E::kExact && I::kKeepsEnergy && (kCurved || F::central);
   static constexpr int kMaxBounces = 8;
-  static constexpr int kMaxPieces = 1024;  // sub-steps, impacts and stops of one tick, whatever happens
+  static constexpr int kMaxEvents = 64;
+  static constexpr double kMaxGain = 2e-4;  // of the kinetic energy, by a step
 
-  /// A louse on its way through what is left of the tick: the locals of run(), so that each that can be
-  /// stays in a register.
+  /// A louse on its way through what is left of the tick: the locals of run(), which so can stay in
+  /// registers.
   struct Way {
     state::Louse& louse;
     StepCounters& counters;
-    const Drive& drive;
+    Drive& drive;
     Motion& at;
     double& remaining;  ///< [s]
     int& bounces;       ///< so far, in this tick
+    int& events;        ///< likewise
     I& integrator;
   };
 
@@ -107,58 +101,91 @@ class Stepper {
   /// See finish(). Inlined where lice are stepped one after the other.
   [[gnu::always_inline]] inline void run(state::Louse& louse, double remaining, int pieces,
                                          StepCounters& counters) const {
-    const Drive drive = drive_of(louse);
+    Drive drive = drive_of(louse);
     Motion at{louse.position, louse.velocity};
-    int bounces = 0;
+    int bounces = 0, events = 0;
     I integrator;
-    const Way way{louse, counters, drive, at, remaining, bounces, integrator};
+    const Way way{louse, counters, drive, at, remaining, bounces, events, integrator};
     for (int piece = pieces; remaining > 0.0; ++piece) {
-      if (piece == kMaxPieces) {
-        ++counters.capped;
+      if (piece >= static_cast<int>(kMaxSubSteps) || events >= kMaxEvents) {
+        run_out(way);
         break;
       }
       if (louse.phase == state::Phase::kFlying) {
-        const Flyer<S> flyer(surface_, parameters_, rim_, tick_);
-        remaining -= fly_on(flyer, louse, at, remaining, counters);
+        fly(way);
       } else if (!slide(way)) {
         break;
       }
     }
     louse.position = at.position;
     louse.velocity = at.velocity;
-    if (dot(at.velocity, at.velocity) > 0.0) louse.heading = direction(at.velocity);
+    if (drive.turns) {
+      louse.heading = drive.direction;
+    } else if (dot(at.velocity, at.velocity) > 0.0) {
+      louse.heading = unit(at.velocity);
+    }
+  }
+
+  /// One piece in the air, where a heading is the velocity's.
+  void fly(const Way& way) const {
+    const Flyer<S> flyer(surface_, parameters_, rim_, tick_);
+    const auto piece = fly_on(flyer, way.louse, way.at, way.remaining, way.counters);
+    way.remaining -= piece.time;
+    if (piece.landed || piece.bounced) ++way.events;
+    follow(way);
+  }
+
+  /// What is left of the tick in one step that looks for nothing on its way, its energy bounded.
+  [[gnu::noinline]] void run_out(const Way& way) const {
+    ++way.counters.capped;
+    if (way.louse.phase == state::Phase::kFlying) {
+      fly_out(Flyer<S>(surface_, parameters_, rim_, tick_), way.louse, way.at, way.remaining, way.counters);
+    } else {
+      const Start start = begin(way);
+      const StepResult result = I{}.step(start, Field{ground_, start, way.drive}, way.remaining);
+      ++way.counters.sub_steps;
+      way.counters.samples += I::kSamples;
+      way.louse.distance += way.remaining * std::sqrt(start.speed2);
+      way.at = bounded(start, way.drive, way.remaining, result.end);
+      way.at.position = rim_.inside(way.at.position);
+    }
+    follow(way);
+    way.remaining = 0.0;
+  }
+
+  /// A heading that turns, where nothing turned it: the velocity's direction.
+  static void follow(const Way& way) {
+    if (way.drive.turns && dot(way.at.velocity, way.at.velocity) > 0.0)
+      point(way.drive, unit(way.at.velocity));
   }
 
   /// One sub-step on the ground, or up to a halt. False: the louse has come to rest.
   [[gnu::always_inline]] inline bool slide(const Way& way) const {
-    Start start = begin(way.at, way.drive, way.bounces, way.counters);
+    Start start = begin(way);
     way.at = start.at;
-    if (kRules && start.speed2 == 0.0 && !set_off(ground_, start, way.louse.heading, way.drive)) {
+    if (kRules && start.speed2 == 0.0 && !set_off(ground_, start, way.drive)) {
       way.louse.phase = state::Phase::kResting;
       return false;
     }
-    SubStep step = choose(start, way.remaining);
+    SubStep step = choose(start, way.drive, way.remaining);
     ++way.counters.sub_steps;
-    if (turns_with_v(way.drive) && start.speed2 > 0.0 && turns_too_far(rules_, start, way.drive, step.h)) {
+    const bool turns_with_v = kRules && (F::friction || (F::thrust && way.drive.along < 0.0));
+    if (turns_with_v && start.speed2 > 0.0 && turns_too_far(rules_, start, way.drive, step.h)) {
       const Turning turning = limit_turn(rules_, start, way.drive, step.speed, step.h);
       step.h = turning.h;
-      const Halt halt = halts(ground_, start, turning, way.louse.heading, way.drive);
+      const Halt halt = halts(ground_, start, turning, way.drive);
       if (halt != Halt::kNo) return come_to_halt(way, turning, halt);
     }
     integrate(Field{ground_, start, way.drive}, way, step);
     return true;
   }
 
-  /// A force turns with v, and a sub-step may be too long for it.
-  [[nodiscard, gnu::always_inline]] static inline bool turns_with_v(const Drive& drive) {
-    return kRules && (F::friction || (F::thrust && drive.along != 0.0));
-  }
-
   /// The longest of remaining, its half, its quarter ... that the rules allow.
-  [[nodiscard, gnu::always_inline]] inline SubStep choose(const Start& start, double remaining) const {
+  [[nodiscard, gnu::always_inline]] inline SubStep choose(const Start& start, const Drive& drive,
+                                                          double remaining) const {
     double h = remaining;
-    while (kRules && h > rules_.shortest() && is_too_long(start, h)) h *= 0.5;
-    const bool capped = kRules && h <= rules_.shortest() && is_too_long(start, h);
+    while (kRules && h > rules_.shortest() && is_too_long(start, drive, h)) h = rules_.halved(h);
+    const bool capped = kRules && h <= rules_.shortest() && is_too_long(start, drive, h);
     return {h, std::sqrt(start.speed2), capped};
   }
 
@@ -167,11 +194,14 @@ class Stepper {
     const auto [speed, rate, h, resolved] = turning;
     const double time = speed < -rate * way.remaining ? -speed / rate : way.remaining;
     way.louse.distance += 0.5 * time * speed;
-    way.louse.heading = direction(way.at.velocity);
+    if (!way.drive.turns) way.louse.heading = unit(way.at.velocity);
     way.at = {rim_.stopped(way.at.position + (0.5 * time) * way.at.velocity), {}};
     way.remaining -= time;
     way.integrator = I{};
-    if (halt == Halt::kTurnsBack) return true;
+    ++way.events;
+    ++way.counters.samples;
+    // It may have stopped where it is not held, unlike where this step began.
+    if (halt == Halt::kTurnsBack || !holds_at(ground_, rim_, way.at.position, way.drive)) return true;
     way.louse.phase = state::Phase::kResting;
     ++way.counters.stops;
     return false;
@@ -179,37 +209,60 @@ class Stepper {
 
   /// The integrator's step, up to where it meets a wall or takes off.
   [[gnu::always_inline]] inline void integrate(const Field& field, const Way& way, SubStep step) const {
-    StepResult result = way.integrator.step(field.start, field, step.h);
+    StepResult result = take_step(field, way, step.h);
     step.h = step.h == result.used ? step.h : result.used;
-    Motion& end = result.end;
-    const bool hits = put_right(field, way, step, end);
-    const bool flies = unilateral_ && takes_off(field, way.integrator, step.h, end);
-    if (flies) begin_flight(surface_, end, way.louse, way.counters);
+    const bool hits = put_right(field, way, step, result);
+    bool flies = false;
+    if constexpr (E::kExact) flies = unilateral_ && takes_off(field, way, step.h, result);
+    if (flies) begin_flight(surface_, result.end, way.louse, way.counters);
+    if (hits || flies) ++way.events;
     if constexpr (requires { way.integrator.accept(hits); }) {
       way.integrator.accept(hits || step.capped || flies);
     }
-    way.louse.distance += step.h * step.speed;
+    way.louse.distance += result.way;
     way.remaining = step.h == way.remaining ? 0.0 : way.remaining - step.h;
-    way.at = end;
+    way.at = result.end;
+    if (way.drive.turns) point(way.drive, result.heading);
+    if (step.capped) follow(way);
     if (rim_.wraps()) carry_home(way.at, way.integrator);
+  }
+
+  [[gnu::always_inline]] inline StepResult take_step(const Field& field, const Way& way, double h) const {
+    way.counters.samples += I::kSamples;
+    return way.integrator.step(field.start, field, h);
   }
 
   /// The end within the walls and with no more energy than it may have; whether a wall is met, where step.h
   /// then ends.
   [[gnu::always_inline]] inline bool put_right(const Field& field, const Way& way, SubStep& step,
-                                               Motion& end) const {
+                                               StepResult& result) const {
     const Start& start = field.start;
+    Motion& end = result.end;
     if (step.capped) {
       ++way.counters.capped;
       end = bounded(start, way.drive, step.h, end);
     }
     const bool hits = !rim_.lets_pass(end.position);
     if (hits) {
-      step.h = rim_.reach(step.h, end, [&](double t) { return way.integrator.step(start, field, t).end; });
+      Motion reached = end;
+      step.h = rim_.reach(step.h, reached, [&](double t) {
+        result = take_step(field, way, t);
+        return result.end;
+      });
+      end = reached;
       if (step.capped) end = bounded(start, way.drive, step.h, end);
     }
-    if constexpr (kKeepsEnergy) {
-      if (!step.capped && !start.contact.any()) end = energy_kept(start, way.drive, step.h, end, hits);
+    if constexpr (kMayKeepEnergy) {
+      if (keeps_energy(way.drive) && !step.capped && !start.contact.any()) {
+        const std::optional<Motion> kept =
+            hits ? std::nullopt : energy_kept<F::central>(ground_, rim_, parameters_, start, step.h, end);
+        end = kept ? *kept : bounded(start, way.drive, step.h, end);
+      }
+    }
+    // A method that has no such end may gain by a step no more than it says.
+    if constexpr (kRules && !I::kKeepsEnergy) {
+      const bool kept = F::central && keeps_energy(way.drive) && result.gain != 0.0;
+      if (kept || result.gain > kMaxGain) end = bounded(start, way.drive, step.h, end);
     }
     return hits;
   }
@@ -221,101 +274,65 @@ class Stepper {
   }
 
   [[nodiscard]] Drive drive_of(const state::Louse& louse) const {
-    return F::thrust ? physics::drive_of(louse, parameters_.thrust_max) : Drive{};
+    return F::thrust ? physics::drive_of<kTurns>(louse, parameters_.thrust_max) : Drive{};
   }
 
-  [[nodiscard]] static core::Vec2 direction(core::Vec2 v) { return (1.0 / std::sqrt(dot(v, v))) * v; }
-
   /// Samples the surface, lets the louse bounce off a wall it is about to leave through, finds a1.
-  Start begin(const Motion& at, const Drive& drive, int& bounces, StepCounters& counters) const {
+  Start begin(const Way& way) const {
     Start start;
-    start.at = at;
-    start.sample = ground_.site(at.position);
-    start.contact = rim_.touching(at.position);
+    start.at = way.at;
+    start.sample = ground_.site(start.at.position);
+    start.contact = rim_.touching(start.at.position);
     if (start.contact.any()) {
-      core::Vec2& v = start.at.velocity;
-      if (outward(start.contact.x, v.x) || outward(start.contact.y, v.y)) {
-        const double restitution = bounces < kMaxBounces ? parameters_.edge_restitution : 0.0;
-        v = bounced(start.sample, start.contact, v, restitution);
-        ++bounces;
-        ++counters.bounces;
+      const double restitution = way.bounces < kMaxBounces ? parameters_.edge_restitution : 0.0;
+      if (ground_.bounce(start, way.drive, restitution)) {
+        ++way.bounces;
+        ++way.counters.bounces;
       }
-      lean_on(start, drive);
+      ground_.lean_on(start, way.drive, rim_);
     }
     start.speed2 = squared_length_in_space(start.sample, start.at.velocity);
     if (kRules && !(start.speed2 > kStandstill2)) {
       start.at.velocity = {};
       start.speed2 = 0.0;
     }
-    start.acceleration = ground_.accelerate(start.sample, start.at.velocity, drive, start.contact);
+    start.acceleration = ground_.accelerate(start.sample, start.at.velocity, way.drive, start.contact);
+    ++way.counters.samples;
     return start;
   }
 
-  /// Of the walls that are touched, leaves those in `contact` that the louse leans on: no velocity along
-  /// their normals. One that it leaves so slowly that it is back within rounding of the wall, it has not
-  /// left: without that, a louse in a corner would bounce off two walls without end.
-  void lean_on(Start& start, const Drive& drive) const {
-    const Contact touched = start.contact;
-    core::Vec2& v = start.at.velocity;
-    start.contact = {v.x != 0.0 ? 0 : touched.x, v.y != 0.0 ? 0 : touched.y};
-    const Contact left{touched.x - start.contact.x, touched.y - start.contact.y};
-    if (!left.any()) return;
-    const core::Vec2 a = ground_.accelerate(start.sample, v, drive, start.contact);
-    const auto falls_back = [&](int side, double leaving, double pull) {
-      return outward(side, pull) && leaving * leaving <= 4.0 * rim_.tolerance() * std::fabs(pull);
-    };
-    const bool x = falls_back(left.x, v.x, a.x);
-    const bool y = falls_back(left.y, v.y, a.y);
-    if (!x && !y) return;
-    const Contact leans{x ? touched.x : start.contact.x, y ? touched.y : start.contact.y};
-    if (leans.x != 0 && leans.y != 0) {
-      v = {0.0, 0.0};
-    } else {
-      v = x ? react_x(start.sample, v, 1.0) : react_y(start.sample, v, 1.0);
-    }
-    start.contact = leans;
-  }
-
-  [[nodiscard]] bool is_too_long(const Start& start, double h) const {
+  [[nodiscard]] bool is_too_long(const Start& start, const Drive& drive, double h) const {
     if constexpr (F::central) {
-      if (SubStepRules::swings_too_far(central_pull(start.at.position, parameters_.central_gravity), h))
-        return true;
+      if (SubStepRules::swings_too_far(central_pull(start.at.position, parameters_), h)) return true;
     }
+    if (kTurns && drive.turns && heading_turns_too_far(start.at.velocity, start.acceleration, h)) return true;
     return rules_.too_long(start.sample, start.speed2, h);
   }
 
-  /// Whether the normal force ends within the sub-step; then h and end become those of that moment.
-  bool takes_off(const Field& field, I& integrator, double& h, Motion& end) const {
+  /// Whether the normal force ends within the sub-step; then h and result become those of that moment.
+  bool takes_off(const Field& field, const Way& way, double& h, StepResult& result) const {
     const Start& start = field.start;
     const auto load = [&](const Motion& m) {
-      return lift(surface_.sample(m.position.x, m.position.y), m.velocity, parameters_);
+      return ground_.load(ground_.site(m.position), m.velocity, way.drive, start.contact);
     };
-    if (!(load(end) < 0.0)) return false;
-    double low = 0.0;
-    double high = h;
-    if (!(lift(start.sample, start.at.velocity, parameters_) > 0.0)) high = 0.0;  // it is due at once
-    for (int i = 0; i < 50 && high > 0.0; ++i) {
-      const double middle = 0.5 * (low + high);
-      (load(integrator.step(start, field, middle).end) < 0.0 ? high : low) = middle;
+    if (!(load(result.end) < 0.0)) return false;
+    if (load(start.at) > 0.0) {
+      result = last_contact(h, load, [&](double t) { return take_step(field, way, t); });
+    } else {  // due at once
+      result = {start.at, 0.0, 0.0, way.drive.direction};
+      h = 0.0;
     }
-    end = high > 0.0 ? integrator.step(start, field, high).end : start.at;
-    h = high;
     return true;
   }
 
-  /// The end, put right to the energy of the start; one at a wall stays there.
-  [[nodiscard]] Motion energy_kept(const Start& start, const Drive& drive, double h, const Motion& end,
-                                   bool at_wall) const {
-    if (at_wall) return bounded(start, drive, h, end);
-    const double energy0 = energy(start.sample, start.at.velocity, parameters_.gravity);
-    const auto s = surface_.sample(end.position.x, end.position.y);
-    const EnergyKept<double> kept = with_energy(energy0, s, end, h, parameters_.gravity);
-    return kept.near && rim_.lets_pass(kept.end.position) ? kept.end : bounded(start, drive, h, end);
+  /// Whether a louse with that drive keeps its energy.
+  [[nodiscard]] bool keeps_energy(const Drive& drive) const {
+    return keeps_energy_ && !(drive.push > 0.0) && !(drive.along < 0.0);
   }
 
   /// For a sub-step longer than the rules ask, or far off.
   [[nodiscard]] Motion bounded(const Start& start, const Drive& drive, double h, const Motion& end) const {
-    return energy_bounded<kKeepsEnergy>(surface_, rim_, parameters_.gravity, start, drive, h, end);
+    return energy_bounded<F::central>(surface_, rim_, parameters_, start, drive, h, end, keeps_energy(drive));
   }
 
   const S& surface_;
@@ -323,6 +340,7 @@ class Stepper {
   Ground ground_;
   Rim rim_;
   double tick_;
+  bool keeps_energy_;  ///< of who has no thrust
   SubStepRules rules_;
   bool unilateral_;
 };

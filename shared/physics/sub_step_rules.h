@@ -6,10 +6,17 @@
 // the direction of v swings. What holds against v, friction and brake of b m/s^2 in all, draws that direction
 // to the pull's at a rate of b / |v|, though |a| may be small: that counts as if |a|^2 were greater by (b
 // kTurn / 2)^2, which keeps h b below 2 |v|. Slope is no limit; curvature times speed, and gravity times
-// curvature, are. The comparisons are between squares and fourth powers: no roots. T is double, or several at
-// once.
+// curvature, are.
+//
+// That last rule is for where a louse comes to rest, which must not hang on the rate. While a push acts, and
+// does not end in a stop, what counts is how far astray the turn leads in metres: about b h^2 (h |a| /
+// |v|)^4, which may be kAstray; a thrust that changes with every tick then costs a few sub-steps and not a
+// dozen.
+//
+// The comparisons are between squares and higher powers: no roots. T is double, or several at once.
 #pragma once
 
+#include "shared/physics/central_gravity.h"
 #include "shared/physics/surface_motion.h"
 #include "shared/state/parameters.h"
 
@@ -23,10 +30,18 @@ class SubStepRules {
         longest_(p.drag > 0.0 && kDecay / p.drag < tick ? kDecay / p.drag : tick),
         inverse_way2_(1.0 / (way * way)),
         swing_factor_(p.gravity * p.gravity / (kSwing * kSwing * kSwing * kSwing)),
-        grip_(p.friction * p.gravity) {}
+        grip_(p.friction * p.gravity),
+        astray_factor_(grip_ / kAstray) {}
 
   /// No sub-step is halved further [s].
   [[nodiscard, gnu::always_inline]] inline double shortest() const { return shortest_; }
+
+  /// Half of h, or the shortest: so that a tick has no more than kMaxSubSteps of them.
+  template <typename T>
+  [[gnu::always_inline, nodiscard]] inline T halved(T h) const {
+    const T half = T(0.5) * h;
+    return core::select(half > T(shortest_), half, T(shortest_));
+  }
 
   /// Whether curvature, speed, drag or the cells ask for less than h. speed2: |v|3^2.
   template <typename Sample, typename T>
@@ -52,6 +67,14 @@ class SubStepRules {
     return h * h * acceleration2 > T(kTurn * kTurn) * speed2;
   }
 
+  /// Whether the turn that h may bring leads too far astray, while a push acts.
+  template <typename T>
+  [[gnu::always_inline, nodiscard]] inline auto strays_too_far(T acceleration2, T speed2, T h) const {
+    const T h2 = h * h;
+    const T turn2 = h2 * acceleration2;
+    return h2 * T(astray_factor_) * (turn2 * turn2) > speed2 * speed2;
+  }
+
   /// What friction and a drive along v add to |a|^2 in turns_too_far. along: of the drive [m/s^2]; negative
   /// brakes.
   template <typename T>
@@ -60,18 +83,18 @@ class SubStepRules {
   }
 
  private:
-  static constexpr double kMaxSubSteps = 256.0;  // of a tick
   static constexpr double kBend = 0.15;
   static constexpr double kSwing = 0.20;
-  static constexpr double kOrbit = 0.05;
   static constexpr double kDecay = 0.25;
   static constexpr double kTurn = 0.10;
+  static constexpr double kAstray = 3e-7;  // [m]
 
   double shortest_;
   double longest_;
   double inverse_way2_;
   double swing_factor_;
   double grip_;  ///< what friction can hold on the level [m/s^2]
+  double astray_factor_;
 };
 
 }  // namespace woodlouse::physics

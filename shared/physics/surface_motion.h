@@ -3,16 +3,16 @@
 // G = (zx, zy) gradient, H Hessian, v map-plane velocity, vz = G.v, |v|3^2 = v.v + vz^2, w^2 = 1 + |G|^2:
 //     s = (g + v'Hv) / w^2,   N = s w                          normal force, centripetal term included
 //     a = -s G - (d + mu |N| / |v|3) v + f h / |h|3            gravity and curvature, drag, friction, thrust
-// Another force F in the map plane adds F - G (G.F) / w^2 to a and (G.F) / w to N: central gravity, F = -k x
-// / r^3 (chapter 2.3), k / r^2 inside of kCoreRadius growing linearly from 0 instead. with h the unit map
-// direction of the thrust and |h|3^2 = 1 + (G.h)^2: a push f along the tangent over h. From the Lagrangian of
-// chapter 1.1 of the document with its two errors put right (the factors of Cramer's rule, and v'Hv, which a
-// local plane has not); tangential forces need no matrix, the mass matrix cancels. Contact is bilateral:
-// where v'Hv < -g the bead stays on the wire and friction takes |N|.
+// with h the unit map direction of the thrust and |h|3^2 = 1 + (G.h)^2: a push f along the tangent over h.
+// Another force F in the map plane adds F - G (G.F) / w^2 to a and (G.F) / w to N: central gravity
+// (central_gravity.h), a wall (walls.h). From the Lagrangian of chapter 1.1 of the document with its two
+// errors put right (the factors of Cramer's rule, and v'Hv, which a local plane has not); tangential forces
+// need no matrix, the mass matrix cancels. Contact is bilateral: where v'Hv < -g the bead stays on the wire
+// and friction takes |N|.
 //
-// A thrust along the heading acts along v, so it is friction with the other sign (a brake adds to friction).
-// At v = 0 friction and brake hold against up to mu g / w + brake: the stick test.
-// |u|_M = sqrt(u.u + (G.u)^2) is the length in space of a tangent whose map projection is u.
+// A thrust along the heading is a push over a direction that turns (heading.h); a negative one brakes: it
+// adds to friction. At v = 0 friction and brake hold against up to mu N + brake: the stick test. |u|_M =
+// sqrt(u.u + (G.u)^2) is the length in space of a tangent whose map projection is u.
 //
 // + - * / and sqrt only, in the order written: these are the simulation's bits. T is double, or several at
 // once (core/lanes.h).
@@ -44,26 +44,23 @@ struct Forces {
   static constexpr bool singular = kFriction || kThrust;
 };
 
-inline constexpr double kCoreRadius = 1e-3;  ///< [m]
-
-/// k / r^3 at a point: F = -(this) x.
-inline double central_pull(core::Vec2 x, double k) {
-  const double r2 = dot(x, x);
-  const double core2 = kCoreRadius * kCoreRadius;
-  const double outside2 = r2 > core2 ? r2 : core2;
-  return k / (outside2 * core::square_root(outside2));
-}
-
 /// A louse's thrust made ready for the equations, once per tick.
 template <typename T>
 struct BasicDrive {
   Pair<T> direction{};  ///< h of a map vector, of any length
   T size2 = 1.0;        ///< h.h; 1 where there is none
   T push = 0.0;         ///< along h [m/s^2], >= 0
-  T along = 0.0;        ///< along v [m/s^2]; negative brakes
+  T along = 0.0;        ///< along v [m/s^2]: a brake, negative; the document's thrust along v, of either sign
   Pair<T> pull{};       ///< central gravity where the louse is [m/s^2]; only with Forces::central
+  bool turns = false;   ///< direction is the heading and turns (heading.h)
 };
 using Drive = BasicDrive<double>;
+
+/// Turns a drive to a direction of length 1 (heading.h).
+inline void point(Drive& drive, core::Vec2 heading) {
+  drive.direction = heading;
+  drive.size2 = dot(heading, heading);
+}
 
 /// The sets that the default method is compiled for where drag is not alone.
 template <bool kFriction, bool kThrust>
@@ -82,14 +79,26 @@ template <typename T>
           core::select(size2 > T(0.0), size2, T(1.0)),
           core::square_root(size2) * T(thrust_max),
           T(0.0),
-          {}};
+          {},
+          false};
 }
 
-inline Drive drive_of(const state::Louse& louse, double thrust_max) {
+/// kTurns: whether the heading is a state of its own, as with the exact equations; else what drives acts
+/// along v, as the document has it.
+template <bool kTurns>
+Drive drive_of(const state::Louse& louse, double thrust_max) {
   if (louse.thrust_kind == state::ThrustKind::kMapVector)
     return drive_of_map_vector(louse.thrust, thrust_max);
   Drive drive;
-  if (louse.thrust_kind == state::ThrustKind::kAlongHeading) drive.along = louse.thrust.x * thrust_max;
+  if (louse.thrust_kind != state::ThrustKind::kAlongHeading) return drive;
+  if (kTurns && louse.thrust.x > 0.0) {
+    drive.direction = louse.heading;
+    drive.size2 = dot(louse.heading, louse.heading);
+    drive.push = louse.thrust.x * thrust_max;
+    drive.turns = true;
+  } else {
+    drive.along = louse.thrust.x * thrust_max;
+  }
   return drive;
 }
 
@@ -198,45 +207,51 @@ struct SurfaceEquations {
 };
 
 /// The implicit half kick of VerletQ: v' = v + k a(s, v'). Gravity and curvature are a quadratic in sigma,
-///     v' = c (u - k sigma G),  sigma w^2 = g + v'Hv',  u = v + k push,  c = 1 / (1 + k resistance),
-/// solved in closed form; the resistance (drag, friction, drive along v) is taken at v, then once more at v'.
+///     v' = c (u - k sigma G),  sigma w^2 = g + v'Hv',  u = v + k push,
+///     c = (1 - k hold / |u - k sigma G|3) / (1 + k d),  at least 0
+/// solved in closed form: friction and brake of `hold` take from the speed what they can in k, from rest too,
+/// where v says nothing of it. What c needs of v' and sigma is taken at v, then once more. wall_load: what
+/// walls add to N w (walls.h).
 template <typename F, typename Sample>
 core::Vec2 implicit_kick(const Sample& s, core::Vec2 v, double k, const Drive& drive,
-                         const state::Parameters& p) {
+                         const state::Parameters& p, double wall_load) {
   const double w2 = 1.0 + s.zx * s.zx + s.zy * s.zy;
   const core::Vec2 gradient{s.zx, s.zy};
   core::Vec2 u = v;
   if constexpr (F::thrust) {
     if (drive.push > 0.0) u += k * push_over_tangent(s, drive.direction, drive.push);
   }
-  double extra_load = 0.0;
+  double extra_load = wall_load;
   if constexpr (F::central) {
     u += k * along_surface(s, drive.pull, w2);
-    extra_load = s.zx * drive.pull.x + s.zy * drive.pull.y;
+    extra_load += s.zx * drive.pull.x + s.zy * drive.pull.y;
   }
   const double g_h_g = curvature_along(s, gradient);
   const double g_h_u = dot(curvature_times(s, gradient), u);
   const double u_h_u = curvature_along(s, u);
   core::Vec2 result = v;
+  core::Vec2 kicked =
+      u - (k * (p.gravity + curvature_along(s, v)) / w2) * gradient;  // what resistance is against
   for (int pass = 0; pass < (F::singular ? 2 : 1); ++pass) {
-    double resistance = F::drag ? p.drag : 0.0;
+    double c = 1.0 / (1.0 + k * (F::drag ? p.drag : 0.0));
     if constexpr (F::singular) {
-      const double speed2 = squared_length_in_space(s, result);
-      if (speed2 > 0.0) {
-        if constexpr (F::friction) {
-          resistance += p.friction * core::magnitude(p.gravity + extra_load + curvature_along(s, result)) /
-                        core::square_root(w2 * speed2);
-        }
-        if constexpr (F::thrust) resistance -= drive.along / core::square_root(speed2);
+      double hold = 0.0;
+      if constexpr (F::friction) {
+        hold = p.friction * core::magnitude(p.gravity + extra_load + curvature_along(s, result)) /
+               core::square_root(w2);
       }
+      if constexpr (F::thrust) hold -= drive.along;
+      const double length2 = squared_length_in_space(s, kicked);
+      const double held = length2 > 0.0 ? k * hold / core::square_root(length2) : 0.0;
+      c *= held < 1.0 ? 1.0 - held : 0.0;
     }
-    const double c = 1.0 / (1.0 + k * resistance);
     const double a2 = c * c * k * k * g_h_g;
     const double a1 = w2 + 2.0 * c * c * k * g_h_u;
     const double a0 = p.gravity + c * c * u_h_u;
     const double root2 = a1 * a1 - 4.0 * a2 * a0;
     const double sigma = 2.0 * a0 / (a1 + core::square_root(root2 > 0.0 ? root2 : 0.0));
-    result = c * (u - (k * sigma) * gradient);
+    kicked = u - (k * sigma) * gradient;
+    result = c * kicked;
   }
   return result;
 }
@@ -247,9 +262,10 @@ struct RestingBalance {
   double hold = 0.0;  ///< [m/s^2], compared with |pull|_M
 };
 
-template <typename F>
-RestingBalance resting_balance(const terrain::SlopeSample& s, core::Vec2 heading, const Drive& drive,
-                               const state::Parameters& p) {
+/// wall_load(pull): what walls add to N w against that pull (walls.h).
+template <typename F, typename WallLoad>
+RestingBalance resting_balance(const terrain::SlopeSample& s, const Drive& drive, const state::Parameters& p,
+                               const WallLoad& wall_load) {
   const double w2 = 1.0 + s.zx * s.zx + s.zy * s.zy;
   RestingBalance balance;
   balance.pull = {-p.gravity / w2 * s.zx, -p.gravity / w2 * s.zy};
@@ -258,10 +274,12 @@ RestingBalance resting_balance(const terrain::SlopeSample& s, core::Vec2 heading
     balance.pull += along_surface(s, drive.pull, w2);
     load += s.zx * drive.pull.x + s.zy * drive.pull.y;
   }
-  if constexpr (F::friction) balance.hold = p.friction * core::magnitude(load) / core::square_root(w2);
   if constexpr (F::thrust) {
     if (drive.push > 0.0) balance.pull += push_over_tangent(s, drive.direction, drive.push);
-    if (drive.along > 0.0) balance.pull += push_over_tangent(s, heading, drive.along);
+  }
+  if constexpr (F::friction)
+    balance.hold = p.friction * core::magnitude(load + wall_load(balance.pull)) / core::square_root(w2);
+  if constexpr (F::thrust) {
     if (drive.along < 0.0) balance.hold -= drive.along;
   }
   return balance;

@@ -44,6 +44,7 @@ std::string line_of(const Welcome& welcome) {
     physics.number("friction", welcome.physics.friction).number("thrust_max", welcome.physics.thrust_max);
     physics.number("edge_restitution", welcome.physics.edge_restitution);
     physics.number("central_gravity", welcome.physics.central_gravity);
+    physics.number("core_radius", welcome.physics.core_radius);
     physics.text("equations", state::to_text(welcome.physics.equations));
     physics.text("method", state::to_text(welcome.physics.method));
     physics.text("contact", state::to_text(welcome.physics.contact));

@@ -88,8 +88,11 @@ struct Parameters {
   double thrust_max = 4.0;        ///< acceleration of a thrust of 1 [m/s^2], >= 0; 0 costs nothing
   double edge_restitution = 0.5;  ///< walls at the domain's edge: 0 no bounce .. 1 elastic
 
-  double central_gravity =
-      0.0;  ///< pull towards the map's origin, k / r^2 [m^3/s^2], >= 0 (chapter 2.3); 0 costs nothing
+  /// Pull towards the map's origin, k / r^2 [m^3/s^2], >= 0 (chapter 2.3); 0 costs nothing.
+  double central_gravity = 0.0;
+  /// Within it the pull is smooth and ends at the origin (physics/central_gravity.h) [m]. REQUIRED > 0 where
+  /// there is central gravity; counts nowhere else.
+  double core_radius = 0.0;
   Edges edges = Edges::kWalls;
   SurfaceContact contact = SurfaceContact::kBilateral;
   Equations equations = Equations::kExact;

@@ -128,8 +128,12 @@ TEST_CASE(
     "Kepler: a louse on the flat under central gravity runs its ellipse, with period, axis and Laplace "
     "vector") {
   const tests::Plane plane;
-  const state::Parameters p{
-      .gravity = 0.0, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .central_gravity = 1.0};
+  const state::Parameters p{.gravity = 0.0,
+                            .drag = 0.0,
+                            .friction = 0.0,
+                            .thrust_max = 0.0,
+                            .central_gravity = 1.0,
+                            .core_radius = 0.05};
   for (const double v0 : {0.8, 1.0, 1.2}) {
     const double a = 1 / (2 - v0 * v0);
     const double period = 2 * 3.14159265358979323846 * std::pow(a, 1.5);
@@ -148,8 +152,12 @@ TEST_CASE(
 
 TEST_CASE("falling into the centre stays finite") {
   const tests::Plane plane;
-  const state::Parameters p{
-      .gravity = 0.0, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .central_gravity = 1.0};
+  const state::Parameters p{.gravity = 0.0,
+                            .drag = 0.0,
+                            .friction = 0.0,
+                            .thrust_max = 0.0,
+                            .central_gravity = 1.0,
+                            .core_radius = 0.05};
   bool finite = true;
   tests::run<Forces<false, false, false, true>>(
       plane, p, moving({1, 0}, {0, 0}), 60, 600, {-2, -2, 2, 2}, [&](const state::Louse& l) {

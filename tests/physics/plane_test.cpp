@@ -148,10 +148,11 @@ TEST_CASE("on an incline a crowd goes where it goes on a spline through the same
       ours.step();
       theirs.step();
     }
-    // Not to rounding: a slope an ulp off can halve a sub-step that stays whole on the other ground.
+    // Not to rounding: a slope an ulp off can halve a sub-step that stays whole on the other ground, and each
+    // may then lead as far astray as it may at all (sub_step_rules.h).
     for (std::size_t i = 0; i < ours.lice().size(); ++i) {
-      CHECK(std::abs(ours.lice()[i].position.x - theirs.lice()[i].position.x) < 1e-8);
-      CHECK(std::abs(ours.lice()[i].position.y - theirs.lice()[i].position.y) < 1e-8);
+      CHECK(std::abs(ours.lice()[i].position.x - theirs.lice()[i].position.x) < 3e-7);
+      CHECK(std::abs(ours.lice()[i].position.y - theirs.lice()[i].position.y) < 3e-7);
     }
   }
 }

@@ -174,3 +174,74 @@ TEST_CASE("lice that push into walls and corners cost few sub-steps, and none st
     }
   }
 }
+
+TEST_CASE("along a wall a louse slides as far as the ground's share of its weight lets it") {
+  // Pressed downhill against x = min of z = slope x, the wall carries a part: N = g w.
+  for (const double slope : {1.0, 0.5}) {
+    const tests::Plane ramp{{}, slope, 0.0};
+    const state::Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.3, .thrust_max = 0.0};
+    const double right = 64.0 / (2.0 * 0.3 * 9.81 * std::sqrt(1.0 + slope * slope));
+    for (const double rate : {15.0, 60.0, 1000.0}) {
+      const auto run = tests::run<Forces<false, true, false>>(ramp, p, moving({0, 0}, {0, 8}), rate,
+                                                              std::lround(10 * rate), {0, -50, 50, 50},
+                                                              [](const state::Louse&) { return true; });
+      CHECK(run.louse.phase == state::Phase::kResting);
+      CHECK(run.louse.position.y == Approx(right).margin(1e-6));
+    }
+  }
+}
+
+TEST_CASE("what a wall carries follows from the statics of a ramp, a push uphill and a corner") {
+  const terrain::SlopeSample s{0.0, 0.7, -0.4};
+  const double w2 = 1.0 + 0.49 + 0.16;
+  const core::Vec2 falling{-9.81 / w2 * 0.7, 9.81 / w2 * 0.4};
+  CHECK(9.81 + wall_load(s, {-1, 0}, falling) == Approx(9.81 * w2 / (1.0 + 0.16)));
+  // In a corner all is at rest: N / w = g.
+  CHECK(9.81 + wall_load(s, {-1, 1}, falling) == Approx(9.81 * w2));
+  // Pushed away from the wall, nothing is carried; uphill into the high wall, that holds a part of the
+  // weight.
+  CHECK(wall_load(s, {-1, 0}, falling + core::Vec2{9.0, 0.0}) == 0.0);
+  CHECK(wall_load(s, {1, 0}, {3.0, 0.0}) == Approx(-0.7 * 3.0 * w2 / 1.16));
+}
+
+TEST_CASE("friction along the rim of a dome takes the power of the load that statics say") {
+  const tests::Bowl dome{{}, -0.5};  // z = -r^2 / 2 presses outwards
+  const state::Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.2, .thrust_max = 0.0};
+  constexpr double kRate = 4000.0;
+  const state::Louse louse = moving({1, -0.5}, {0, 2});
+  double energy = tests::energy(dome, louse, 9.81);
+  int compared = 0;
+  tests::run<Forces<false, true, false>>(
+      dome, p, louse, kRate, 1600, {-2, -2, 1, 2}, [&](const state::Louse& l) {
+        const double now = tests::energy(dome, l, 9.81);
+        const double lost = (energy - now) * kRate;
+        energy = now;
+        const terrain::SurfaceSample at = dome.sample(l.position.x, l.position.y);
+        const double w = std::sqrt(1.0 + at.zx * at.zx + at.zy * at.zy);
+        const double load = w * (9.81 - l.velocity.y * l.velocity.y) / (1.0 + at.zy * at.zy);
+        const double speed = std::sqrt(squared_length_in_space(at, l.velocity));
+        if (l.position.x != 1.0 || l.position.y > 1.9 || speed < 0.5) return true;
+        CHECK(lost == Approx(0.2 * std::fabs(load) * speed).epsilon(5e-3));
+        ++compared;
+        return true;
+      });
+  CHECK(compared > 500);
+}
+
+TEST_CASE("held against a wall by a push, a louse sticks where friction holds with what the ground carries") {
+  // On level ground a wall changes no load; on a ramp pressed into x = min by gravity friction holds across
+  // up to mu g w, by which a push along the wall must be larger.
+  const tests::Plane ramp{{}, 1.0, 0.0};
+  const state::Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.3, .thrust_max = 10.0};
+  const double holds = 0.3 * 9.81 * std::sqrt(2.0);
+  for (const double push : {0.99, 1.01}) {
+    state::Louse louse = moving({0, 0}, {});
+    louse.thrust = {0.0, push * holds / 10.0};
+    louse.thrust_kind = ThrustKind::kMapVector;
+    louse.thrust_ticks = kHeld;
+    const auto run = tests::run<Forces<false, true, true>>(ramp, p, louse, 60, 60, {0, -50, 50, 50},
+                                                           [](const state::Louse&) { return true; });
+    CHECK((run.louse.phase == state::Phase::kResting) == (push < 1.0));
+    CHECK((run.louse.position.y > 0.0) == (push > 1.0));
+  }
+}

@@ -9,6 +9,7 @@
 #include "bench/lab/figures/plotting.h"
 #include "bench/lab/problems/flat_ground.h"
 #include "bench/lab/problems/kepler_ellipse.h"
+#include "shared/physics/central_gravity.h"
 
 namespace woodlouse::lab {
 namespace {
@@ -45,6 +46,7 @@ core::Expected<void> draw_planet(const Output& output, Findings& findings) {
   const document::AnySurface ground = flat_ground();
   state::Parameters parameters{0.0, 0.0, 0.0, 0.0, 1.0};
   parameters.central_gravity = kPull;
+  parameters.core_radius = physics::default_core_radius(kPull);
   const double periods = output.quick ? 2.0 : kPeriods;
   const Journey journey{ellipse.start(), ellipse.velocity(), kFrameRate, periods * ellipse.period()};
   Table table({"integrator", "t", "x", "y", "vx", "vy", "energy", "angular_momentum"});

@@ -9,6 +9,7 @@ namespace woodlouse::lab {
 /// VerletQ composed to order 4 (M. Suzuki, Phys. Lett. A 146, 1990): five sub-steps of p, p, 1 - 4p, p, p,
 /// p = 1 / (4 - 4^(1/3)).
 struct VerletQ4 {
+  static constexpr int kSamples = 10;
   static constexpr bool kSubSteps = true;
   static constexpr bool kKeepsEnergy = false;
   template <typename Start, typename Field>
@@ -25,12 +26,13 @@ struct VerletQ4 {
       at.velocity = field.kick(s, half, k);
       a = field.accelerate(s, at.velocity);
     }
-    return {at, h};
+    return physics::plain_result(start, field, at, h);
   }
 };
 
 /// The classical Runge-Kutta method (W. Kutta, 1901) on (x, v). Order 4, four surface calls a step with a1's.
 struct RungeKutta4 {
+  static constexpr int kSamples = 3;
   static constexpr bool kSubSteps = true;
   static constexpr bool kKeepsEnergy = false;
   template <typename Start, typename Field>
@@ -46,13 +48,15 @@ struct RungeKutta4 {
     const core::Vec2 v4 = v1 + h * a3;
     const core::Vec2 a4 = field.accelerate(field.sample(x + h * v3), v4);
     const double sixth = h * (1.0 / 6.0);
-    return {{x + sixth * (v1 + 2.0 * (v2 + v3) + v4), v1 + sixth * (a1 + 2.0 * (a2 + a3) + a4)}, h};
+    return physics::plain_result(
+        start, field, {x + sixth * (v1 + 2.0 * (v2 + v3) + v4), v1 + sixth * (a1 + 2.0 * (a2 + a3) + a4)}, h);
   }
 };
 
 /// Dormand and Prince's fifth-order formula at a fixed step (J. Comput. Appl. Math. 6, 1980), six surface
 /// calls.
 struct DormandPrince5 {
+  static constexpr int kSamples = 5;
   static constexpr bool kSubSteps = true;
   static constexpr bool kKeepsEnergy = false;
   template <typename Start, typename Field>
@@ -83,7 +87,7 @@ struct DormandPrince5 {
       return h * ((35.0 / 384.0) * k1 + (500.0 / 1113.0) * k3 + (125.0 / 192.0) * k4 -
                   (2187.0 / 6784.0) * k5 + (11.0 / 84.0) * k6);
     };
-    return {{x + sum(v, v3, v4, v5, v6), v + sum(a1, a3, a4, a5, a6)}, h};
+    return physics::plain_result(start, field, {x + sum(v, v3, v4, v5, v6), v + sum(a1, a3, a4, a5, a6)}, h);
   }
 };
 

@@ -19,48 +19,24 @@
 
 #include "shared/physics/batch.h"
 #include "shared/physics/energy_projection.h"
+#include "shared/physics/integrators.h"
+#include "shared/physics/lanes/drives.h"
+#include "shared/physics/lanes/fields.h"
 #include "shared/physics/lanes/grounds.h"
 #include "shared/physics/nystrom.h"
 #include "shared/physics/surface_motion.h"
 
 namespace woodlouse::physics {
 
-/// The fields of physics::Louse from position to thrust, one register a field.
-template <typename L>
-struct LaneFields {
-  static constexpr int kFields = 8;
-  L field[kFields];  ///< x y vx vy heading_x heading_y tx ty
-
-  [[gnu::always_inline]] inline void load(state::Louse* const* lice) {
-    const double* from[L::kCount];
-    for (int part = 0; part < kFields; part += L::kRow) {
-      for (int l = 0; l < L::kCount; ++l) from[l] = row(*lice[l]) + part;
-      L::load_transposed(from, field + part);
-    }
-  }
-  /// Writes `count` fields of the lanes of `done`.
-  [[gnu::always_inline]] inline void store(state::Louse* const* lice, unsigned done) const {
-    double discarded[L::kRow];
-    double* to[L::kCount];
-    for (int part = 0; part < kFields; part += L::kRow) {
-      for (int l = 0; l < L::kCount; ++l) to[l] = (done >> l & 1u) != 0 ? row(*lice[l]) + part : discarded;
-      L::store_transposed(field + part, to);
-    }
-  }
-
- private:
-  static_assert(offsetof(state::Louse, thrust) - offsetof(state::Louse, position) == 6 * sizeof(double));
-  static double* row(state::Louse& louse) {
-    return reinterpret_cast<double*>(reinterpret_cast<char*>(&louse) + offsetof(state::Louse, position));
-  }
-};
-
 /// L: the lanes; F: the Forces the map has; G: its ground (grounds.h).
 template <typename L, typename F, typename G>
 class LaneStepper {
  public:
   explicit LaneStepper(const BatchContext& context)
-      : context_(context), ground_(context), shortest_(context.rules.shortest()) {}
+      : context_(context),
+        ground_(context),
+        shortest_(context.rules.shortest()),
+        keeps_energy_(kMayKeepEnergy && conserves_energy(context.parameters)) {}
 
   /// See BatchStep.
   void advance(state::Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists,
@@ -85,16 +61,19 @@ class LaneStepper {
   static constexpr std::size_t kCount = L::kCount;
   static constexpr std::size_t kBlock = 32;
   static constexpr std::size_t kBatches = kBlock / kCount;
-  static constexpr bool kKeepsEnergy = kConservative<F> && terrain::Curved<typename G::Sample>;
+  static constexpr auto kMaxPieces = static_cast<std::uint32_t>(kMaxSubSteps);
+  static constexpr std::size_t kSamples = Nystrom4::kSamples + 1;  // with the start's
+  static constexpr bool kMayKeepEnergy =
+      !F::friction && (!F::drag || F::any_drag) && terrain::Curved<typename G::Sample>;
 
   /// What a batch hands from stage to stage.
   struct Batch {
     BasicMotion<L> start;
-    BasicDrive<L> drive;
+    LaneDrive<L> drive;
     typename G::Place place;
     typename G::Sample s;
     Pair<L> w;  ///< velocity of the stage
-    Pair<L> a1, a2, a3, a4, heading, thrust;
+    Pair<L> a1, a2, a3, a4, thrust;
     L h, way, remaining;
     L energy;  ///< at the start; only where it is kept
     BasicMotion<L> end;
@@ -125,6 +104,7 @@ class LaneStepper {
       }
       step_block(batches);
       counters.sub_steps += size;
+      counters.samples += kSamples * size;
       for (std::size_t b = 0; b < batches; ++b) {
         const Batch& batch = batches_[b];
         for (unsigned open = batch.active & (batch.special | ~batch.finished); open != 0; open &= open - 1) {
@@ -133,8 +113,10 @@ class LaneStepper {
           if ((batch.special >> l & 1u) != 0) {
             lists.left.push_back(tick);
             --counters.sub_steps;
+            counters.samples -= kSamples;
           } else {
-            lists.again.push_back({tick.index, tick.pieces + 1, batch.after[l]});
+            auto& list = tick.pieces + 1 < kMaxPieces ? lists.again : lists.left;  // out of sub-steps
+            list.push_back({tick.index, tick.pieces + 1, batch.after[l]});
           }
         }
       }
@@ -149,7 +131,7 @@ class LaneStepper {
       batch.s = ground_.sample(batch.place);
     };
     const auto accelerate = [this](Batch & batch, Pair<L> & a) __attribute__((always_inline)) {
-      a = acceleration<F>(batch.s, batch.w, batch.drive, context_.parameters);
+      a = acceleration<F>(batch.s, batch.w, batch.drive.force, context_.parameters);
     };
     all([this](Batch & batch) __attribute__((always_inline)) { load(batch); });
     all(sample);
@@ -158,11 +140,15 @@ class LaneStepper {
     all(sample);
     all([&](Batch & batch) __attribute__((always_inline)) {
       accelerate(batch, batch.a2);
-      batch.w = batch.start.velocity + (L(0.5) * batch.h) * batch.a2;
+      const L half = L(0.5) * batch.h;
+      if constexpr (F::thrust) batch.drive.turn(batch.drive.r2, batch.w, half);
+      batch.w = batch.start.velocity + half * batch.a2;
+      batch.way = batch.h * core::square_root(squared_length_in_space(batch.s, batch.w));
     });
     all([&](Batch & batch) __attribute__((always_inline)) {
       accelerate(batch, batch.a3);
       const L h = batch.h;
+      if constexpr (F::thrust) batch.drive.turn(batch.drive.r3, batch.w, h);
       batch.w = batch.start.velocity + h * batch.a3;
       ground_.locate(nystrom_last(batch.start, batch.a3, h), batch.place);
     });
@@ -171,9 +157,11 @@ class LaneStepper {
       accelerate(batch, batch.a4);
       arrive(batch);
     });
-    if constexpr (kKeepsEnergy) {
-      all(sample);
-      all([this](Batch & batch) __attribute__((always_inline)) { keep_energy(batch); });
+    if constexpr (kMayKeepEnergy) {
+      if (keeps_energy_) {
+        all(sample);
+        all([this](Batch & batch) __attribute__((always_inline)) { keep_energy(batch); });
+      }
     }
     all([this](Batch & batch) __attribute__((always_inline)) { write_back(batch); });
   }
@@ -183,30 +171,11 @@ class LaneStepper {
     fields.load(batch.lice);
     batch.start.position = {fields.field[0], fields.field[1]};
     batch.start.velocity = {fields.field[2], fields.field[3]};
-    batch.heading = {fields.field[4], fields.field[5]};
+    batch.drive.heading = {fields.field[4], fields.field[5]};
     batch.thrust = {fields.field[6], fields.field[7]};
     batch.w = batch.start.velocity;
-    if constexpr (F::thrust) drive(batch);
+    if constexpr (F::thrust) batch.drive.load(batch.lice, batch.thrust, context_.parameters.thrust_max);
     ground_.locate(batch.start.position, batch.place);
-  }
-
-  [[gnu::always_inline]] inline void drive(Batch& batch) {
-    using core::select;
-    unsigned kinds = 0;
-    for (std::size_t l = 0; l < kCount; ++l) kinds |= static_cast<unsigned>(batch.lice[l]->thrust_kind);
-    if ((kinds & static_cast<unsigned>(state::ThrustKind::kAlongHeading)) == 0) {
-      batch.drive = drive_of_map_vector(batch.thrust, context_.parameters.thrust_max);
-      return;
-    }
-    unsigned along = 0;
-    for (std::size_t l = 0; l < kCount; ++l)
-      along |= (batch.lice[l]->thrust_kind == state::ThrustKind::kAlongHeading ? 1u : 0u) << l;
-    const auto is_along = L::Mask::of(along);
-    const Pair<L> thrust = batch.thrust;
-    batch.drive =
-        drive_of_map_vector(Pair<L>{select(is_along, L(0.0), thrust.x), select(is_along, L(0.0), thrust.y)},
-                            context_.parameters.thrust_max);
-    batch.drive.along = select(is_along, thrust.x, L(0.0)) * L(context_.parameters.thrust_max);
   }
 
   [[gnu::always_inline]] inline void depart(Batch& batch) {
@@ -216,41 +185,59 @@ class LaneStepper {
     const Pair<L> v = batch.start.velocity;
     const Pair<L> a1 = batch.a1;
     const L speed2 = squared_length_in_space(s, v);
-    const L speed = square_root(speed2);
     const terrain::Rectangle& interior = context_.interior;
     auto special = ~(speed2 > L(kStandstill2)) | ~((x.x > L(interior.x_min)) & (x.x < L(interior.x_max)) &
                                                    (x.y > L(interior.y_min)) & (x.y < L(interior.y_max)));
     L h = batch.remaining;
-    auto too_long = context_.rules.too_long(s, speed2, h);
+    const auto asks_for_less = [&]() __attribute__((always_inline)) {
+      auto less = context_.rules.too_long(s, speed2, h);
+      if constexpr (F::thrust) {
+        if (batch.drive.turning != 0) less = less | (batch.drive.turns() & heading_turns_too_far(v, a1, h));
+      }
+      return less;
+    };
+    auto too_long = asks_for_less();
     for (auto cut = too_long & (h > L(shortest_)); any(cut); cut = too_long & (h > L(shortest_))) {
-      h = select(cut, L(0.5) * h, h);
-      too_long = context_.rules.too_long(s, speed2, h);
+      h = select(cut, context_.rules.halved(h), h);
+      too_long = asks_for_less();
     }
     special = special | too_long;  // at the cap
     if constexpr (F::singular) {
-      L a2 = squared_length_in_space(s, a1) + context_.rules.stiffness2(batch.drive.along);
+      L a2 = squared_length_in_space(s, a1) + context_.rules.stiffness2(batch.drive.force.along);
       auto turns = SubStepRules::turns_too_far(a2, speed2, h);
-      if constexpr (!F::friction) turns = turns & (batch.drive.along != L(0.0));
+      if constexpr (!F::friction) turns = turns & (batch.drive.force.along < L(0.0));
       turns = turns & ~special;
       if (any(turns)) {
+        const L speed = square_root(speed2);
         const L vz = s.zx * v.x + s.zy * v.y;
         const L rate = (dot(v, a1) + vz * (s.zx * a1.x + s.zy * a1.y + curvature_along(s, v))) / speed;
         a2 = select(rate > L(0.0), a2 - rate * rate, a2);
+        const auto stops = [&]() __attribute__((always_inline)) { return ~(speed + h * rate > L(0.0)); };
+        const auto unresolved = [&]() __attribute__((always_inline)) {
+          auto strict = stops();
+          if constexpr (F::thrust) {
+            strict =
+                strict | ~(batch.drive.force.push > L(0.0)) | context_.rules.strays_too_far(a2, speed2, h);
+          } else {
+            strict = strict | ~strict;
+          }
+          return SubStepRules::turns_too_far(a2, speed2, h) & strict;
+        };
         const auto turning = turns;
-        turns = turns & SubStepRules::turns_too_far(a2, speed2, h) & (h > L(shortest_));
+        turns = turns & unresolved() & (h > L(shortest_));
         while (any(turns)) {
-          h = select(turns, L(0.5) * h, h);
-          turns = turns & SubStepRules::turns_too_far(a2, speed2, h) & (h > L(shortest_));
+          h = select(turns, context_.rules.halved(h), h);
+          turns = turns & unresolved() & (h > L(shortest_));
         }
-        const auto unresolved = SubStepRules::turns_too_far(a2, speed2, h);
-        special = special | (turning & (unresolved | ~(speed + h * rate > L(0.0))));
+        special = special | (turning & (unresolved() | stops()));
       }
     }
     batch.special = special.lanes();
-    if constexpr (kKeepsEnergy) batch.energy = energy(s, v, context_.parameters.gravity);
+    if constexpr (kMayKeepEnergy) batch.energy = energy(s, v, context_.parameters.gravity);
     batch.h = h;
-    batch.way = h * speed;
-    batch.w = v + (L(0.5) * h) * a1;
+    const L half = L(0.5) * h;
+    if constexpr (F::thrust) batch.drive.turn(batch.drive.r1, v, half);
+    batch.w = v + half * a1;
     ground_.locate(nystrom_middle(batch.start, a1, h), batch.place);
   }
 
@@ -262,7 +249,8 @@ class LaneStepper {
 
   [[gnu::always_inline]] inline void arrive(Batch& batch) {
     batch.end = nystrom_end(batch.start, batch.a1, batch.a2, batch.a3, batch.a4, batch.h);
-    if constexpr (kKeepsEnergy) {
+    if constexpr (F::thrust) batch.drive.finish(batch.w, batch.h);
+    if constexpr (kMayKeepEnergy) {
       batch.special |= (~inside(batch.end.position)).lanes();
       ground_.locate(batch.end.position, batch.place);
     }
@@ -270,8 +258,18 @@ class LaneStepper {
 
   [[gnu::always_inline]] inline void keep_energy(Batch& batch) {
     const auto kept = with_energy(batch.energy, batch.s, batch.end, batch.h, context_.parameters.gravity);
-    batch.end = kept.end;
-    batch.special |= (~kept.near).lanes();
+    if constexpr (F::thrust) {  // who has a thrust does not
+      const auto idle = ~((batch.drive.force.push > L(0.0)) | (batch.drive.force.along < L(0.0)));
+      const auto choose = [&](Pair<L> a, Pair<L> b) __attribute__((always_inline)) {
+        return Pair<L>{core::select(idle, a.x, b.x), core::select(idle, a.y, b.y)};
+      };
+      batch.end = {choose(kept.end.position, batch.end.position),
+                   choose(kept.end.velocity, batch.end.velocity)};
+      batch.special |= (idle & ~kept.near).lanes();
+    } else {
+      batch.end = kept.end;
+      batch.special |= (~kept.near).lanes();
+    }
   }
 
   [[gnu::always_inline]] inline void write_back(Batch& batch) {
@@ -291,8 +289,15 @@ class LaneStepper {
     fields.field[1] = y.y;
     fields.field[2] = w.x;
     fields.field[3] = w.y;
-    fields.field[4] = select(finished, inverse * w.x, batch.heading.x);
-    fields.field[5] = select(finished, inverse * w.y, batch.heading.y);
+    fields.field[4] = select(finished, inverse * w.x, batch.drive.heading.x);
+    fields.field[5] = select(finished, inverse * w.y, batch.drive.heading.y);
+    if constexpr (F::thrust) {
+      if (batch.drive.turning != 0) {
+        const auto turns = batch.drive.turns();
+        fields.field[4] = select(turns, batch.drive.force.direction.x, fields.field[4]);
+        fields.field[5] = select(turns, batch.drive.force.direction.y, fields.field[5]);
+      }
+    }
     fields.field[6] = batch.thrust.x;
     fields.field[7] = batch.thrust.y;
     fields.store(batch.lice, done);
@@ -307,6 +312,7 @@ class LaneStepper {
   const BatchContext& context_;
   G ground_;
   double shortest_;
+  bool keeps_energy_;
   Batch batches_[kBatches];
 };
 
