@@ -214,6 +214,7 @@ class Stepper {
     const bool hits = put_right(field, way, step, result);
     bool flies = false;
     if constexpr (E::kExact) flies = unilateral_ && takes_off(field, way, step.h, result);
+    if (flies && step.capped) result.end = bounded(field.start, way.drive, step.h, result.end);
     if (flies) begin_flight(surface_, result.end, way.louse, way.counters);
     if (hits || flies) ++way.events;
     if constexpr (requires { way.integrator.accept(hits); }) {
