@@ -9,6 +9,7 @@ namespace woodlouse::terrain {
 namespace {
 
 constexpr double kTwoPi = 6.283185307179586476925286766559;
+constexpr double kFarthest = 1e4;  // of the unit function, where portable_sincos still is one
 
 SurfaceSample wavy_pot(double x, double y) {
   constexpr double kAmplitude = 0.03;
@@ -107,7 +108,9 @@ std::optional<FunctionName> function_from_text(std::string_view text) {
 }
 
 SurfaceSample FunctionSurface::sample(double x, double y) const {
-  SurfaceSample s = unit_sample(name_, x / scale_, y / scale_);
+  // A step that goes astray asks for places where no sine is known; what it finds there it can't use.
+  const auto near = [](double u) { return u > -kFarthest ? (u < kFarthest ? u : kFarthest) : -kFarthest; };
+  SurfaceSample s = unit_sample(name_, near(x / scale_), near(y / scale_));
   s.z *= scale_;
   s.zxx /= scale_;
   s.zxy /= scale_;

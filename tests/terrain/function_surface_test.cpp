@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "shared/core/random.h"
 #include "shared/terrain/terrain.h"
@@ -51,4 +52,15 @@ TEST_CASE("sampling a terrain reaches its corners") {
   const HeightGrid grid = sample_grid(terrain, 7, 4);
   CHECK(grid.at(6, 3) == terrain.sample(20.0, 20.0).z);
   CHECK(grid.at(0, 0) == terrain.sample(-20.0, -20.0).z);
+}
+
+TEST_CASE("where a step that went astray may look, a function is finite still, however far") {
+  for (const FunctionName name : kFunctionNames) {
+    const FunctionSurface f(name, 0.5);
+    for (const double far : {1e5, -1e9, 1e300, std::numeric_limits<double>::infinity(),
+                             std::numeric_limits<double>::quiet_NaN()}) {
+      const SurfaceSample s = f.sample(far, -far);
+      for (const double value : {s.z, s.zx, s.zy, s.zxx, s.zxy, s.zyy}) CHECK(std::isfinite(value));
+    }
+  }
 }
