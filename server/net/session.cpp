@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <boost/asio/dispatch.hpp>
+#include <boost/asio/error.hpp>
 #include <boost/asio/post.hpp>
 
 #include <algorithm>

@@ -6,6 +6,7 @@
 
 #include "shared/core/random.h"
 #include "shared/terrain/bicubic_spline.h"
+#include "shared/terrain/function_surface.h"
 #include "tests/support/motion.h"
 
 using namespace woodlouse;

@@ -1,0 +1,93 @@
+// That the physics makes no energy: what a louse may have after a tick.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "shared/core/vec2.h"
+#include "shared/physics/central_gravity.h"
+#include "shared/state/louse.h"
+#include "shared/state/parameters.h"
+#include "shared/terrain/height_grid.h"
+#include "shared/terrain/terrain.h"
+
+namespace woodlouse::fuzz {
+
+/// Of a map with the exact equations, per unit mass [m^2/s^2]. Refers to both.
+class EnergyLaw {
+ public:
+  EnergyLaw(const terrain::Terrain& terrain, const state::Parameters& parameters)
+      : terrain_(terrain), parameters_(parameters) {
+    constexpr std::size_t kLooks = 49;  // each way: four a cell and more
+    const terrain::HeightGrid looks = terrain::sample_grid(terrain, kLooks, kLooks);
+    const auto [low, high] = std::minmax_element(looks.heights.begin(), looks.heights.end());
+    lowest_ = *low;
+    highest_ = *high;
+  }
+
+  /// Kinetic and potential energy together.
+  [[nodiscard]] double of(const state::Louse& louse) const {
+    const core::Vec2 v = louse.velocity;
+    if (louse.phase == state::Phase::kFlying) {
+      return 0.5 * (core::dot(v, v) + louse.flight_vz * louse.flight_vz) +
+             parameters_.gravity * louse.flight_z + pull_of(louse.position);
+    }
+    const auto s = terrain_.sample(louse.position.x, louse.position.y);
+    const double climb = s.zx * v.x + s.zy * v.y;
+    return 0.5 * (core::dot(v, v) + climb * climb) + parameters_.gravity * s.z + pull_of(louse.position);
+  }
+
+  /// Of `energy`, what is above a louse at rest in the map's lowest place, the core's bottom included.
+  [[nodiscard]] double above_floor(double energy) const {
+    return std::max(0.0, energy - parameters_.gravity * lowest_ - pull_of({}));
+  }
+
+  /// The most that of() may be after a tick of `step` seconds that began with this louse: what its push can
+  /// have given, and what the method may err.
+  [[nodiscard]] double most_after(const state::Louse& before, double step) const {
+    const double energy = of(before);
+    const double push = most_of_push(before, energy, step);
+    return energy + push + error_share() * (above_floor(energy) + push) + rounding();
+  }
+
+  /// Of what there was above the floor, what `after` has beyond what the push can have given; 0 or more.
+  [[nodiscard]] double gained_share(const state::Louse& before, double after, double step) const {
+    const double energy = of(before);
+    const double push = most_of_push(before, energy, step);
+    const double gain = after - energy - push - rounding();
+    return gain > 0.0 ? gain / (above_floor(energy) + push) : 0.0;
+  }
+
+  /// What a tick may err by, of above_floor().
+  [[nodiscard]] double error_share() const {
+    return parameters_.method == state::Method::kCheap ? 1e-2 : 1e-3;
+  }
+
+ private:
+  /// A push of f m/s^2 gives dE/dt <= f |v|3, and |v|3^2 / 2 is at most what is above the floor, whose root
+  /// therefore grows by at most f step / sqrt(2).
+  [[nodiscard]] double most_of_push(const state::Louse& before, double energy, double step) const {
+    if (before.thrust_kind == state::ThrustKind::kAlongHeading && before.thrust.x < 0.0)
+      return 0.0;  // a brake
+    const double gain = parameters_.thrust_max * std::sqrt(core::dot(before.thrust, before.thrust)) * step;
+    return gain * (std::sqrt(2.0 * above_floor(energy)) + 0.5 * gain);
+  }
+
+  [[nodiscard]] double pull_of(core::Vec2 place) const {
+    return parameters_.central_gravity > 0.0 ? physics::central_potential(place, parameters_) : 0.0;
+  }
+
+  /// Of the terms that an energy is the sum of.
+  [[nodiscard]] double rounding() const {
+    constexpr double kRounding = 1e-12;
+    return kRounding *
+           (parameters_.gravity * std::max(std::abs(lowest_), std::abs(highest_)) + std::abs(pull_of({})));
+  }
+
+  const terrain::Terrain& terrain_;
+  const state::Parameters& parameters_;
+  double lowest_ = 0.0;
+  double highest_ = 0.0;
+};
+
+}  // namespace woodlouse::fuzz
