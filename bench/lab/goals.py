@@ -96,7 +96,7 @@ class Goals:
     def energy(self):
         raster = [i / 1000 for i in range(-1000, 1001, 5)]
         lowest = min(0.5 * (x * x + y * y) + 0.03 * math.cos(2 * math.pi * x) * math.cos(2 * math.pi * y) for x in raster for y in raster)
-        # A map that has thrust, be it ever so small, does not keep its energy by projection.
+        # A louse that is pushed, be it ever so little, does not keep its energy by projection.
         for integrator, thrust, goal in (("nystrom4", 0, 3e-5), ("nystrom4", 1e-12, 3e-5), ("verlet_q", 0, 5e-4)):
             rows = table(self.lab, "trajectory", "--surface", "function", "--function", "wavy_pot", "--integrator", integrator,
                          "--rate", 120, "--seconds", 1000, "--state", "0.8,0,0,1.5", "--thrust", f"{thrust},0", "--every", 12)

@@ -260,9 +260,10 @@ class Stepper {
         end = kept ? *kept : bounded(start, way.drive, step.h, end);
       }
     }
-    // A method that has no such end may gain by a step no more than it says.
+    // A method that has no such end may gain by a step no more than it says; where sub-steps vary along an
+    // orbit, none.
     if constexpr (kRules && !I::kKeepsEnergy) {
-      const bool kept = F::central && keeps_energy(way.drive) && result.gain != 0.0;
+      const bool kept = F::central && step.h < tick_ && keeps_energy(way.drive) && result.gain != 0.0;
       if (kept || result.gain > kMaxGain) end = bounded(start, way.drive, step.h, end);
     }
     return hits;

@@ -26,7 +26,7 @@ QUOTED = (
     ("docs/physics.md", r"24 rest positions, default, 60 Hz \| 3e-6 m \| ([\de.-]+) m", "lab-goals.txt",
      r"rest positions +([\de.-]+)"),
     ("docs/physics.md", r"190 rows on its grid \| 1e-9 m \| ([\de.-]+) m", "lab-goals.txt", r"false_euler, 200 Hz +([\de.-]+)"),
-    ("docs/physics.md", r"3e-5 \| ([\de.-]+); on a map that has thrust, so not projected, ([\de.-]+) \|", "lab-goals.txt",
+    ("docs/physics.md", r"3e-5 \| ([\de.-]+); pushed ever so little, so not projected, ([\de.-]+) \|", "lab-goals.txt",
      r"120 Hz, nystrom4 +([\de.-]+) (?s:.*)not projected +([\de.-]+)"),
     ("docs/physics.md", r"`verlet_q` \| 5e-4 \| ([\de.-]+) \|", "lab-goals.txt", r"verlet_q +([\de.-]+)"),
 )

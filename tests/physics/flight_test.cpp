@@ -125,21 +125,23 @@ TEST_CASE("jumping lice never gain energy, never leave the walls and never end b
   CHECK(flights >= 20);
 }
 
+/// Nothing but a pull towards the middle.
+constexpr state::Parameters kPlanet{.gravity = 0.0,
+                                    .drag = 0.0,
+                                    .friction = 0.0,
+                                    .thrust_max = 0.0,
+                                    .central_gravity = 1.0,
+                                    .core_radius = 0.05};
+
 TEST_CASE(
     "Kepler: a louse on the flat under central gravity runs its ellipse, with period, axis and Laplace "
     "vector") {
   const tests::Plane plane;
-  const state::Parameters p{.gravity = 0.0,
-                            .drag = 0.0,
-                            .friction = 0.0,
-                            .thrust_max = 0.0,
-                            .central_gravity = 1.0,
-                            .core_radius = 0.05};
   for (const double v0 : {0.8, 1.0, 1.2}) {
     const double a = 1 / (2 - v0 * v0);
     const double period = 2 * 3.14159265358979323846 * std::pow(a, 1.5);
     constexpr long kTicks = 4000;
-    const auto run = tests::run<Forces<false, false, false, true>>(plane, p, moving({1, 0}, {0, v0}),
+    const auto run = tests::run<Forces<false, false, false, true>>(plane, kPlanet, moving({1, 0}, {0, v0}),
                                                                    kTicks / period, kTicks);
     const state::Louse& l = run.louse;
     INFO("v0 " << v0);
@@ -153,15 +155,9 @@ TEST_CASE(
 
 TEST_CASE("falling into the centre stays finite") {
   const tests::Plane plane;
-  const state::Parameters p{.gravity = 0.0,
-                            .drag = 0.0,
-                            .friction = 0.0,
-                            .thrust_max = 0.0,
-                            .central_gravity = 1.0,
-                            .core_radius = 0.05};
   bool finite = true;
   tests::run<Forces<false, false, false, true>>(
-      plane, p, moving({1, 0}, {0, 0}), 60, 600, {-2, -2, 2, 2}, [&](const state::Louse& l) {
+      plane, kPlanet, moving({1, 0}, {0, 0}), 60, 600, {-2, -2, 2, 2}, [&](const state::Louse& l) {
         finite = finite && std::fabs(l.position.x) <= 2 && std::fabs(l.velocity.x) < 1e4;
         return true;
       });

@@ -12,6 +12,21 @@
 #include "tests/support/big_map_files.h"
 
 namespace woodlouse::replay {
+namespace {
+
+/// A game from its beginning, its map named as that file.
+std::string recorded(match::Match& match, const std::string& map_file, int players, int ticks) {
+  std::string text;
+  ReplayWriter writer;
+  writer.append_header(text, make_header(match, "tests", map_file));
+  writer.append_keyframe(text, match.state());
+  for (int k = 0; k < players; ++k) match.join();
+  for (int k = 0; k < ticks; ++k) writer.append_step(text, match.advance());
+  writer.append_end(text, "");
+  return text;
+}
+
+}  // namespace
 
 TEST_CASE(
     "a game on a map in tiles is recorded with its file's name, verifies beside it and refuses another "
@@ -20,14 +35,8 @@ TEST_CASE(
   const auto map = map::load_map(files.map(R"(,"storage":"tiles")"));
   REQUIRE(map);
   match::Match match(*map, {60, 9});
-  std::string text;
-  ReplayWriter writer;
-  writer.append_header(text, make_header(match, "tests", "somewhere/else/hills.json"));
+  const std::string text = recorded(match, "somewhere/else/hills.json", 20, 200);
   CHECK(text.find("\"definition\"") == std::string::npos);
-  writer.append_keyframe(text, match.state());
-  for (int k = 0; k < 20; ++k) match.join();
-  for (int k = 0; k < 200; ++k) writer.append_step(text, match.advance());
-  writer.append_end(text, "");
 
   const auto verdict = [&] {
     const auto verification = verify_text(text, files.folder());
@@ -51,12 +60,7 @@ TEST_CASE(
   const auto map = map::load_map(files.map(R"(,"storage":"tiles")"));
   REQUIRE(map);
   match::Match match(*map, {60, 9});
-  std::string text;
-  ReplayWriter writer;
-  writer.append_header(text, make_header(match, "tests", "hills.json"));
-  writer.append_keyframe(text, match.state());
-  writer.append_step(text, match.advance());
-  writer.append_end(text, "");
+  const std::string text = recorded(match, "hills.json", 0, 1);
   const fs::path folder = files.folder() / "came";
   fs::create_directories(folder);
   std::ofstream(folder / "game.ndjson", std::ios::binary) << text;

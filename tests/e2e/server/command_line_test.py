@@ -34,6 +34,19 @@ class CommandLine(unittest.TestCase):
         self.assertEqual((code, errors), (0, ""))
         self.assertEqual(printed.splitlines(), [file + ": ok" for file in files])
 
+    def test_check_notes_from_which_rate_a_small_core_is_resolved(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "planet.json")
+            with open(file, "w") as out:
+                out.write('{"name": "planet", "terrain": {"spacing": 8, "heights": [%s]}, "spawns": [{"position": [9, 9]}],'
+                          '"physics": {"central_gravity": 100, "core_radius": 0.01}}' % ", ".join(["[0, 0, 0, 0]"] * 4))
+            code, printed, _ = run("check", file)
+            self.assertEqual(code, 0)
+            ok, note = printed.splitlines()
+            self.assertEqual(ok, file + ": ok")
+            # sqrt(35/8 k / R^3) / 12.8
+            self.assertRegex(note, "note: physics.core_radius: 0.01 m is resolved from 1635 ticks a second on.*0.228 m")
+
     def test_check_names_file_field_and_line_of_what_is_wrong(self):
         with tempfile.TemporaryDirectory() as folder:
             file = os.path.join(folder, "bad.json")
