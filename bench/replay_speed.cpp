@@ -45,9 +45,7 @@ void play(const std::shared_ptr<const map::Map>& map, const Game& game, const st
   std::string bytes;
   writer.append_header(bytes, replay::make_header(match, "woodlouse-replay-speed", ""));
   writer.append_keyframe(bytes, match.state());
-  for (std::uint32_t player = 0; player < game.players; ++player) {
-    writer.note_player(match.join(), "bot", protocol::Role::kBot);
-  }
+  for (std::uint32_t player = 0; player < game.players; ++player) match.join({"bot", state::Role::kBot});
   std::vector<std::uint32_t> seqs(game.players, 0);
   while (match.tick() < std::uint64_t{game.seconds} * kTickHz) {
     for (std::uint32_t player = 1; match.tick() > 0 && player <= game.players; ++player) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -53,6 +54,22 @@ void spline_evaluation(benchmark::State& state, Order order) {
   }
 }
 
+/// A world's hashes, made as a match makes them.
+class HashChain {
+ public:
+  void add(physics::World& world, std::uint64_t tick) {
+    blocks_.update(world.lice(), world.changed_blocks());
+    world.forget_changes();
+    hash_ = state::state_hash(hasher_, {hash_, 0, 0, 0, tick, 0}, blocks_.values());
+    benchmark::DoNotOptimize(hash_);
+  }
+
+ private:
+  core::StableHasher hasher_;
+  state::BlockHashes blocks_;
+  std::uint64_t hash_ = 0;
+};
+
 /// `count` lice all moving under thrust on the volcano: one iteration is one tick, its state hash included.
 void world_tick(benchmark::State& state) {
   const auto count = static_cast<std::uint32_t>(state.range(0));
@@ -68,8 +85,7 @@ void world_tick(benchmark::State& state) {
     louse.velocity = {2 * symmetric(), 2 * symmetric()};
     world.insert(louse);
   }
-  core::StableHasher hasher;
-  std::uint64_t hash = 0;
+  HashChain hashes;
   std::uint64_t tick = 0;
   const auto steer = [&] {
     for (std::uint32_t id = 1; id <= count; ++id) {
@@ -86,7 +102,7 @@ void world_tick(benchmark::State& state) {
       state.ResumeTiming();
     }
     world.step();
-    hash = state::state_hash(hasher, {hash, 0, ++tick, 0}, world.lice());
+    hashes.add(world, ++tick);
     hashed += count;
   }
   const auto& c = world.counters();
@@ -94,6 +110,30 @@ void world_tick(benchmark::State& state) {
       static_cast<double>(hashed), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.counters["awake"] = static_cast<double>(c.louse_steps) / static_cast<double>(hashed);
   state.counters["sub-steps"] = static_cast<double>(c.sub_steps) / static_cast<double>(c.louse_steps);
+}
+
+/// `count` lice at rest and one that drives: one iteration is one tick, its state hash included.
+void resting_tick(benchmark::State& state) {
+  const auto count = static_cast<std::uint32_t>(state.range(0));
+  const auto flat =
+      std::make_shared<const terrain::Terrain>(terrain::PlaneSurface({-20, -20, 20, 20}, 0, {}));
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  physics::World world(flat, {}, 1.0 / 60, {-kFar, -kFar, kFar, kFar});  // no wall to rest at
+  for (std::uint32_t id = 1; id <= count + 1; ++id) {
+    state::Louse louse;
+    louse.id = id;
+    world.insert(louse);
+  }
+  world.set_thrust(count + 1, {state::ThrustKind::kAlongHeading, {1.0, 0.0}}, state::kHeld);
+  HashChain hashes;
+  std::uint64_t tick = 0;
+  for (auto _ : state) {
+    world.step();
+    hashes.add(world, ++tick);
+  }
+  state.counters["louse"] = benchmark::Counter(static_cast<double>(tick) * count,
+                                               benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["awake"] = static_cast<double>(world.counters().louse_steps) / static_cast<double>(tick);
 }
 
 /// One row of the default columns, as the server writes it.
@@ -121,7 +161,8 @@ void state_hash(benchmark::State& state) {
   const std::vector<state::Louse> lice(static_cast<std::size_t>(state.range(0)));
   core::StableHasher hasher;
   std::uint64_t hash = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(hash = state::state_hash(hasher, {hash, 0, 0, 0}, lice));
+  for (auto _ : state)
+    benchmark::DoNotOptimize(hash = state::state_hash(hasher, {hash, 0, 0, 0, 0, 0}, lice));
 }
 
 }  // namespace
@@ -133,6 +174,7 @@ BENCHMARK_CAPTURE(spline_evaluation, coherent, Order::kCoherent)
     ->Arg(201)
     ->Arg(1001);
 BENCHMARK(world_tick)->ArgNames({"lice", "knots"})->ArgsProduct({{1, 1000, 10000}, {21, 201}});
+BENCHMARK(resting_tick)->ArgName("lice")->Arg(1000)->Arg(10000);
 BENCHMARK_CAPTURE(row_encoding, quantized, protocol::Format::kQuantized);
 BENCHMARK_CAPTURE(row_encoding, exact, protocol::Format::kExact);
 BENCHMARK(state_hash)->ArgName("lice")->Arg(200)->Arg(10000);

@@ -15,7 +15,8 @@ Play::Play(const Scenario& scenario, physics::InstructionSet set)
 void Play::apply(const Event& event) {
   switch (event.kind) {
     case Event::Kind::kJoin: {
-      [[maybe_unused]] const match::PlayerId player = match_.join();
+      [[maybe_unused]] const match::PlayerId player =
+          match_.join({"louse " + std::to_string(event.player), state::Role::kBot});
       assert(player == event.player);
       seqs_.resize(event.player + 1, 0);
       return;

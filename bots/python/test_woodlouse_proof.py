@@ -15,9 +15,10 @@ class Verifying(unittest.TestCase):
             [2, 1, -7.5, 1 / 3, 0, 0, 0, -1, 0, 0, 0, 0, 12, 0, 0]]
 
     def key(self):
-        # Of the rows above by the server's own code: previous 1, inputs 2, tick 60, generator 3.
-        return {"type": "key", "tick": 60, "louse": self.ROWS, "hash": "1a1ddc05fc45cd16", "previous": "%016x" % 1,
-                "inputs": "%016x" % 2, "generator": "%016x" % 3}
+        # Of the rows above by the server's own code, as the other hashes here.
+        return {"type": "key", "tick": 62, "louse": self.ROWS, "hash": "baf2b847673003c5", "previous": "%016x" % 1,
+                "inputs": "%016x" % 2, "roster": "%016x" % 4, "rules": "%016x" % 0, "link": 60,
+                "generator": "%016x" % 3}
 
     def verified(self, key):
         welcome = dict(WELCOME, fields=woodlouse.ALL_FIELDS, quantum=[1] * 15, format="exact")
@@ -57,13 +58,33 @@ class Verifying(unittest.TestCase):
                 with self.assertRaises(woodlouse.WoodlouseError) as caught:
                     self.verified(key)
                 self.assertEqual(caught.exception.code, "differs")
-                self.assertIn("tick 60", caught.exception.text)
+                self.assertIn("tick 62", caught.exception.text)
 
     def test_what_else_went_into_the_hash_counts_too(self):
-        for field in ("hash", "previous", "inputs", "generator"):
+        for field in ("hash", "previous", "inputs", "roster", "rules", "generator"):
             with self.assertRaises(woodlouse.WoodlouseError) as caught:
                 self.verified(dict(self.key(), **{field: "%016x" % 9}))
             self.assertEqual(caught.exception.code, "differs")
+        with self.assertRaises(woodlouse.WoodlouseError) as caught:
+            self.verified(dict(self.key(), link=61))
+        self.assertEqual(caught.exception.code, "differs")
+
+    def test_lice_are_hashed_in_blocks_of_64(self):
+        rows = [[louse + 1] + self.ROWS[louse % 2][1:] for louse in range(130)]
+        self.assertEqual(self.verified(dict(self.key(), louse=rows, hash="00da3f79a97fc6d8")), 1)
+
+    def test_before_anything_was_done_the_hash_is_0_and_nobody_is_there(self):
+        beginning = dict(self.key(), louse=[], link=0, hash="%016x" % 0)
+        self.assertEqual(self.verified(beginning), 1)
+        for change in ({"hash": "%016x" % 1}, {"louse": self.ROWS}):
+            with self.assertRaises(woodlouse.WoodlouseError) as caught:
+                self.verified(dict(beginning, **change))
+            self.assertEqual(caught.exception.code, "differs")
+
+    def test_a_key_can_not_be_proven_by_a_later_tick(self):
+        with self.assertRaises(woodlouse.WoodlouseError) as caught:
+            self.verified(dict(self.key(), tick=59))
+        self.assertEqual(caught.exception.code, "protocol")
 
     def test_a_key_without_its_proof_or_with_rows_out_of_shape_is_no_key(self):
         for key in ({k: v for k, v in self.key().items() if k != "inputs"}, dict(self.key(), louse=[[1, 0, 2]]),

@@ -259,10 +259,11 @@ class Game:
         if self.fields != ALL_FIELDS:
             raise WoodlouseError("protocol", "the columns are %s, not those of the hash" % " ".join(self.fields))
         try:
-            found = state_hash(int(key["previous"], 16), int(key["inputs"], 16), key["tick"], key["louse"],
-                               int(key["generator"], 16))
+            found = state_hash(key)
         except struct.error as error:
             raise WoodlouseError("protocol", "a key out of shape (%s)" % error) from None
+        if key["link"] > key["tick"]:
+            raise WoodlouseError("protocol", "the key of tick %d is proven by a later one" % key["tick"])
         if "%016x" % found != key["hash"]:
             raise WoodlouseError("differs", "the key of tick %d says %s, its rows give %016x"
                                  % (key["tick"], key["hash"], found))

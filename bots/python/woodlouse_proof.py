@@ -5,13 +5,21 @@ import struct
 ALL_FIELDS = ["id", "phase", "x", "y", "vx", "vy", "heading_x", "heading_y", "tx", "ty", "flight_z", "flight_vz",
               "distance", "thrust_kind", "ticks_left"]
 _LOUSE = struct.Struct("<II11dII")  # a louse's hashed record: ALL_FIELDS in this order
+_BLOCK = 64  # lice that are hashed together
 _64_BITS = (1 << 64) - 1
 
 
-def state_hash(previous, inputs, tick, rows, generator):
-    """The hash of a tick, as docs/determinism.md lays it out. rows: of all lice by ascending id, each ALL_FIELDS."""
-    return xxh64(struct.pack("<QQQ", previous, inputs, tick) + b"".join(_LOUSE.pack(*row) for row in rows) +
-                 struct.pack("<Q", generator))
+def state_hash(key):
+    """The hash of a key, as docs/determinism.md lays it out. key: the message, or a recording's keyframe with its
+    lice as `louse`; its rows are of all lice by ascending id, each ALL_FIELDS."""
+    previous, inputs, roster, rules, generator = (
+        int(key[name], 16) for name in ("previous", "inputs", "roster", "rules", "generator"))
+    rows = [_LOUSE.pack(*row) for row in key["louse"]]
+    if not key["link"] and not rows:
+        return 0  # no step has done anything
+    blocks = [xxh64(b"".join(rows[first:first + _BLOCK])) for first in range(0, len(rows), _BLOCK)]
+    return xxh64(struct.pack("<%dQ" % (6 + len(blocks)), previous, inputs, roster, rules, key["link"], generator,
+                             *blocks))
 
 
 def xxh64(data):

@@ -6,7 +6,7 @@
 
 namespace woodlouse::client {
 
-std::string name_of(const replay::PlayerLabel* label, std::uint32_t player) {
+std::string name_of(const match::PlayerLabel* label, std::uint32_t player) {
   return label != nullptr && !label->name.empty() ? label->name : core::joined({"#", std::to_string(player)});
 }
 
@@ -18,7 +18,7 @@ void RecordedChat::add(std::span<const replay::ChatLine> said) {
 }
 
 std::vector<ChatLine> RecordedChat::lines(std::span<const replay::Mark> marks,
-                                          const std::map<std::uint32_t, replay::PlayerLabel>& labels,
+                                          const std::map<std::uint32_t, match::PlayerLabel>& labels,
                                           std::uint64_t tick) const {
   const auto end = std::partition_point(marks.begin(), marks.end(),
                                         [tick](const replay::Mark& mark) { return mark.tick < tick; });
@@ -34,7 +34,7 @@ std::vector<ChatLine> RecordedChat::lines(std::span<const replay::Mark> marks,
   return lines;
 }
 
-ChatLine RecordedChat::line(const replay::Mark& mark, const replay::PlayerLabel* label,
+ChatLine RecordedChat::line(const replay::Mark& mark, const match::PlayerLabel* label,
                             std::size_t nth) const {
   const std::string name = name_of(label, mark.player);
   switch (mark.kind) {

@@ -16,7 +16,7 @@
 namespace woodlouse::client {
 
 /// How a player of a recording is called: the name of the join, or the number.
-std::string name_of(const replay::PlayerLabel* label, std::uint32_t player);
+std::string name_of(const match::PlayerLabel* label, std::uint32_t player);
 
 class RecordedChat {
  public:
@@ -27,13 +27,13 @@ class RecordedChat {
 
   /// The newest lines up to a tick, oldest first: chat, and who came, left or began again.
   [[nodiscard]] std::vector<ChatLine> lines(std::span<const replay::Mark> marks,
-                                            const std::map<std::uint32_t, replay::PlayerLabel>& labels,
+                                            const std::map<std::uint32_t, match::PlayerLabel>& labels,
                                             std::uint64_t tick) const;
 
  private:
   using Place = std::pair<std::uint64_t, std::uint32_t>;  ///< tick and player
 
-  [[nodiscard]] ChatLine line(const replay::Mark& mark, const replay::PlayerLabel* label,
+  [[nodiscard]] ChatLine line(const replay::Mark& mark, const match::PlayerLabel* label,
                               std::size_t nth) const;
 
   std::map<Place, std::vector<std::string>> said_;

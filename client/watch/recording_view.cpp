@@ -81,7 +81,7 @@ void RecordingView::take_lice() {
   lice_.clear();
   for (const state::Louse& louse : playback_->match().world().lice()) {
     const auto label = labels_.find(louse.id);
-    const replay::PlayerLabel* known = label == labels_.end() ? nullptr : &label->second;
+    const match::PlayerLabel* known = label == labels_.end() ? nullptr : &label->second;
     lice_[louse.id] = {{louse.position, louse.velocity, louse.heading, louse.distance},
                        name_of(known, louse.id),
                        known != nullptr && known->role == protocol::Role::kBot,

@@ -55,7 +55,7 @@ class RecordingView {
   std::shared_ptr<const replay::ReplayArchive> archive_;
   std::unique_ptr<replay::Playback> playback_;  ///< what is shown
   std::unique_ptr<replay::Playback> prover_;    ///< null once there is nothing more to learn
-  std::map<std::uint32_t, replay::PlayerLabel> labels_;
+  std::map<std::uint32_t, match::PlayerLabel> labels_;
   std::map<std::uint32_t, Present> lice_;
   std::map<std::uint32_t, Trail> trails_;
   RecordedChat chat_;

@@ -25,16 +25,15 @@ core::Error without_tick(const ReplayArchive& archive, const ForkPoint& point) {
 }
 
 /// By louse. A louse that nobody named can't be asked for.
-std::vector<Seat> unclaimed_seats(const replay::PlayerLabels& labels, const match::Match& match) {
+std::vector<Seat> unclaimed_seats(const match::Match& match) {
   std::vector<Seat> seats;
   for (const match::PlayerSeq& player : match.state().players) {
     if (!match.contains(player.player)) continue;
-    const auto label = labels.find(player.player);
-    if (label == labels.end()) continue;
-    std::string name = protocol::clean_text(label->second.name, protocol::kMaxNameBytes);
+    const match::PlayerLabel& label = match.labels().at(player.player);
+    std::string name = protocol::clean_text(label.name, protocol::kMaxNameBytes);
     if (name.empty()) continue;
-    seats.push_back({player.player, std::move(name), label->second.role,
-                     player.last_seq ? *player.last_seq + 1 : 0, Nobody{}});
+    seats.push_back(
+        {player.player, std::move(name), label.role, player.last_seq ? *player.last_seq + 1 : 0, Nobody{}});
   }
   return seats;
 }
@@ -106,7 +105,7 @@ core::Expected<Start> open_fork(const ForkPoint& point) {
   start.match = match::Match::restore(start.map, (*playback)->match().settings(), state);
   start.map_file =
       replay::map_file_of((*archive)->header(), {point.recording.parent_path(), point.maps}).string();
-  start.unclaimed = unclaimed_seats((*playback)->labels(), *start.match);
+  start.unclaimed = unclaimed_seats(*start.match);
   start.parent = replay::Parent{point.recording.string(), state.tick, state.hash};
   const auto untold = check_waiting(**playback, state.waiting, point);
   if (!untold) return tl::unexpected(untold.error());

@@ -19,6 +19,15 @@ FrameEncoder::FrameEncoder(RowLayout layout) : rows_(std::move(layout)) {
       rows_.layout().format == protocol::Format::kExact && rows_.layout().fields == protocol::all_columns();
 }
 
+/// What besides the rows went into the hash.
+void append_proof(std::string& text, const state::HashLink& link) {
+  text += R"(,"previous":")" + core::to_hex(link.previous) + R"(","inputs":")" + core::to_hex(link.inputs);
+  text += R"(","roster":")" + core::to_hex(link.roster) + R"(","rules":")" + core::to_hex(link.rules);
+  text += R"(","link":)";
+  json::append_integer(text, link.tick);
+  text += R"(,"generator":")" + core::to_hex(link.generator) + '"';
+}
+
 Frame FrameEncoder::key(const Scene& scene) {
   std::string text = R"({"type":"key","tick":)";
   json::append_integer(text, scene.tick);
@@ -31,9 +40,7 @@ Frame FrameEncoder::key(const Scene& scene) {
     key_rows_.push_back({louse, begin, text.size()});
   }
   text += R"(],"hash":")" + core::to_hex(scene.hash) + '"';
-  if (proves_hash_)
-    text += R"(,"previous":")" + core::to_hex(scene.link.previous) + R"(","inputs":")" +
-            core::to_hex(scene.link.inputs) + R"(","generator":")" + core::to_hex(scene.link.generator) + '"';
+  if (proves_hash_) append_proof(text, scene.link);
   text += "}\n";
   key_tick_ = scene.tick;
   key_text_ = std::make_shared<const std::string>(std::move(text));

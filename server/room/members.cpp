@@ -59,21 +59,14 @@ void Members::count(protocol::Role role, std::int32_t change) {
   counter.fetch_add(static_cast<std::uint32_t>(change));
 }
 
-void Members::introduce_unclaimed() {
-  seats_.for_each<Nobody>([&](const Seat& seat, const Nobody&) {
-    for (const auto& watcher : watchers_) watcher->player(seat.louse, seat.name, seat.role);
-  });
-}
-
 void Members::give_louse(Seat& seat) {
   const std::optional<Seat> taken = seats_.take_over(seat.name);
-  seat.louse = taken ? taken->louse : game_.join();
+  seat.louse = taken ? taken->louse : game_.join({seat.name, seat.role});
   seat.first_seq = taken ? taken->first_seq : 0;
   const bool is_session = std::holds_alternative<SessionOccupant>(seat.occupant);
   if (taken && is_session)
     log_->info(fmt::format("room {}: \"{}\" takes over louse {} of the recording", settings_.name, seat.name,
                            seat.louse));
-  for (const auto& watcher : watchers_) watcher->player(seat.louse, seat.name, seat.role);
 }
 
 void Members::add_house_bots() {
@@ -129,7 +122,7 @@ void Members::admit(SessionId session, std::shared_ptr<Subscriber> subscriber, c
   count(seat.role, +1);
   const Seat& added = seats_.add(std::move(seat));
   log_->info(fmt::format("room {}: session {:016x} joined as {} {} \"{}\"", settings_.name, session,
-                         to_text(added.role), added.louse, added.name));
+                         protocol::to_text(added.role), added.louse, added.name));
   send(events_.joined(game_.tick(), added));
 }
 
@@ -163,7 +156,7 @@ void Members::remove(SessionId session) {
   broadcaster_->remove(session);
   count(seat->role, -1);
   log_->info(fmt::format("room {}: session {:016x} left ({} {})", settings_.name, session,
-                         to_text(seat->role), seat->louse));
+                         protocol::to_text(seat->role), seat->louse));
   send(events_.left(game_.tick(), *seat));
 }
 

@@ -42,8 +42,6 @@ class Members {
   Members(boost::asio::io_context& io, const RoomSettings& settings, match::Match& game,
           const Watchers& watchers, std::vector<Seat> unclaimed, std::shared_ptr<spdlog::logger> log);
 
-  /// Tells the watchers who is there before the first join.
-  void introduce_unclaimed();
   void add_house_bots();
   /// The house's bots look and push, each ten times a second.
   void steer_house_bots();

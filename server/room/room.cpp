@@ -83,7 +83,6 @@ void Room::begin_watching() {
     asio::post(self->strand_, [self, notice] { self->members_.announce(notice); });
   };
   for (const auto& watcher : watchers_) watcher->attach(announce);
-  members_.introduce_unclaimed();
   for (const auto& watcher : watchers_) watcher->begin(*game_);
 }
 

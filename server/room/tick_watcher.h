@@ -20,8 +20,8 @@ struct InputMargin {
   std::int64_t microseconds = 0;
 };
 
-/// The room's strand calls it, in this order: attach(), player() for who is there already, begin(), then
-/// player(), chat() and step() and rest() as they happen, finish(). Every call returns at once.
+/// The room's strand calls it, in this order: attach(), begin(), then chat(), step() and rest() as they
+/// happen, finish(). Every call returns at once.
 class TickWatcher {
  public:
   /// Tells every session of the room; any thread.
@@ -36,8 +36,6 @@ class TickWatcher {
   virtual void attach(Announce /*announce*/) {}
   /// Once. `game`: as it stands; nothing is queued in it.
   virtual void begin(const match::Match& game) = 0;
-  /// Before the step that applies the join.
-  virtual void player(match::PlayerId /*player*/, const std::string& /*name*/, protocol::Role /*role*/) {}
   virtual void chat(std::uint64_t /*tick*/, match::PlayerId /*player*/, const std::string& /*name*/,
                     const std::string& /*text*/) {}
   /// After the step. `game`: as the step left it, nothing queued since. margins: of the step's inputs that

@@ -53,10 +53,6 @@ void Recorder::begin(const match::Match& game) {
   });
 }
 
-void Recorder::player(match::PlayerId player, const std::string& name, protocol::Role role) {
-  enqueue([this, player, name, role](std::string&) { writer_.note_player(player, name, role); });
-}
-
 void Recorder::chat(std::uint64_t tick, match::PlayerId player, const std::string& name,
                     const std::string& text) {
   enqueue([this, tick, player, name, text](std::string& out) {

@@ -49,7 +49,6 @@ class Recorder final : public TickWatcher {
   /// announce: told why, once, when the recording ends before its time.
   void attach(Announce announce) override { announce_ = std::move(announce); }
   void begin(const match::Match& game) override;
-  void player(match::PlayerId player, const std::string& name, protocol::Role role) override;
   void chat(std::uint64_t tick, match::PlayerId player, const std::string& name,
             const std::string& text) override;
   /// The game is copied where a keyframe is due.

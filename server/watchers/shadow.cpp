@@ -32,7 +32,7 @@ void Shadow::begin(const match::Match& game) {
 }
 
 core::Expected<void> Shadow::follow(match::MatchState game) {
-  auto rerun = replay::Rerun::from(map_, {header_.tick_hz, header_.seed}, {game, {}}, "the game's state");
+  auto rerun = replay::Rerun::from(map_, {header_.tick_hz, header_.seed}, {game}, "the game's state");
   if (!rerun) return tl::unexpected(rerun.error());
   rerun_ = std::move(*rerun);
   before_ = std::move(game);
@@ -66,7 +66,7 @@ void Shadow::compare(const match::StepRecord& record, match::MatchState game) {
 
 void Shadow::tell(const match::StepRecord& record, const match::MatchState& game, const std::string& what) {
   const match::MatchState shadow = rerun_->match().state();
-  const std::string detail = rerun_->difference_to({game, {}});
+  const std::string detail = rerun_->difference_to({game});
   match::StepRecord own = record;
   own.hash = shadow.hash;
   const auto kept = [](const core::Expected<std::string>& file) {

@@ -13,7 +13,8 @@ Match::Match(std::shared_ptr<const map::Map> map, const MatchSettings& settings)
       settings_(settings),
       world_(map::make_world(*map_, 1.0 / static_cast<double>(settings.tick_hz))),
       random_(settings.seed),
-      inputs_(kHorizonSeconds * settings.tick_hz) {
+      inputs_(kHorizonSeconds * settings.tick_hz),
+      link_(beginning(settings)) {
   assert(settings.tick_hz >= 1 && settings.tick_hz <= 1000);
   assert(!map_->definition.spawns.empty());
 }
@@ -23,13 +24,16 @@ std::unique_ptr<Match> Match::restore(std::shared_ptr<const map::Map> map, const
   assert(why_not(*map, settings, state).empty());
   auto match = std::make_unique<Match>(std::move(map), settings);
   match->world_.restore(state.lice);
-  match->random_ = core::Random(state.generator);
+  match->lice_hashes_.update(match->world_.lice(), match->world_.changed_blocks());
+  match->world_.forget_changes();
+  match->random_ = core::Random(state.link.generator);
   match->inputs_.restore(state.players, state.waiting);
   match->pending_roster_ = state.roster;
+  match->labels_ = state.labels;
   match->next_player_ = state.next_player;
   match->tick_ = state.tick;
   match->hash_ = state.hash;
-  if (state.tick != 0) match->link_ = {state.previous, state.inputs, state.tick, state.generator};
+  match->link_ = state.link;
   return match;
 }
 
@@ -37,11 +41,10 @@ MatchState Match::state() const {
   const auto lice = world_.lice();
   return {tick_,
           hash_,
-          link_.previous,
-          link_.inputs,
-          random_.state(),
+          link_,
           next_player_,
           inputs_.players(),
+          labels_,
           inputs_.waiting(),
           pending_roster_,
           {lice.begin(), lice.end()}};
@@ -52,25 +55,28 @@ bool Match::file_applied(const AppliedInput& input) {
   return inputs_.file_applied(input);
 }
 
-PlayerId Match::join() {
+PlayerId Match::join(PlayerLabel label) {
   const PlayerId player = next_player_;
-  join_as(player);
+  join_as(player, std::move(label));
   return player;
 }
 
-void Match::join_as(PlayerId player) {
+void Match::join_as(PlayerId player, PlayerLabel label) {
   assert(player >= next_player_);
+  assert(label.role != state::Role::kSpectator);
   next_player_ = player + 1;
-  pending_roster_.push_back({RosterAction::kJoin, player});
+  labels_[player] = label;
+  pending_roster_.push_back({RosterAction::kJoin, player, std::move(label)});
   inputs_.add_player(player);
 }
 
 void Match::leave(PlayerId player) {
-  pending_roster_.push_back({RosterAction::kLeave, player});
+  pending_roster_.push_back({RosterAction::kLeave, player, {}});
   inputs_.remove_player(player);
+  labels_.erase(player);
 }
 
-void Match::respawn(PlayerId player) { pending_roster_.push_back({RosterAction::kRespawn, player}); }
+void Match::respawn(PlayerId player) { pending_roster_.push_back({RosterAction::kRespawn, player, {}}); }
 
 Filed Match::file(const Input& input) { return inputs_.file(input, tick_); }
 
@@ -107,17 +113,28 @@ void Match::apply_inputs() {
   }
 }
 
+/// A step that applied nothing and changed no byte makes no link: its hash is the one before.
+void Match::link_up() {
+  const bool lice_changed = lice_hashes_.update(world_.lice(), world_.changed_blocks());
+  world_.forget_changes();
+  if (!lice_changed && record_.roster.empty() && record_.inputs.empty()) {
+    assert(random_.state() == link_.generator);
+    return;
+  }
+  hasher_.reset();
+  hasher_.append(std::span<const AppliedInput>(record_.inputs));
+  const std::uint64_t inputs = hasher_.value();
+  link_ = {hash_, inputs, roster_hash(hasher_, record_.roster), 0, tick_, random_.state()};
+  hash_ = state::state_hash(hasher_, link_, lice_hashes_.values());
+}
+
 const StepRecord& Match::advance() {
   record_.tick = tick_;
   change_roster();
   apply_inputs();
   world_.step();
   ++tick_;
-
-  hasher_.reset();
-  hasher_.append(std::span<const AppliedInput>(record_.inputs));
-  link_ = {hash_, hasher_.value(), tick_, random_.state()};
-  hash_ = state::state_hash(hasher_, link_, world_.lice());
+  link_up();
   record_.hash = hash_;
   return record_;
 }

@@ -21,7 +21,6 @@
 #include "shared/match/input_queue.h"
 #include "shared/match/match_state.h"
 #include "shared/physics/world.h"
-#include "shared/state/state_hash.h"
 
 namespace woodlouse::match {
 
@@ -38,7 +37,7 @@ struct StepRecord {
   std::uint64_t tick = 0;            ///< n: the step led from tick n to n + 1
   std::vector<RosterChange> roster;  ///< in the order applied
   std::vector<AppliedInput> inputs;  ///< in the order applied
-  std::uint64_t hash = 0;            ///< of the state at tick n + 1
+  std::uint64_t hash = 0;            ///< of the state at tick n + 1; that of tick n where nothing changed
 };
 
 struct MatchSettings {
@@ -60,10 +59,10 @@ class Match {
   /// Chooses how many lice are stepped at once; every choice gives the same bits (physics/world.h).
   void use(physics::InstructionSet set) { world_.use(set); }
 
-  /// Queues a new louse for the next step; its id is fresh and known at once.
-  PlayerId join();
+  /// Queues a new louse for the next step; its id is fresh and known at once. REQUIRES a role that plays.
+  PlayerId join(PlayerLabel label = {});
   /// Queues a join under a given id, for replays. REQUIRES an id never used before in this match.
-  void join_as(PlayerId player);
+  void join_as(PlayerId player, PlayerLabel label = {});
   /// Queues the removal of a louse. Its filed inputs are dropped.
   void leave(PlayerId player);
   /// Queues a return to a spawn point, at rest, without thrust; the distance travelled stays.
@@ -83,16 +82,19 @@ class Match {
   [[nodiscard]] const physics::World& world() const { return world_; }
   [[nodiscard]] const map::Map& map() const { return *map_; }
   [[nodiscard]] const MatchSettings& settings() const { return settings_; }
-  /// Of the state at tick(); 0 at tick 0 unless restored.
+  /// Of the state at tick(); 0 until a step has done something.
   [[nodiscard]] std::uint64_t hash() const { return hash_; }
-  /// What went into hash() besides the lice.
+  /// What went into hash() besides the lice; its tick is that of the last step that changed anything.
   [[nodiscard]] const state::HashLink& link() const { return link_; }
   [[nodiscard]] bool contains(PlayerId player) const { return world_.find(player) != nullptr; }
+  /// Of everybody who joined and has not left.
+  [[nodiscard]] const PlayerLabels& labels() const { return labels_; }
 
  private:
   void spawn(PlayerId player, double distance);
   void change_roster();
   void apply_inputs();
+  void link_up();
 
   std::shared_ptr<const map::Map> map_;
   MatchSettings settings_;
@@ -100,10 +102,12 @@ class Match {
   core::Random random_;
   InputQueue inputs_;
   std::vector<RosterChange> pending_roster_;
+  PlayerLabels labels_;
   PlayerId next_player_ = 1;
   std::uint64_t tick_ = 0;
   std::uint64_t hash_ = 0;
   state::HashLink link_;
+  state::BlockHashes lice_hashes_;
   core::StableHasher hasher_;
   StepRecord record_;
 };

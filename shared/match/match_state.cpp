@@ -1,13 +1,13 @@
 #include "shared/match/match_state.h"
 
 #include <algorithm>
+#include <cassert>
 #include <string_view>
 #include <tuple>
 
 #include "shared/core/joined.h"
 #include "shared/match/match.h"
 #include "shared/state/louse_fields.h"
-#include "shared/state/state_hash.h"
 
 namespace woodlouse::match {
 namespace {
@@ -68,6 +68,12 @@ std::string fault_of_lice(const map::Map& map, const MatchState& state) {
 }
 
 std::string fault_of_players(const MatchState& state) {
+  const bool are_all_named =
+      std::equal(state.players.begin(), state.players.end(), state.labels.begin(), state.labels.end(),
+                 [](const PlayerSeq& player, const auto& label) {
+                   return player.player == label.first && label.second.role != state::Role::kSpectator;
+                 });
+  if (!are_all_named) return "each of its players has one name and is a player or a bot, and nobody else is";
   state::LouseId before = 0;
   for (const PlayerSeq& entry : state.players) {
     if (entry.player <= before || entry.player >= state.next_player) {
@@ -105,20 +111,37 @@ std::string fault_of_waiting(const MatchState& state, std::uint64_t horizon) {
 
 }  // namespace
 
+state::HashLink beginning(const MatchSettings& settings) { return {0, 0, 0, 0, 0, settings.seed}; }
+
+std::uint64_t roster_hash(core::StableHasher& hasher, std::span<const RosterChange> changes) {
+  hasher.reset();
+  for (const RosterChange& change : changes) {
+    assert(change.label.name.size() <= UINT32_MAX);
+    for (const std::uint32_t word : {static_cast<std::uint32_t>(change.action), change.player,
+                                     static_cast<std::uint32_t>(change.label.role),
+                                     static_cast<std::uint32_t>(change.label.name.size())})
+      hasher.append(word);
+    hasher.append(change.label.name.data(), change.label.name.size());
+  }
+  return hasher.value();
+}
+
 std::string why_not(const map::Map& map, const MatchSettings& settings, const MatchState& state) {
   std::string fault = fault_of_players(state);
   if (fault.empty()) fault = fault_of_lice(map, state);
   if (fault.empty()) fault = fault_of_waiting(state, kHorizonSeconds * settings.tick_hz);
   if (!fault.empty()) return fault;
-  if (state.tick == 0) {
-    const bool is_beginning = state.hash == 0 && state.previous == 0 && state.inputs == 0 &&
-                              state.lice.empty() && state.generator == settings.seed;
+  if (state.link.tick > state.tick)
+    return joined({"its hash is of tick ", std::to_string(state.link.tick), ", which is later"});
+  if (state.link.tick == 0) {
+    const bool is_beginning = state.hash == 0 && state.link == beginning(settings) && state.lice.empty();
     return is_beginning ? std::string()
-                        : "at tick 0 there are no lice and no hash, and the generator is the seed";
+                        : "before the first step that did something there are no lice and no hash, and the "
+                          "generator is the seed";
   }
+  if (state.link.rules != 0) return "it was played by rules that are not known here";
   core::StableHasher hasher;
-  const std::uint64_t hash =
-      state::state_hash(hasher, {state.previous, state.inputs, state.tick, state.generator}, state.lice);
+  const std::uint64_t hash = state::state_hash(hasher, state.link, state.lice);
   if (hash == state.hash) return {};
   return joined({"its hash is ", core::to_hex(hash), ", not ", core::to_hex(state.hash)});
 }

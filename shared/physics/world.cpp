@@ -103,6 +103,23 @@ void World::settle(state::Louse& louse) const {
   louse.phase = ground_steps_->holds(louse) ? state::Phase::kResting : state::Phase::kMoving;
 }
 
+void World::restore(std::span<const state::Louse> lice) {
+  lice_.assign(lice.begin(), lice.end());
+  lists_are_stale_ = true;
+  note_changes_from(0);
+}
+
+void World::forget_changes() { std::fill(changed_blocks_.begin(), changed_blocks_.end(), std::uint8_t{0}); }
+
+/// Who comes or goes moves all behind him to other places.
+void World::note_changes_from(std::size_t index) {
+  assert(index <= lice_.size());
+  changed_blocks_.resize(state::block_count(lice_.size()));
+  const std::size_t block = std::min(index / state::kBlockLice, changed_blocks_.size());
+  std::fill(changed_blocks_.begin() + static_cast<std::ptrdiff_t>(block), changed_blocks_.end(),
+            std::uint8_t{1});
+}
+
 void World::insert(const state::Louse& louse) {
   assert(find(louse.id) == nullptr);
   const auto at = std::lower_bound(lice_.begin(), lice_.end(), louse.id,
@@ -116,6 +133,7 @@ void World::insert(const state::Louse& louse) {
   }
   if (placed.phase != state::Phase::kFlying) settle(placed);
   lists_are_stale_ = true;
+  note_changes_from(static_cast<std::size_t>(&placed - lice_.data()));
 }
 
 bool World::erase(state::LouseId id) {
@@ -123,6 +141,7 @@ bool World::erase(state::LouseId id) {
   if (index == lice_.size()) return false;
   lice_.erase(lice_.begin() + static_cast<std::ptrdiff_t>(index));
   lists_are_stale_ = true;
+  note_changes_from(index);
   return true;
 }
 
@@ -137,6 +156,7 @@ bool World::set_thrust(state::LouseId id, const state::Thrust& thrust, std::uint
   if (thrust.kind == state::ThrustKind::kNone || ticks == 0) clear_thrust(louse);
   if (louse.phase == state::Phase::kResting) settle(louse);
   if (list_of(louse) != before) lists_are_stale_ = true;
+  note_change(index);
   return true;
 }
 
@@ -158,6 +178,7 @@ void World::step() {
   for (const auto* list : {&moving_, &waiting_}) {
     for (const std::uint32_t index : *list) {
       state::Louse& louse = lice_[index];
+      note_change(index);
       if (louse.thrust_ticks != 0 && louse.thrust_ticks != state::kHeld && --louse.thrust_ticks == 0) {
         clear_thrust(louse);
         if (louse.phase == state::Phase::kResting) settle(louse);

@@ -20,6 +20,7 @@
 #include "shared/physics/step_counters.h"
 #include "shared/state/louse.h"
 #include "shared/state/parameters.h"
+#include "shared/state/state_hash.h"
 #include "shared/terrain/terrain.h"
 
 namespace woodlouse::physics {
@@ -49,10 +50,7 @@ class World {
   void insert(const state::Louse& louse);
   /// Replaces all lice by these, bit for bit: none is moved, woken or put to rest. REQUIRES ascending ids and
   /// a state that a step of such a world left.
-  void restore(std::span<const state::Louse> lice) {
-    lice_.assign(lice.begin(), lice.end());
-    lists_are_stale_ = true;
-  }
+  void restore(std::span<const state::Louse> lice);
   /// Removes it; false when there is none of that id.
   bool erase(state::LouseId id);
   /// Replaces its thrust for `ticks` ticks (kHeld: until the next); wakes it where that moves it.
@@ -63,6 +61,10 @@ class World {
 
   /// Every louse, by ascending id.
   [[nodiscard]] std::span<const state::Louse> lice() const { return lice_; }
+  /// Of each block of state::kBlockLice lice whether one of them may have changed since forget_changes(): 0
+  /// where none did (state_hash.h).
+  [[nodiscard]] std::span<const std::uint8_t> changed_blocks() const { return changed_blocks_; }
+  void forget_changes();
   /// The louse of that id, or null; valid until the next change.
   [[nodiscard]] const state::Louse* find(state::LouseId id) const;
   [[nodiscard]] const terrain::Terrain& terrain() const { return *terrain_; }
@@ -74,6 +76,8 @@ class World {
   [[nodiscard]] std::size_t index_of(state::LouseId id) const;
   void settle(state::Louse& louse) const;
   void collect();
+  void note_change(std::size_t index) { changed_blocks_[index / state::kBlockLice] = 1; }
+  void note_changes_from(std::size_t index);
 
   std::shared_ptr<const terrain::Terrain> terrain_;
   state::Parameters parameters_;
@@ -84,6 +88,7 @@ class World {
   std::vector<std::uint32_t> moving_;                ///< indices into lice_ of whom a step moves, ascending
   std::vector<std::uint32_t> waiting_;               ///< of those at rest whose thrust is to be counted down
   bool lists_are_stale_ = false;  ///< lice_ or who is in which list changed since they were made
+  std::vector<std::uint8_t> changed_blocks_;
   BatchStep batch_;
   BatchLists batch_lists_;
   StepCounters counters_;

@@ -65,10 +65,16 @@ Decoded read_key(FieldReader& reader, const FrameContext& context) {
   frame.hash = hash;
   if (context.format == Format::kExact && context.fields == all_columns()) {
     state::HashLink proof;
-    proof.tick = frame.tick;
     reader.hash("previous", proof.previous);
     reader.hash("inputs", proof.inputs);
+    reader.hash("roster", proof.roster);
+    reader.hash("rules", proof.rules);
+    reader.integer("link", proof.tick, kAnyTick);
     reader.hash("generator", proof.generator);
+    if (!reader.failed() && proof.tick > frame.tick) {
+      reader.fail(code::kBadField,
+                  "key.link is " + std::to_string(proof.tick) + "; it must not be after key.tick");
+    }
     frame.proof = proof;
   }
   return reader.finish<ServerMessage>(std::move(frame));

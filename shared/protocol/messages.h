@@ -15,6 +15,7 @@
 #include "shared/state/louse.h"
 #include "shared/state/louse_fields.h"
 #include "shared/state/parameters.h"
+#include "shared/state/role.h"
 #include "shared/state/state_hash.h"
 #include "shared/state/thrust.h"
 #include "shared/terrain/height_grid.h"
@@ -74,7 +75,7 @@ const std::vector<Column>& default_columns();
 const std::vector<Column>& all_columns();
 
 enum class Format : std::uint8_t { kQuantized, kExact };
-enum class Role : std::uint8_t { kPlayer, kBot, kSpectator };
+using state::Role;
 std::string_view to_text(Format format);
 std::string_view to_text(Role role);
 std::optional<Role> role_from_text(std::string_view text);
@@ -194,10 +195,10 @@ struct Frame {
   std::uint64_t base = 0;  ///< a delta's key; a key's own tick
   std::size_t columns = 0;
   std::vector<double> values;
-  std::vector<std::uint32_t> gone;    ///< ids that are in the key and no longer there
-  std::optional<std::uint64_t> hash;  ///< keys only
-  std::optional<state::HashLink>
-      proof;  ///< what besides the rows went into the hash: keys of all_columns() in exact format only
+  std::vector<std::uint32_t> gone;       ///< ids that are in the key and no longer there
+  std::optional<std::uint64_t> hash;     ///< keys only
+  std::optional<state::HashLink> proof;  ///< what besides the rows went into the hash: keys of all_columns()
+                                         ///< in exact format only (its tick is none after the key's)
   [[nodiscard]] std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
   friend bool operator==(const Frame&, const Frame&) = default;
 };

@@ -1,13 +1,14 @@
 // A recording: one JSON object a line, written while the game runs, read by less, jq and the replayer.
 //
-//     {"format":"woodlouse-replay","version":2,"behavior":..,"build":..,"seed":"..","tick_hz":..,"map":{..}}
+//     {"format":"woodlouse-replay","version":3,"behavior":..,"build":..,"seed":"..","tick_hz":..,"map":{..}}
 //     {"keyframe":n,"hash":..,"generator":..,"players":[..],"lice":[..],..}   all of the match at tick n
 //     {"step":n,"roster":[..],"inputs":[..],"hash":"16 hex digits"}   step n -> n+1; the hash is tick n+1's
+//     {"step":n,"steps":k,"hash":..}             k steps that applied nothing and changed nothing
 //     {"chat":n,"player":..,"name":..,"text":..}                      for who reads; a re-run passes it over
 //     {"index":n,"keyframes":[..],"players":[..],"marks":[..]}        where things stand
 //     {"end":n,"reason":"..","index":offset}                          the last tick
 //
-// A keyframe stands first and then every kKeyframeSeconds; every step has its line, so a file that was cut
+// A keyframe stands first and then every kKeyframeSeconds; lines tell of every step, so a file that was cut
 // off (SIGKILL) is good up to its last whole line. Field by field in docs/determinism.md.
 #pragma once
 
@@ -27,10 +28,12 @@
 namespace woodlouse::replay {
 
 inline constexpr std::string_view kFormat = "woodlouse-replay";
-inline constexpr int kFormatVersion = 2;
+inline constexpr int kFormatVersion = 3;
 inline constexpr std::size_t kMaxInlineMapBytes = 1u << 20;  ///< a longer map is named by hash and file
 inline constexpr std::size_t kMaxReplayLineBytes = 32u << 20;
 inline constexpr std::uint32_t kKeyframeSeconds = 5;
+/// At the highest tick rate there is.
+inline constexpr std::uint64_t kMaxStepsBetweenKeyframes = std::uint64_t{kKeyframeSeconds} * 1000;
 
 /// The recording that a fork went on from.
 struct Parent {
@@ -56,22 +59,16 @@ struct Header {
 /// The header of a match. `map_file` as the server was given it.
 Header make_header(const match::Match& match, std::string_view build, std::string_view map_file);
 
-struct PlayerLabel {
-  std::string name;
-  protocol::Role role = protocol::Role::kPlayer;
-  friend bool operator==(const PlayerLabel&, const PlayerLabel&) = default;
-};
-using PlayerLabels = std::map<match::PlayerId, PlayerLabel>;
-
-/// A step's line. The labels and margins stand in the order of step.roster and step.inputs.
+/// One step, or as many as `steps` says, which applied nothing and left the hash as it was. The margins stand
+/// in the order of step.inputs.
 struct StepLine {
   match::StepRecord step;
-  std::vector<std::optional<PlayerLabel>> labels;
-  std::vector<std::optional<std::int64_t>> margins_ms;  ///< how long before its step it came; negative: late
+  std::vector<std::optional<std::int64_t>>
+      margins_ms{};  ///< how long before its step it came; negative: late
+  std::uint64_t steps = 1;
 };
 struct Keyframe {
   match::MatchState state;
-  PlayerLabels labels;  ///< of state.players, where known
 };
 struct ChatLine {
   std::uint64_t tick = 0;

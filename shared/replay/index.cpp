@@ -37,8 +37,9 @@ void ReplayIndex::add(const KeyframePlace& place, const Keyframe& keyframe) {
   last_tick = std::max(last_tick, place.tick);
   if (keyframes.size() > 1) return;
   for (const state::Louse& louse : keyframe.state.lice) {  // a fork's: nobody saw them join
-    const auto label = keyframe.labels.find(louse.id);
-    add_player({louse.id, label != keyframe.labels.end() ? label->second : PlayerLabel{}, place.tick, {}});
+    const auto label = keyframe.state.labels.find(louse.id);
+    const bool is_known = label != keyframe.state.labels.end();
+    add_player({louse.id, is_known ? label->second : match::PlayerLabel{}, place.tick, {}});
   }
 }
 
@@ -46,11 +47,10 @@ void ReplayIndex::add(const StepLine& line) {
   const match::StepRecord& step = line.step;
   last_tick = step.tick + 1;
   inputs += step.inputs.size();
-  for (std::size_t k = 0; k < step.roster.size(); ++k) {
-    const match::RosterChange& change = step.roster[k];
+  for (const match::RosterChange& change : step.roster) {
     switch (change.action) {
       case match::RosterAction::kJoin:
-        add_player({change.player, line.labels[k].value_or(PlayerLabel{}), step.tick + 1, {}});
+        add_player({change.player, change.label, step.tick + 1, {}});
         add_mark({step.tick, MarkKind::kJoin, change.player});
         break;
       case match::RosterAction::kLeave:

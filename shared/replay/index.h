@@ -25,7 +25,7 @@ struct KeyframePlace {
 /// Somebody's stay.
 struct PlayerSpan {
   match::PlayerId player = 0;
-  PlayerLabel label;                  ///< an empty name: nobody gave one
+  match::PlayerLabel label;
   std::uint64_t joined = 0;           ///< the tick that first shows the louse
   std::optional<std::uint64_t> left;  ///< the tick that no longer shows it
   friend bool operator==(const PlayerSpan&, const PlayerSpan&) = default;

@@ -99,7 +99,7 @@ ReplayIndex read_fields(const json::Value& root, Problems& problems) {
   });
   read_rows(fields, "players", 5, problems, [&](const Values& row) {
     PlayerSpan player{player_id(row[0], problems),
-                      {json::any_text(row[1], kMaxTextBytes, problems), role_of(row[2], problems)},
+                      label_of(row[1], row[2], problems),
                       number(row[3], kMaxTick, problems),
                       {}};
     if (!row[4].is(json::Kind::kNull)) player.left = number(row[4], kMaxTick, problems);

@@ -7,7 +7,7 @@ core::Expected<InspectedState> inspect_state(const ReplayArchive& archive, std::
   const auto playback = archive.play(tick);
   if (!playback) return tl::unexpected(playback.error());
   InspectedState state;
-  append_keyframe(state.json, (*playback)->match().state(), (*playback)->labels());
+  append_keyframe(state.json, (*playback)->match().state());
   state.difference = (*playback)->first_difference();
   return state;
 }

@@ -4,11 +4,12 @@
 
 namespace woodlouse::replay {
 
-protocol::Role role_of(const json::Value& value, json::Problems& problems) {
-  const std::string text = json::any_text(value, kMaxTextBytes, problems);
-  const std::optional<protocol::Role> role = protocol::role_from_text(text);
-  if (!role) problems.add(value, "is no role", "player, bot or spectator");
-  return role.value_or(protocol::Role::kPlayer);
+match::PlayerLabel label_of(const json::Value& name, const json::Value& role, json::Problems& problems) {
+  const std::optional<state::Role> known =
+      protocol::role_from_text(json::any_text(role, kMaxTextBytes, problems));
+  const bool plays = known && *known != state::Role::kSpectator;
+  if (!plays) problems.add(role, "is no role of who plays", "player or bot");
+  return {json::any_text(name, kMaxTextBytes, problems), plays ? *known : state::Role::kPlayer};
 }
 
 }  // namespace woodlouse::replay

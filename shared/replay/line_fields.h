@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "shared/json/fields.h"
+#include "shared/match/match_state.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::replay {
@@ -17,7 +18,17 @@ inline constexpr std::uint64_t kMaxTick = std::uint64_t{1}
 inline constexpr std::uint64_t kMaxOffset = std::uint64_t{1} << 53;  ///< [bytes]
 inline constexpr std::size_t kMaxTextBytes = 4096;                   ///< of a text for people
 
-/// player, bot or spectator; reported, and a player, where it is none.
-protocol::Role role_of(const json::Value& value, json::Problems& problems);
+/// Of a player or a bot; another role is reported.
+match::PlayerLabel label_of(const json::Value& name, const json::Value& role, json::Problems& problems);
+
+/// Calls read(element) for each element of a list; stops at the first problem, of which one is enough.
+template <typename Read>
+void read_list(const json::Value& value, json::Problems& problems, const Read& read) {
+  if (!value.is(json::Kind::kArray)) return problems.add(value, "a list is wanted");
+  for (const json::Value& element : value.children()) {
+    if (problems.count() != 0) return;
+    read(element);
+  }
+}
 
 }  // namespace woodlouse::replay

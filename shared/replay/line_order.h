@@ -16,9 +16,6 @@ namespace woodlouse::replay {
 
 /// What is said while one step is due. A server's limits on messages keep it below; a writer leaves out more.
 inline constexpr std::size_t kMaxChatsAStep = 4096;
-/// A keyframe stands every kKeyframeSeconds, at the highest tick rate there is.
-inline constexpr std::uint64_t kMaxStepsBetweenKeyframes = std::uint64_t{kKeyframeSeconds} * 1000;
-
 class LineOrder {
  public:
   /// The header was read: a keyframe has to follow. Without it, any line may be the first one seen.

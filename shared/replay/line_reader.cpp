@@ -1,6 +1,7 @@
 #include "shared/replay/line_reader.h"
 
 #include <algorithm>
+#include <cassert>
 #include <istream>
 #include <limits>
 #include <span>
@@ -26,6 +27,7 @@ constexpr std::size_t kMaxDepth = 8;
 constexpr std::size_t kMaxValues = 4'000'000;  // of a line of kMaxReplayLineBytes
 constexpr std::uint64_t kMaxUint32 = std::numeric_limits<std::uint32_t>::max();
 constexpr Range kCoordinate{-1e300, 1e300, ""};
+constexpr const char* kNoRules = "belongs to rules of play that this build does not know";
 
 template <typename T>
 T as(std::optional<std::uint64_t> value) {
@@ -34,16 +36,6 @@ T as(std::optional<std::uint64_t> value) {
 
 // ---- a step ----------------------------------------------------------------------------------------------
 
-std::optional<PlayerLabel> read_label(const Fields& fields, Problems& problems) {
-  const auto name = fields.find("name");
-  const auto role = fields.find("role");
-  if (!name && !role) return std::nullopt;
-  PlayerLabel label;
-  label.name = fields.text("name", kMaxTextBytes);
-  if (const auto given = fields.demand("role")) label.role = role_of(*given, problems);
-  return label;
-}
-
 void read_change(const json::Value& value, StepLine& line, Problems& problems) {
   using match::RosterAction;
   constexpr std::pair<std::string_view, RosterAction> kActions[] = {
@@ -51,12 +43,18 @@ void read_change(const json::Value& value, StepLine& line, Problems& problems) {
   for (const auto& [key, action] : kActions) {
     const auto player = value.find(key);
     if (!player) continue;
-    const bool is_join = action == RosterAction::kJoin;
-    const Fields fields =
-        is_join ? Fields(value, {key, "name", "role"}, problems) : Fields(value, {key}, problems);
-    line.step.roster.push_back(
-        {action, as<match::PlayerId>(json::integer_in(*player, 1, kMaxUint32 - 1, problems))});
-    line.labels.push_back(is_join ? read_label(fields, problems) : std::nullopt);
+    match::RosterChange change{action,
+                               as<match::PlayerId>(json::integer_in(*player, 1, kMaxUint32 - 1, problems))};
+    if (action == RosterAction::kJoin) {
+      const Fields fields(value, {key, "name", "role"}, problems);
+      const auto name = fields.demand("name");
+      const auto role = fields.demand("role");
+      if (name && role) change.label = label_of(*name, *role, problems);
+    } else {
+      const Fields fields(value, {key, "at"}, problems);
+      if (const auto at = fields.find("at")) problems.add(*at, kNoRules);
+    }
+    line.step.roster.push_back(std::move(change));
     return;
   }
   problems.add(value, "{\"join\": id}, {\"leave\": id} or {\"respawn\": id} is wanted");
@@ -118,18 +116,8 @@ void read_input(const json::Value& value, StepLine& line, Problems& problems) {
   line.margins_ms.push_back(margin);
 }
 
-/// Calls read(element) for each element of a list; stops at the first problem, of which one is enough.
-template <typename Read>
-void read_list(const json::Value& value, Problems& problems, const Read& read) {
-  if (!value.is(json::Kind::kArray)) return problems.add(value, "a list is wanted");
-  for (const json::Value& element : value.children()) {
-    if (problems.count() != 0) return;
-    read(element);
-  }
-}
-
 StepLine read_step(const json::Value& root, Problems& problems) {
-  const Fields fields(root, {"step", "roster", "inputs", "hash"}, problems);
+  const Fields fields(root, {"step", "steps", "roster", "inputs", "hash"}, problems);
   StepLine line;
   line.step.tick = fields.integer("step", 0, kMaxTick);
   line.step.hash = fields.hash("hash");
@@ -138,6 +126,11 @@ StepLine read_step(const json::Value& root, Problems& problems) {
   }
   if (const auto inputs = fields.find("inputs")) {
     read_list(*inputs, problems, [&](const json::Value& value) { read_input(value, line, problems); });
+  }
+  if (const auto steps = fields.find("steps")) {
+    line.steps = json::integer_in(*steps, 2, kMaxStepsBetweenKeyframes, problems).value_or(2);
+    if (!line.step.roster.empty() || !line.step.inputs.empty())
+      problems.add(*steps, "of a step with a roster or inputs, which is one");
   }
   return line;
 }
@@ -174,7 +167,7 @@ void read_columns(const json::Value& columns, Problems& problems) {
 
 void read_player(const json::Value& value, Keyframe& keyframe, Problems& problems) {
   const std::vector<json::Value> values = value.children();
-  if (!value.is(json::Kind::kArray) || (values.size() != 2 && values.size() != 4)) {
+  if (!value.is(json::Kind::kArray) || values.size() != 4) {
     return problems.add(value, "[player, seq, name, role] is wanted");
   }
   match::PlayerSeq player;
@@ -183,9 +176,7 @@ void read_player(const json::Value& value, Keyframe& keyframe, Problems& problem
     player.last_seq = as<std::uint32_t>(json::integer_in(values[1], 0, kMaxUint32, problems));
   }
   keyframe.state.players.push_back(player);
-  if (values.size() == 2) return;
-  keyframe.labels[player.player] = {json::any_text(values[2], kMaxTextBytes, problems),
-                                    role_of(values[3], problems)};
+  keyframe.state.labels[player.player] = label_of(values[2], values[3], problems);
 }
 
 void read_waiting(const json::Value& value, Keyframe& keyframe, Problems& problems) {
@@ -201,16 +192,20 @@ void read_waiting(const json::Value& value, Keyframe& keyframe, Problems& proble
 
 Keyframe read_keyframe(const json::Value& root, Problems& problems) {
   const Fields fields(root,
-                      {"keyframe", "hash", "previous", "inputs", "generator", "next_player", "players",
-                       "waiting", "columns", "lice"},
+                      {"keyframe", "hash", "previous", "inputs", "roster", "rules", "rules_state", "link",
+                       "generator", "next_player", "players", "waiting", "columns", "lice"},
                       problems);
   Keyframe keyframe;
   match::MatchState& state = keyframe.state;
   state.tick = fields.integer("keyframe", 0, kMaxTick);
   state.hash = fields.hash("hash");
-  state.previous = fields.hash("previous");
-  state.inputs = fields.hash("inputs");
-  state.generator = fields.hash("generator");
+  state.link = {fields.hash("previous"),
+                fields.hash("inputs"),
+                fields.hash("roster"),
+                fields.hash("rules"),
+                fields.integer("link", 0, kMaxTick),
+                fields.hash("generator")};
+  if (const auto rules = fields.find("rules_state")) problems.add(*rules, kNoRules);
   state.next_player = static_cast<match::PlayerId>(fields.integer("next_player", 1, kMaxUint32));
   const auto list = [&](std::string_view key, const auto& read) {
     if (const auto value = fields.demand(key)) read_list(*value, problems, read);
@@ -300,10 +295,10 @@ core::Expected<Header> ReplayReader::read_header() {
   return header;
 }
 
-core::Expected<std::optional<Line>> ReplayReader::next() {
+/// False: no further whole line.
+core::Expected<bool> ReplayReader::read_into(Line& line) {
   const core::Expected<bool> whole = read_line();
-  if (!whole) return tl::unexpected(whole.error());
-  if (!*whole) return std::optional<Line>();
+  if (!whole || !*whole) return whole;
   // Memory goes with the bytes and with the values: who takes shorter lines takes fewer values.
   const std::size_t values = kMaxValues * longest_line_ / kMaxReplayLineBytes;
   const auto document = json::parse_file(line_, source_, {kMaxDepth, values}, line_number_);
@@ -312,14 +307,40 @@ core::Expected<std::optional<Line>> ReplayReader::next() {
     return tl::unexpected(document.error());
   }
   Problems problems(source_);
-  Line line = read_object(document->root(), problems);
+  line = read_object(document->root(), problems);
   if (problems.count() != 0) return tl::unexpected(problems.errors().front());
+  return true;
+}
+
+/// One of the steps that the line stands for.
+StepLine ReplayReader::next_quiet() {
+  assert(quiet_.steps != 0 && quiet_.step.inputs.empty() && quiet_.step.roster.empty());
+  StepLine step;
+  step.step.tick = quiet_.step.tick++;
+  step.step.hash = quiet_.step.hash;
+  --quiet_.steps;
+  return step;
+}
+
+core::Expected<std::optional<Line>> ReplayReader::next() {
+  Line line;
+  if (quiet_.steps != 0) {
+    line = next_quiet();
+  } else {
+    const core::Expected<bool> whole = read_into(line);
+    if (!whole) return tl::unexpected(whole.error());
+    if (!*whole) return core::Expected<std::optional<Line>>(tl::in_place);
+    if (auto* step = std::get_if<StepLine>(&line); step != nullptr && step->steps > 1) {
+      quiet_ = std::move(*step);
+      line = next_quiet();
+    }
+  }
   if (auto fits = order_.follow(line); !fits) {
     core::Error error = std::move(fits.error());
     error.where = error.where.empty() ? place() : joined({place(), ": ", error.where});
     return tl::unexpected(std::move(error));
   }
-  return std::optional<Line>(std::move(line));
+  return core::Expected<std::optional<Line>>(tl::in_place, std::move(line));
 }
 
 }  // namespace woodlouse::replay

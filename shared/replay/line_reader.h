@@ -28,7 +28,8 @@ class ReplayReader {
 
   /// The first line. Refuses another format, version or behavior, naming both.
   core::Expected<Header> read_header();
-  /// The next line; nothing at the end of the file, or after a last line that was cut off.
+  /// The next line; nothing at the end of the file, or after a last line that was cut off. A line that stands
+  /// for many steps is given as often, a step at a time.
   core::Expected<std::optional<Line>> next();
 
   /// The file's last line has no newline: whoever wrote it was interrupted. Known once next() gave nothing.
@@ -47,6 +48,8 @@ class ReplayReader {
 
  private:
   core::Expected<bool> read_line();  ///< false: no further whole line
+  StepLine next_quiet();
+  core::Expected<bool> read_into(Line& line);
 
   std::istream& in_;
   std::string source_;
@@ -57,6 +60,8 @@ class ReplayReader {
   bool cut_off_ = false;
   bool wants_longer_lines_ = false;
   LineOrder order_;
+  StepLine quiet_{
+      {}, {}, 0};  ///< what is still to come of the line read last, where it stands for many steps
 };
 
 }  // namespace woodlouse::replay

@@ -61,20 +61,10 @@ void append_thrust(std::string& out, state::ThrustKind kind, core::Vec2 value) {
   assert(false);
 }
 
-void append_roster_change(json::ObjectText& entry, const match::RosterChange& change,
-                          const PlayerLabels& labels) {
+void append_roster_change(json::ObjectText& entry, const match::RosterChange& change) {
   entry.integer(to_text(change.action), change.player);
-  const auto label = labels.find(change.player);
-  if (change.action != match::RosterAction::kJoin || label == labels.end()) return;
-  entry.text("name", label->second.name).text("role", protocol::to_text(label->second.role));
-}
-
-void add_roster(json::ObjectText& line, std::span<const match::RosterChange> roster,
-                const PlayerLabels& labels) {
-  if (roster.empty()) return;
-  line.objects("roster", roster, [&](json::ObjectText& entry, const match::RosterChange& change) {
-    append_roster_change(entry, change, labels);
-  });
+  if (change.action != match::RosterAction::kJoin) return;
+  entry.text("name", change.label.name).text("role", protocol::to_text(change.label.role));
 }
 
 /// [player, seq, thrust, margin in ms, ticks]: what is not known, or held, is left out at the end.
@@ -101,7 +91,7 @@ void append_waiting(std::string& out, const match::AppliedInput& input) {
   out += ']';
 }
 
-void append_player(std::string& out, const match::PlayerSeq& player, const PlayerLabels& labels) {
+void append_player(std::string& out, const match::PlayerSeq& player, const match::PlayerLabel& label) {
   json::append_integer(out += '[', player.player);
   out += ',';
   if (player.last_seq) {
@@ -109,10 +99,8 @@ void append_player(std::string& out, const match::PlayerSeq& player, const Playe
   } else {
     out += "null";
   }
-  if (const auto label = labels.find(player.player); label != labels.end()) {
-    json::append_string(out += ',', label->second.name);
-    json::append_string(out += ',', protocol::to_text(label->second.role));
-  }
+  json::append_string(out += ',', label.name);
+  json::append_string(out += ',', protocol::to_text(label.role));
   out += ']';
 }
 
@@ -173,25 +161,26 @@ void append_header(std::string& out, const Header& header) {
   end_line(out, line);
 }
 
-void append_keyframe(std::string& out, const match::MatchState& state, const PlayerLabels& labels) {
+void append_keyframe(std::string& out, const match::MatchState& state) {
+  assert(state.roster.empty());
   json::ObjectText line(out);
-  line.integer("keyframe", state.tick).hash("hash", state.hash).hash("previous", state.previous);
-  line.hash("inputs", state.inputs).hash("generator", state.generator);
+  line.integer("keyframe", state.tick).hash("hash", state.hash).hash("previous", state.link.previous);
+  line.hash("inputs", state.link.inputs).hash("roster", state.link.roster).hash("rules", state.link.rules);
+  line.integer("link", state.link.tick).hash("generator", state.link.generator);
   line.integer("next_player", state.next_player);
-  line.array("players", state.players,
-             [&](std::string& list, const match::PlayerSeq& player) { append_player(list, player, labels); });
-  add_roster(line, state.roster, labels);
+  line.array("players", state.players, [&](std::string& list, const match::PlayerSeq& player) {
+    append_player(list, player, state.labels.at(player.player));
+  });
   line.array("waiting", state.waiting, append_waiting);
   line.array("columns", state::kLouseFields, append_name);
   line.array("lice", state.lice, append_louse);
   end_line(out, line);
 }
 
-void append_step(std::string& out, const match::StepRecord& step, const PlayerLabels& labels,
-                 const Margins& margins) {
+void append_step(std::string& out, const match::StepRecord& step, const Margins& margins) {
   json::ObjectText line(out);
   line.integer("step", step.tick);
-  add_roster(line, step.roster, labels);
+  if (!step.roster.empty()) line.objects("roster", step.roster, append_roster_change);
   if (!step.inputs.empty()) {
     line.array("inputs", step.inputs, [&](std::string& list, const match::AppliedInput& input) {
       const auto margin = margins.find({input.player, input.seq});
@@ -199,6 +188,15 @@ void append_step(std::string& out, const match::StepRecord& step, const PlayerLa
     });
   }
   line.hash("hash", step.hash);
+  end_line(out, line);
+}
+
+void append_quiet_steps(std::string& out, std::uint64_t first, std::uint64_t steps, std::uint64_t hash) {
+  assert(steps >= 1);
+  json::ObjectText line(out);
+  line.integer("step", first);
+  if (steps > 1) line.integer("steps", steps);
+  line.hash("hash", hash);
   end_line(out, line);
 }
 

@@ -15,10 +15,11 @@ namespace woodlouse::replay {
 using Margins = std::map<std::pair<match::PlayerId, std::uint32_t>, std::int64_t>;
 
 void append_header(std::string& out, const Header& header);
-void append_keyframe(std::string& out, const match::MatchState& state, const PlayerLabels& labels);
-/// Joins take their names from `labels`.
-void append_step(std::string& out, const match::StepRecord& step, const PlayerLabels& labels,
-                 const Margins& margins);
+/// REQUIRES that state.roster is empty.
+void append_keyframe(std::string& out, const match::MatchState& state);
+void append_step(std::string& out, const match::StepRecord& step, const Margins& margins);
+/// Steps from `first` on that applied nothing and left the hash as it was. REQUIRES steps >= 1.
+void append_quiet_steps(std::string& out, std::uint64_t first, std::uint64_t steps, std::uint64_t hash);
 void append_chat(std::string& out, const ChatLine& line);
 void append_end(std::string& out, const End& end);
 

@@ -37,7 +37,6 @@ core::Expected<void> Playback::restore(std::size_t keyframe) {
                                     " is not where the index has it"}));
   }
   const Header& header = archive_->header();
-  labels_ = std::move(found->labels);
   auto rerun = Rerun::from_recorded(archive_->map(), {header.tick_hz, header.seed}, std::move(*found),
                                     reader->place());
   if (!rerun) return tl::unexpected(rerun.error());
@@ -61,15 +60,6 @@ core::Expected<void> Playback::pass(const Keyframe& keyframe) {
   if (!unlike.empty())
     first_difference_ = Difference{at, core::joined({"keyframe ", std::to_string(at), ": ", unlike}), {}};
   return {};
-}
-
-void Playback::note_labels(const StepLine& step) {
-  for (std::size_t k = 0; k < step.step.roster.size(); ++k) {
-    const match::RosterChange& change = step.step.roster[k];
-    if (change.action == match::RosterAction::kLeave) labels_.erase(change.player);
-    if (change.action == match::RosterAction::kJoin && step.labels[k])
-      labels_[change.player] = *step.labels[k];
-  }
 }
 
 core::Expected<void> Playback::seek(std::uint64_t tick) {
@@ -108,7 +98,6 @@ core::Expected<std::optional<PlayedStep>> Playback::advance() {
     if (step == nullptr) continue;
     auto difference = rerun_->step(*step, reader_->place());
     if (!difference) return tl::unexpected(difference.error());
-    note_labels(*step);
     played.recorded = std::move(*step);
     played.hash = match().hash();
     if (!first_difference_) first_difference_ = std::move(*difference);

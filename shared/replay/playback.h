@@ -44,8 +44,6 @@ class Playback {
   [[nodiscard]] const std::optional<Difference>& first_difference() const { return first_difference_; }
   /// The keyframe that the last jump restored: what is shown is proven since there.
   [[nodiscard]] std::uint64_t proven_since() const { return proven_since_; }
-  /// Of those who are there, where known; as that keyframe and the steps since say.
-  [[nodiscard]] const PlayerLabels& labels() const { return labels_; }
 
  private:
   friend class ReplayArchive;
@@ -53,7 +51,6 @@ class Playback {
 
   core::Expected<void> restore(std::size_t keyframe);
   core::Expected<void> pass(const Keyframe& keyframe);
-  void note_labels(const StepLine& step);
 
   std::shared_ptr<const ReplayArchive> archive_;
   std::unique_ptr<std::istream> stream_;
@@ -61,7 +58,6 @@ class Playback {
   std::unique_ptr<Rerun> rerun_;
   std::optional<Difference> first_difference_;
   std::uint64_t proven_since_ = 0;
-  PlayerLabels labels_;
 };
 
 }  // namespace woodlouse::replay

@@ -27,7 +27,7 @@ std::string name_of(const match::AppliedInput& input) {
 }
 
 std::string name_of(const match::RosterChange& change) {
-  constexpr std::string_view kNames[] = {"join of ", "leave of ", "respawn of "};
+  constexpr std::string_view kNames[] = {"", "join of ", "leave of ", "respawn of "};
   return joined({kNames[static_cast<std::size_t>(change.action)], "player ", std::to_string(change.player)});
 }
 
@@ -105,6 +105,13 @@ std::string unlike_players(const match::MatchState& recorded, std::vector<match:
   return joined({"players: ", both(std::to_string(recorded.players.size()), std::to_string(rerun.size()))});
 }
 
+std::string unlike_labels(const match::PlayerLabels& recorded, const match::PlayerLabels& rerun) {
+  assert(recorded.size() == rerun.size());  // the players are the same
+  const auto [a, b] = std::mismatch(recorded.begin(), recorded.end(), rerun.begin());
+  if (a == recorded.end()) return {};
+  return joined({"the name or role of player ", std::to_string(a->first), " is another"});
+}
+
 }  // namespace
 
 std::string first_difference(std::span<const state::Louse> recorded, std::span<const state::Louse> rerun) {
@@ -176,7 +183,7 @@ core::Expected<std::optional<Difference>> Rerun::step(const StepLine& line, cons
                             "ids ascend and are never used again");
         }
         last_joined_ = change.player;
-        match_->join_as(change.player);
+        match_->join_as(change.player, change.label);
         break;
       case match::RosterAction::kLeave:
         match_->leave(change.player);
@@ -217,16 +224,20 @@ std::string Rerun::difference_to(const Keyframe& keyframe) const {
   const auto compare = [&](std::string_view name, std::uint64_t a, std::uint64_t b) {
     if (found.empty() && a != b) found = joined({name, ": ", both(core::to_hex(a), core::to_hex(b))});
   };
-  compare("generator", recorded.generator, own.generator);
+  compare("generator", recorded.link.generator, own.link.generator);
   compare("hash", recorded.hash, own.hash);
-  compare("previous", recorded.previous, own.previous);
-  compare("inputs", recorded.inputs, own.inputs);
+  compare("previous", recorded.link.previous, own.link.previous);
+  compare("inputs", recorded.link.inputs, own.link.inputs);
+  compare("roster", recorded.link.roster, own.link.roster);
+  compare("rules", recorded.link.rules, own.link.rules);
+  compare("link", recorded.link.tick, own.link.tick);
   if (found.empty() && recorded.next_player != own.next_player) {
     found = joined(
         {"next_player: ", both(std::to_string(recorded.next_player), std::to_string(own.next_player))});
   }
   if (found.empty()) found = unlike_waiting(recorded.waiting, own.waiting);
   if (found.empty()) found = unlike_players(recorded, own.players);
+  if (found.empty()) found = unlike_labels(recorded.labels, own.labels);
   return found;
 }
 

@@ -46,18 +46,23 @@ void ReplayWriter::append_header(std::string& out, const Header& header) {
   put(out);
 }
 
-void ReplayWriter::append_keyframe(std::string& out, const match::MatchState& state) {
-  assert(state.roster.empty());
-  // Notes of inputs that their player's leaving dropped.
-  std::erase_if(margins_, [&](const auto& note) { return !is_player(state, note.first.first); });
-  if (packer_) packer_->end_frame(out);
-  index_.add(KeyframePlace{state.tick, offset_, lines_ + 1}, Keyframe{state, labels_});
-  replay::append_keyframe(line_, state, labels_);
+void ReplayWriter::put_quiet(std::string& out) {
+  if (quiet_ == 0) return;
+  append_quiet_steps(line_, index_.last_tick - quiet_, quiet_, hash_);
+  quiet_ = 0;
   put(out);
 }
 
-void ReplayWriter::note_player(match::PlayerId player, std::string_view name, protocol::Role role) {
-  labels_[player] = PlayerLabel{std::string(name), role};
+void ReplayWriter::append_keyframe(std::string& out, const match::MatchState& state) {
+  assert(state.roster.empty());
+  put_quiet(out);
+  hash_ = state.hash;
+  // Notes of inputs that their player's leaving dropped.
+  std::erase_if(margins_, [&](const auto& note) { return !is_player(state, note.first.first); });
+  if (packer_) packer_->end_frame(out);
+  index_.add(KeyframePlace{state.tick, offset_, lines_ + 1}, Keyframe{state});
+  replay::append_keyframe(line_, state);
+  put(out);
 }
 
 void ReplayWriter::note_margin(match::PlayerId player, std::uint32_t seq, std::int64_t margin_us) {
@@ -65,24 +70,23 @@ void ReplayWriter::note_margin(match::PlayerId player, std::uint32_t seq, std::i
 }
 
 void ReplayWriter::append_step(std::string& out, const match::StepRecord& step) {
-  replay::append_step(line_, step, labels_, margins_);
-  put(out);
-  chats_ = 0;
-  StepLine line;
-  line.step = step;
-  for (const match::RosterChange& change : step.roster) {
-    const auto label = labels_.find(change.player);
-    line.labels.push_back(label != labels_.end() ? std::optional(label->second) : std::nullopt);
+  const bool is_quiet = step.roster.empty() && step.inputs.empty() && step.hash == hash_;
+  if (!is_quiet) {
+    put_quiet(out);
+    replay::append_step(line_, step, margins_);
+    put(out);
   }
-  index_.add(line);
+  index_.add(StepLine{step});
   forget_notes(step);
+  hash_ = step.hash;
+  chats_ = 0;
+  if (is_quiet && ++quiet_ == kMaxStepsBetweenKeyframes) put_quiet(out);
 }
 
 void ReplayWriter::forget_notes(const match::StepRecord& step) {
   for (const match::AppliedInput& input : step.inputs) margins_.erase({input.player, input.seq});
   for (const match::RosterChange& change : step.roster) {
     if (change.action != match::RosterAction::kLeave) continue;
-    labels_.erase(change.player);
     // What it had filed is dropped.
     margins_.erase(margins_.lower_bound({change.player, 0}),
                    margins_.upper_bound({change.player, UINT32_MAX}));
@@ -92,6 +96,7 @@ void ReplayWriter::forget_notes(const match::StepRecord& step) {
 bool ReplayWriter::append_chat(std::string& out, std::uint64_t tick, match::PlayerId player,
                                std::string_view name, std::string_view text) {
   if (++chats_ > kMaxChatsAStep) return false;
+  put_quiet(out);
   const ChatLine line{tick, player, std::string(name), std::string(text)};
   replay::append_chat(line_, line);
   put(out);
@@ -100,6 +105,7 @@ bool ReplayWriter::append_chat(std::string& out, std::uint64_t tick, match::Play
 }
 
 void ReplayWriter::append_end(std::string& out, std::string_view reason) {
+  put_quiet(out);
   if (packer_) packer_->end_frame(out);
   const End end{index_.last_tick, std::string(reason), offset_};
   append_index(line_, index_);
@@ -110,6 +116,7 @@ void ReplayWriter::append_end(std::string& out, std::string_view reason) {
 }
 
 void ReplayWriter::flush(std::string& out) {
+  put_quiet(out);
   if (packer_) packer_->flush(out);
 }
 

@@ -37,12 +37,11 @@ class ReplayWriter {
   /// REQUIRES that state.tick is where the steps so far led, and that state.roster is empty.
   void append_keyframe(std::string& out, const match::MatchState& state);
 
-  /// Labels a player's join. Call it before the step that applies the join; without it the join has no name.
-  /// Of those who are in the first keyframe: before that.
-  void note_player(match::PlayerId player, std::string_view name, protocol::Role role);
   /// How long before its step an input came [us], negative: after. Optional; before the step that applies it.
   void note_margin(match::PlayerId player, std::uint32_t seq, std::int64_t margin_us);
 
+  /// Steps in a row that changed nothing become one line, which is written when something else is, at the
+  /// latest by flush().
   void append_step(std::string& out, const match::StepRecord& step);
   /// False: it was left out, for there are kMaxChatsAStep since the last step (line_order.h).
   bool append_chat(std::string& out, std::uint64_t tick, match::PlayerId player, std::string_view name,
@@ -55,15 +54,17 @@ class ReplayWriter {
 
  private:
   void put(std::string& out);  ///< line_, as it is or packed
+  void put_quiet(std::string& out);
   void forget_notes(const match::StepRecord& step);
 
   std::unique_ptr<FramePacker> packer_;  ///< null: plain
   std::string line_;
   std::uint64_t offset_ = 0;  ///< bytes of text so far
   std::uint64_t lines_ = 0;
-  std::size_t chats_ = 0;  ///< since the last step
-  PlayerLabels labels_;    ///< of who plays, or is about to
-  Margins margins_;        ///< of inputs not yet written
+  std::size_t chats_ = 0;    ///< since the last step
+  std::uint64_t hash_ = 0;   ///< of the step or keyframe before
+  std::uint64_t quiet_ = 0;  ///< steps that are not written yet, the last ones
+  Margins margins_;          ///< of inputs not yet written
   ReplayIndex index_;
 };
 

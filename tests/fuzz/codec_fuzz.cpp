@@ -104,6 +104,9 @@ std::string frame_text(const Frame& frame, const std::vector<Column>& fields, Fo
   if (frame.proof) {
     append_hash("previous", frame.proof->previous);
     append_hash("inputs", frame.proof->inputs);
+    append_hash("roster", frame.proof->roster);
+    append_hash("rules", frame.proof->rules);
+    out += ",\"link\":" + std::to_string(frame.proof->tick);
     append_hash("generator", frame.proof->generator);
   }
   return out + "}\n";

@@ -60,22 +60,18 @@ std::string text_of(const Header& header) {
 /// Of an index nothing: the reader keeps its tick alone.
 struct LineText {
   std::string operator()(const StepLine& line) const {
-    PlayerLabels labels;
-    for (std::size_t k = 0; k < line.labels.size(); ++k) {
-      if (line.labels[k]) labels[line.step.roster[k].player] = *line.labels[k];
-    }
     Margins margins;
     for (std::size_t k = 0; k < line.margins_ms.size(); ++k) {
       const match::AppliedInput& input = line.step.inputs[k];
       if (line.margins_ms[k]) margins[{input.player, input.seq}] = *line.margins_ms[k];
     }
     std::string out;
-    append_step(out, line.step, labels, margins);
+    append_step(out, line.step, margins);
     return out;
   }
   std::string operator()(const Keyframe& line) const {
     std::string out;
-    append_keyframe(out, line.state, line.labels);
+    append_keyframe(out, line.state);
     return out;
   }
   std::string operator()(const ChatLine& line) const {
@@ -133,10 +129,9 @@ void check_finite(const match::Match& match) {
 void check_keyframe(const Header& header, const std::shared_ptr<const map::Map>& map, Keyframe keyframe) {
   const match::MatchSettings settings{header.tick_hz, header.seed};
   match::MatchState& state = keyframe.state;
-  if (state.tick != 0) {
+  if (state.link.tick != 0) {
     core::StableHasher hasher;
-    state.hash =
-        state::state_hash(hasher, {state.previous, state.inputs, state.tick, state.generator}, state.lice);
+    state.hash = state::state_hash(hasher, state.link, state.lice);
   }
   const std::vector<match::PlayerSeq> players = state.players;
   const auto rerun = Rerun::from(map, settings, std::move(keyframe), kSource + ":2");

@@ -52,7 +52,7 @@ std::string recording(const Seed& seed, replay::Encoding encoding) {
   writer.append_keyframe(out, match.state());
   std::uint32_t seq = 0;
   for (std::uint64_t step = 0; step < seed.steps; ++step) {
-    if (step % 12 == 0) writer.note_player(match.join(), "louse", protocol::Role::kBot);
+    if (step % 12 == 0) match.join({"louse", state::Role::kBot});
     if (step == 20) match.respawn(1);
     if (step == 30) match.leave(2);
     if (step % 3 == 0) {

@@ -84,6 +84,66 @@ TEST_CASE("an input that moves nothing still shows in the hash") {
   CHECK(hash(true) != hash(false));
 }
 
+TEST_CASE("who joins under which name and role shows in the hash, and what is otherwise the same does not") {
+  const auto hash = [](const PlayerLabel& label) {
+    Match match(volcano(), {60, 1});
+    match.join(label);
+    return match.advance().hash;
+  };
+  const std::uint64_t ada = hash({"ada", state::Role::kPlayer});
+  CHECK(hash({"ada", state::Role::kPlayer}) == ada);
+  CHECK(hash({"adb", state::Role::kPlayer}) != ada);
+  CHECK(hash({"ada", state::Role::kBot}) != ada);
+  CHECK(hash({}) != ada);
+}
+
+TEST_CASE("a step that applies nothing and changes no byte makes no link, and the next one binds the gap") {
+  Match match(volcano(), {60, 1});
+  for (int k = 0; k < 5; ++k) CHECK(match.advance().hash == 0);
+  CHECK(match.link() == beginning(match.settings()));
+  const PlayerId player = match.join({"ada", state::Role::kPlayer});
+  match.advance();
+  CHECK(match.link().previous == 0);
+  CHECK(match.link().tick == 6);
+  match.file({player, 1, {ThrustKind::kAlongHeading, {-1.0, 0.0}}, 60, 0});
+  for (int k = 0; k < 3600; ++k) match.advance();
+  REQUIRE(match.world().find(player)->phase == state::Phase::kResting);
+  const std::uint64_t at_rest = match.hash();
+  const state::HashLink link = match.link();
+  const auto twin = Match::restore(volcano(), match.settings(), match.state());
+  REQUIRE(why_not(match.map(), match.settings(), match.state()).empty());
+  for (int k = 0; k < 100; ++k) CHECK(match.advance().hash == at_rest);
+  CHECK(match.link() == link);
+  CHECK(why_not(match.map(), match.settings(), match.state()).empty());
+  const auto later = Match::restore(volcano(), match.settings(), match.state());
+  // An input that moves nobody is one that was applied.
+  for (Match* game : {&match, twin.get(), later.get()})
+    game->file({player, 2, {ThrustKind::kNone, {}}, state::kHeld, 0});
+  CHECK(match.advance().hash != at_rest);
+  CHECK(match.link().previous == at_rest);
+  CHECK(match.link().tick == match.tick());
+  CHECK(later->advance().hash == match.hash());
+  CHECK(twin->advance().hash != match.hash());  // the same, 100 ticks earlier
+}
+
+TEST_CASE("the hash of many lice, some at rest, is that of all of them hashed anew at every tick") {
+  Match match(volcano(), {60, 3});
+  core::StableHasher hasher;
+  std::vector<PlayerId> players;
+  for (int k = 0; k < 150; ++k) players.push_back(match.join());
+  for (std::uint32_t tick = 0; tick < 900; ++tick) {
+    if (tick % 200 == 70) match.leave(players[tick % 150]);
+    if (tick % 300 == 170) match.join();
+    if (tick % 90 == 3) match.file({players[0], tick, {ThrustKind::kAlongHeading, {0.5, 0.0}}, 10, 0});
+    match.advance();
+    REQUIRE(match.hash() == state::state_hash(hasher, match.link(), match.world().lice()));
+  }
+  const auto resting =
+      std::count_if(match.world().lice().begin(), match.world().lice().end(),
+                    [](const state::Louse& louse) { return louse.phase == state::Phase::kResting; });
+  CHECK(resting > 64);
+}
+
 TEST_CASE("leaving removes the louse, respawning brings it back to a spawn point with its distance") {
   Match match(volcano(), {60, 5});
   const PlayerId player = match.join();

@@ -26,7 +26,7 @@ void stir(Match& match, core::Random& random, std::vector<PlayerId>& players,
           std::vector<std::uint32_t>& seqs) {
   const std::uint64_t choice = random.next() % 30;
   if (choice < 2 || players.size() < 4) {
-    players.push_back(match.join());
+    players.push_back(match.join({"louse " + std::to_string(seqs.size()), state::Role::kBot}));
     seqs.push_back(0);
   } else if (choice == 2) {
     match.leave(players.front());
@@ -48,7 +48,7 @@ void stir(Match& match, core::Random& random, std::vector<PlayerId>& players,
 }
 
 bool is_same(const MatchState& a, const MatchState& b) {
-  return a.hash == b.hash && a.generator == b.generator && a.next_player == b.next_player &&
+  return a.hash == b.hash && a.link == b.link && a.labels == b.labels && a.next_player == b.next_player &&
          a.players == b.players && a.waiting == b.waiting && a.roster == b.roster;
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("a match restored at any moment, queues full or empty, goes on bit for
         auto seqs_own = seqs;
         for (int later = 0; later < 40; ++later) {
           REQUIRE(own->advance().hash == twin->advance().hash);
-          REQUIRE(own->link().previous == twin->link().previous);
+          REQUIRE(own->link() == twin->link());
           stir(*own, random_own, players_own, seqs_own);
           stir(*twin, random_twin, players_twin, seqs_twin);
         }
@@ -126,9 +126,17 @@ TEST_CASE("states that no match can be in are refused by name") {
           s.roster = {{RosterAction::kLeave, 7}};
         }) == "a change of player 7, who never was");
   for (const auto& change :
-       {+[](MatchState& s) { s.generator ^= 1; }, +[](MatchState& s) { s.previous ^= 1; },
-        +[](MatchState& s) { s.hash ^= 1; }, +[](MatchState& s) { s.inputs ^= 1; },
+       {+[](MatchState& s) { s.link.generator ^= 1; }, +[](MatchState& s) { s.link.previous ^= 1; },
+        +[](MatchState& s) { s.hash ^= 1; }, +[](MatchState& s) { s.link.inputs ^= 1; },
+        +[](MatchState& s) { s.link.roster ^= 1; }, +[](MatchState& s) { --s.link.tick; },
         +[](MatchState& s) { s.lice[0].distance += 1e-12; }}) {
     CHECK(fault(change).find("its hash is ") == 0);
   }
+  CHECK(fault([](MatchState& s) { ++s.link.tick; }) == "its hash is of tick 21, which is later");
+  CHECK(fault([](MatchState& s) { s.link.tick = 0; }).find("before the first step that did something") == 0);
+  CHECK(fault([](MatchState& s) { s.link.rules = 1; }) == "it was played by rules that are not known here");
+  const std::string unnamed = "each of its players has one name and is a player or a bot, and nobody else is";
+  CHECK(fault([](MatchState& s) { s.labels.erase(2); }) == unnamed);
+  CHECK(fault([](MatchState& s) { s.labels[3] = {}; }) == unnamed);
+  CHECK(fault([](MatchState& s) { s.labels[2].role = state::Role::kSpectator; }) == unnamed);
 }

@@ -155,11 +155,16 @@ TEST_CASE("a delta may leave out gone") {
 
 TEST_CASE("a key of all columns in exact format carries what its hash is made of, and no other frame does") {
   const std::string head = R"({"type":"key","tick":7,"louse":[],"hash":"0000000000000001")";
-  const std::string proof =
-      R"(,"previous":"0000000000000002","inputs":"ffffffffffffffff","generator":"000000000000000a"})";
+  const auto proof_of_link = [](int tick) {
+    return R"(,"previous":"0000000000000002","inputs":"ffffffffffffffff","roster":"0000000000000004",)"
+           R"("rules":"0000000000000000","link":)" +
+           std::to_string(tick) + R"(,"generator":"000000000000000a"})";
+  };
+  const std::string proof = proof_of_link(5);
   const Frame proved = frame_of(head + proof + "\n", all_columns(), Format::kExact);
   REQUIRE(proved.proof);
-  CHECK(*proved.proof == woodlouse::state::HashLink{2, 0xffff'ffff'ffff'ffff, 7, 10});
+  CHECK(*proved.proof == woodlouse::state::HashLink{2, 0xffff'ffff'ffff'ffff, 4, 0, 5, 10});
+  CHECK_FALSE(decode_server(head + proof_of_link(8) + "\n", all_columns(), Format::kExact));
   CHECK_FALSE(frame_of(head + proof + "\n", all_columns(), Format::kQuantized).proof);
   CHECK_FALSE(frame_of(head + "}\n", default_columns(), Format::kExact).proof);
   CHECK_FALSE(decode_server(head + "}\n", all_columns(), Format::kExact));

@@ -196,6 +196,9 @@ TEST_CASE("a join, leave or respawn that is left out or altered is caught in its
           line.erase(begin, line.find(']', begin) + 1 - begin);
         } else {
           line.replace(line.find(kind), std::string(kind).size(), other);
+          constexpr std::string_view kLabel = R"(,"name":"","role":"bot")";
+          const std::size_t label = line.find(kLabel, begin);
+          if (std::string(kind) == "join") line.erase(label, kLabel.size());
         }
         const auto verification = verify_text(altered.text());
         REQUIRE(verification);

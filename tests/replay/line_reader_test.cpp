@@ -78,8 +78,10 @@ TEST_CASE("random steps read back as they were written, minus zero and 64-bit ha
     ReplayWriter writer;
     const auto player = [&] { return static_cast<match::PlayerId>(1 + random.next() % 0xfffffffe); };
     for (std::uint64_t n = random.next() % 4; n > 0; --n) {
-      step.roster.push_back({static_cast<match::RosterAction>(random.next() % 3), player()});
-      writer.note_player(step.roster.back().player, "n\xc3\xa4me\n\"", protocol::Role::kPlayer);
+      step.roster.push_back({static_cast<match::RosterAction>(1 + random.next() % 3), player()});
+      if (step.roster.back().action == match::RosterAction::kJoin)
+        step.roster.back().label = {"n\xc3\xa4me\n\"",
+                                    random.next() % 2 == 0 ? state::Role::kPlayer : state::Role::kBot};
     }
     for (std::uint64_t n = random.next() % 4; n > 0; --n) {
       match::AppliedInput input;
@@ -112,11 +114,6 @@ TEST_CASE("random steps read back as they were written, minus zero and 64-bit ha
     for (std::size_t k = 0; k < step.inputs.size(); ++k) {
       CHECK(std::memcmp(&line.step.inputs[k], &step.inputs[k], sizeof step.inputs[k]) == 0);
     }
-    for (std::size_t k = 0; k < step.roster.size(); ++k) {
-      const bool is_join = step.roster[k].action == match::RosterAction::kJoin;
-      CHECK(line.labels[k].has_value() == is_join);
-      if (is_join) CHECK(line.labels[k]->name == "n\xc3\xa4me\n\"");
-    }
   }
 }
 
@@ -126,9 +123,8 @@ TEST_CASE("random keyframes read back bit for bit") {
     match::MatchState state;
     state.tick = random.next() >> 12;
     state.hash = random.next();
-    state.previous = random.next();
-    state.inputs = random.next();
-    state.generator = random.next();
+    state.link = {random.next(), random.next(),       random.next(),
+                  random.next(), random.next() >> 12, random.next()};
     state.lice.resize(random.next() % 6);
     state::LouseId id = 0;
     ReplayWriter writer;
@@ -143,7 +139,7 @@ TEST_CASE("random keyframes read back bit for bit") {
       const bool has_seq = random.next() % 4 != 0;
       state.players.push_back(
           {id, has_seq ? std::optional(static_cast<std::uint32_t>(random.next())) : std::nullopt});
-      if (random.next() % 2 == 0) writer.note_player(id, "an\"na", protocol::Role::kBot);
+      state.labels[id] = {random.next() % 2 == 0 ? "an\"na" : "", state::Role::kBot};
       if (random.next() % 2 == 0) {
         const double push = static_cast<double>(random.next() % 129) / 256.0;
         state.waiting.push_back({id,
@@ -168,8 +164,8 @@ TEST_CASE("random keyframes read back bit for bit") {
     for (std::size_t k = 0; k < state.waiting.size(); ++k) {
       CHECK(std::memcmp(&keyframe.state.waiting[k], &state.waiting[k], sizeof state.waiting[k]) == 0);
     }
-    for (const auto& [player, label] : keyframe.labels)
-      CHECK(label == PlayerLabel{"an\"na", protocol::Role::kBot});
+    CHECK(keyframe.state.labels == state.labels);
+    CHECK(keyframe.state.link == state.link);
   }
 }
 
@@ -221,10 +217,9 @@ TEST_CASE("a keyframe's columns are the wire's `all`") {
 
 TEST_CASE("notes of what is never applied are forgotten with their player") {
   ReplayWriter writer;
-  writer.note_player(1, "one", protocol::Role::kPlayer);
   writer.note_margin(1, 9, 1234);
   match::StepRecord step;
-  step.roster = {{match::RosterAction::kJoin, 1}, {match::RosterAction::kLeave, 1}};
+  step.roster = {{match::RosterAction::kJoin, 1, {"one"}}, {match::RosterAction::kLeave, 1}};
   std::string out;
   writer.append_step(out, step);
   step.tick = 1;
@@ -283,7 +278,9 @@ TEST_CASE("every field of a keyframe, a chat and an end is checked") {
       "\"thrust_kind\",\"ticks_left\"],";
   const std::string zeros = "\"0000000000000000\"";
   const std::string state = "\"hash\":" + zeros + ",\"previous\":" + zeros + ",\"inputs\":" + zeros +
-                            ",\"generator\":" + zeros + ",\"next_player\":3,\"players\":[],\"waiting\":[],";
+                            ",\"roster\":" + zeros + ",\"rules\":" + zeros +
+                            ",\"link\":60,\"generator\":" + zeros +
+                            ",\"next_player\":3,\"players\":[],\"waiting\":[],";
   const auto keyframe_error = [&](const std::string& lice) {
     return error_of("{\"keyframe\":60," + state + columns + "\"lice\":[" + lice + "]}\n");
   };
@@ -316,8 +313,8 @@ TEST_CASE("another format, version or behavior is refused and both are named") {
     return header_error(text.replace(at, from.size(), to));
   };
   CHECK(with("woodlouse-replay", "doom-demo").find("r:1: is no recording") == 0);
-  CHECK(with("\"version\":2", "\"version\":1") ==
-        "r:1: version: recorded with version 1, this program has version 2 (take a program of that one)");
+  CHECK(with("\"version\":3", "\"version\":2") ==
+        "r:1: version: recorded with version 2, this program has version 3 (take a program of that one)");
   const std::string behavior = "\"behavior\":" + std::to_string(match::kBehavior);
   CHECK(with(behavior, "\"behavior\":99") ==
         "r:1: behavior: recorded with behavior 99, this program has behavior " +

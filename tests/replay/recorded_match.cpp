@@ -52,11 +52,9 @@ class RandomGame {
   void come_and_go() {
     const std::uint64_t choice = random_.next() % 40;
     if (choice < 2 || players_.size() < 3) {
-      const match::PlayerId player = match_.join();
-      players_.push_back(player);
-      if (scenario_.notes == Notes::kNamesAndMargins) {
-        writer_.note_player(player, "louse " + std::to_string(player), protocol::Role::kBot);
-      }
+      const bool is_named = scenario_.notes == Notes::kNamesAndMargins;
+      const std::string name = is_named ? "louse " + std::to_string(++named_) : std::string();
+      players_.push_back(match_.join({name, state::Role::kBot}));
     } else if (choice == 2) {
       const std::size_t index = random_.next() % players_.size();
       match_.leave(players_[index]);
@@ -109,6 +107,7 @@ class RandomGame {
   match::Match match_;
   ReplayWriter writer_;
   std::vector<match::PlayerId> players_;
+  std::uint32_t named_ = 0;
   std::map<match::PlayerId, std::uint32_t> seq_;
   std::map<match::PlayerId, std::uint32_t> applied_;
 };
@@ -176,7 +175,7 @@ std::shared_ptr<const ReplayArchive> opened(const std::string& bytes) {
 
 std::string state_text(const match::MatchState& state) {
   std::string text;
-  append_keyframe(text, state, {});
+  append_keyframe(text, state);
   return text;
 }
 

@@ -22,6 +22,7 @@ class Bytes {
     for (int k = 0; k < 8; ++k) bytes_ += static_cast<char>(value >> (8 * k));
   }
   void f64(double value) { u64(std::bit_cast<std::uint64_t>(value)); }
+  void text(const std::string& value) { bytes_ += value; }
   [[nodiscard]] std::uint64_t hash() const { return core::stable_hash(bytes_); }
 
  private:
@@ -38,6 +39,19 @@ std::uint64_t inputs_digest(const match::StepRecord& step) {
     bytes.u32(static_cast<std::uint32_t>(input.kind));
     bytes.u32(input.ticks);
     bytes.u64(step.tick);
+  }
+  return bytes.hash();
+}
+
+std::uint64_t roster_digest(const match::StepRecord& step) {
+  Bytes bytes;
+  for (const match::RosterChange& change : step.roster) {
+    const bool is_join = change.action == match::RosterAction::kJoin;
+    bytes.u32(is_join ? 1 : change.action == match::RosterAction::kLeave ? 2 : 3);
+    bytes.u32(change.player);
+    bytes.u32(is_join && change.label.role == state::Role::kBot ? 1 : 0);
+    bytes.u32(is_join ? static_cast<std::uint32_t>(change.label.name.size()) : 0);
+    if (is_join) bytes.text(change.label.name);
   }
   return bytes.hash();
 }
@@ -64,24 +78,32 @@ TEST_CASE("the hash of a keyframe's tick can be made again from the recording al
     }
     const auto* keyframe = std::get_if<Keyframe>(&**line);
     if (keyframe == nullptr || keyframe->state.tick == 0) continue;
-    CHECK(keyframe->state.previous == previous);
-    CHECK(keyframe->state.inputs == inputs_digest(step));
-    CHECK(keyframe->state.generator == generator);
-    Bytes bytes;
-    bytes.u64(previous);
-    bytes.u64(inputs_digest(step));
-    bytes.u64(keyframe->state.tick);
+    CHECK(keyframe->state.link.previous == previous);
+    CHECK(keyframe->state.link.inputs == inputs_digest(step));
+    CHECK(keyframe->state.link.roster == roster_digest(step));
+    CHECK(keyframe->state.link.rules == 0);
+    CHECK(keyframe->state.link.tick == keyframe->state.tick);
+    CHECK(keyframe->state.link.generator == generator);
+    REQUIRE(keyframe->state.lice.size() <= 64);  // one block
+    Bytes block;
     for (const state::Louse& louse : keyframe->state.lice) {
       for (const state::LouseField& field : state::kLouseFields) {
         const double value = state::field_value(louse, field);
         if (state::holds_integer(field)) {
-          bytes.u32(static_cast<std::uint32_t>(value));
+          block.u32(static_cast<std::uint32_t>(value));
         } else {
-          bytes.f64(value);
+          block.f64(value);
         }
       }
     }
+    Bytes bytes;
+    bytes.u64(previous);
+    bytes.u64(inputs_digest(step));
+    bytes.u64(roster_digest(step));
+    bytes.u64(0);
+    bytes.u64(keyframe->state.tick);
     bytes.u64(generator);
+    if (!keyframe->state.lice.empty()) bytes.u64(block.hash());
     CHECK(bytes.hash() == step.hash);
     ++checked;
   }

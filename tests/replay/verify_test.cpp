@@ -73,7 +73,7 @@ TEST_CASE("a start that a game does not begin with is taken on trust, and said t
   Recording other = recording;
   std::string& header = other.lines.front();
   header.replace(header.find("\"seed\":\"1\""), 10, "\"seed\":\"2\"");
-  CHECK(verify_text(other.text()).error().text().find("at tick 0 there are no lice") != std::string::npos);
+  CHECK(verify_text(other.text()).error().text().find("and the generator is the seed") != std::string::npos);
   CHECK(verdict(recording.text()).from_start());
 }
 
@@ -94,10 +94,10 @@ TEST_CASE("a game begins with nobody there, nobody's input waiting and every id 
   for (const unsigned jobs : {1u, 3u}) {
     CHECK(said("\"next_player\":1,", "\"next_player\":3,", jobs) ==
           place + "next_player: 3 recorded, 1 re-run" + hint);
-    CHECK(said("\"next_player\":1,\"players\":[]", "\"next_player\":3,\"players\":[[2,7]]", jobs) ==
-          place + "next_player: 3 recorded, 1 re-run" + hint);
+    CHECK(said("\"next_player\":1,\"players\":[]", "\"next_player\":3,\"players\":[[2,7,\"a\",\"bot\"]]",
+               jobs) == place + "next_player: 3 recorded, 1 re-run" + hint);
     CHECK(said("\"next_player\":1,\"players\":[],\"waiting\":[]",
-               "\"next_player\":3,\"players\":[[2,7]],\"waiting\":[[9,2,7,64]]",
+               "\"next_player\":3,\"players\":[[2,7,\"a\",\"bot\"]],\"waiting\":[[9,2,7,64]]",
                jobs) == place + "waiting: 1 recorded, 0 re-run" + hint);
   }
 }
@@ -228,7 +228,7 @@ TEST_CASE("a join of an id that was used is an error") {
   for (std::uint64_t step = 100;; ++step) {
     std::string& line = recording.lines[recording.line_of_step(step)];
     if (line.find("roster") != std::string::npos) continue;
-    line.insert(line.find(','), ",\"roster\":[{\"join\":1}]");
+    line.insert(line.find(','), ",\"roster\":[{\"join\":1,\"name\":\"a\",\"role\":\"bot\"}]");
     break;
   }
   const auto verification = verify_text(recording.text());

@@ -49,8 +49,9 @@ std::string key_line(const match::Match& match) {
   }
   const state::HashLink& link = match.link();
   return line + R"(],"hash":")" + core::to_hex(match.hash()) + R"(","previous":")" +
-         core::to_hex(link.previous) + R"(","inputs":")" + core::to_hex(link.inputs) + R"(","generator":")" +
-         core::to_hex(link.generator) + "\"}\n";
+         core::to_hex(link.previous) + R"(","inputs":")" + core::to_hex(link.inputs) + R"(","roster":")" +
+         core::to_hex(link.roster) + R"(","rules":")" + core::to_hex(link.rules) + R"(","link":)" +
+         std::to_string(link.tick) + R"(,"generator":")" + core::to_hex(link.generator) + "\"}\n";
 }
 
 protocol::Frame decoded(const std::string& line) {
@@ -117,7 +118,9 @@ TEST_CASE("one flipped bit in what goes into the hash besides the rows is caught
       [](protocol::Frame& frame) { frame.proof->previous ^= 1; },
       [](protocol::Frame& frame) { frame.proof->inputs ^= 1u << 31; },
       [](protocol::Frame& frame) { frame.proof->generator ^= std::uint64_t{1} << 63; },
-      [](protocol::Frame& frame) { frame.tick ^= 1; },
+      [](protocol::Frame& frame) { frame.proof->roster ^= 1; },
+      [](protocol::Frame& frame) { frame.proof->rules ^= 1; },
+      [](protocol::Frame& frame) { frame.proof->tick ^= 1; },
       [](protocol::Frame& frame) { frame.hash = *frame.hash ^ 1; },
       [](protocol::Frame& frame) { frame.values.resize(frame.values.size() - frame.columns); }};
   for (const auto& change : changes) {
@@ -127,6 +130,21 @@ TEST_CASE("one flipped bit in what goes into the hash besides the rows is caught
     verifier.take(altered);
     CHECK(verifier.difference());
   }
+}
+
+TEST_CASE("before anybody came there is no hash, and a key that shows somebody then is caught") {
+  auto map = map::load_map(std::string(WOODLOUSE_SOURCE_DIR) + "/maps/volcano.json");
+  REQUIRE(map);
+  match::Match match(*map, {60, 7});
+  for (int k = 0; k < 10; ++k) match.advance();
+  KeyVerifier verifier;
+  verifier.take(decoded(key_line(match)));
+  CHECK(verifier.verified() == 1);
+  protocol::Frame altered = decoded(key_line(*played()));
+  altered.proof->tick = 0;
+  altered.hash = 0;
+  verifier.take(altered);
+  CHECK(verifier.difference());
 }
 
 TEST_CASE("a room that asked for all in exact format verifies its keys and shows its lice as ever") {
@@ -152,6 +170,7 @@ TEST_CASE("a room that asked for all in exact format verifies its keys and shows
   CHECK(room.lice().at(first.id).sample.velocity.y == first.velocity.y);
   CHECK(room.lice().at(first.id).sample.distance == first.distance);
   key.tick += 60;
+  key.proof->tick += 60;
   REQUIRE(room.on_message(key, now + std::chrono::seconds(1)));
   REQUIRE(room.verifier().difference());
   CHECK(to_text(*room.verifier().difference()).find("state DIFFERS at tick 240: the key says ") == 0);

@@ -26,12 +26,12 @@ std::string recorded() {
   std::string bytes;
   writer.append_header(bytes, replay::make_header(match, "test", "volcano.json"));
   writer.append_keyframe(bytes, match.state());
-  writer.note_player(match.join(), "gauss", protocol::Role::kBot);
-  writer.note_player(match.join(), "ada", protocol::Role::kPlayer);
+  match.join({"gauss", state::Role::kBot});
+  match.join({"ada", state::Role::kPlayer});
   for (std::uint32_t tick = 0; tick < kTicks; ++tick) {
     if (tick == 300) writer.append_chat(bytes, tick, 2, "ada", "on your tail");
     if (tick == 480) match.respawn(2);
-    if (tick == 600) writer.note_player(match.join(), "lin", protocol::Role::kPlayer);
+    if (tick == 600) match.join({"lin", state::Role::kPlayer});
     if (tick == 900) match.leave(2);
     if (tick % 30 == 5)
       match.file({1, tick, {state::ThrustKind::kMapVector, {0.5, tick % 60 == 5 ? 0.25 : -0.5}}, 20, 0});

@@ -140,7 +140,8 @@ class OutsideText(unittest.TestCase):
         for nasty in NASTY:
             quoted = json.dumps(nasty, ensure_ascii=False)
             build = json.loads(lines[0])["build"]
-            bot = next(entry["name"] for line in lines for entry in json.loads(line).get("roster", []) if entry.get("name"))
+            steps = [json.loads(line) for line in lines if line.startswith('{"step"')]
+            bot = next(entry["name"] for step in steps for entry in step.get("roster", []) if "join" in entry)
             broken = {
                 "build": [line.replace(f'"{build}"', quoted) for line in lines],
                 "name": [line.replace(f'"{bot}"', json.dumps(bot + nasty, ensure_ascii=False)) for line in lines],

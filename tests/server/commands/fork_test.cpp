@@ -31,9 +31,8 @@ class Played {
     if (!named_map.empty()) header.map_definition.clear();
     writer.append_header(bytes_, header);
     writer.append_keyframe(bytes_, game.state());
+    game.join({"mara\x1b", state::Role::kPlayer});
     game.join();
-    game.join();
-    writer.note_player(1, "mara\x1b", protocol::Role::kPlayer);
     for (int tick = 0; tick < 700; ++tick) {
       states.push_back(game.state());
       const auto seq = static_cast<std::uint32_t>(tick);
@@ -87,7 +86,7 @@ TEST_CASE(
     const match::MatchState state = start->match->state();
     CHECK(state.tick == tick);
     CHECK(state.hash == played.states[tick].hash);
-    CHECK(state.generator == played.states[tick].generator);
+    CHECK(state.link == played.states[tick].link);
     CHECK(state.lice.size() == played.states[tick].lice.size());
     CHECK(start->match->settings().tick_hz == 50);
     CHECK(start->match->settings().seed == 99);

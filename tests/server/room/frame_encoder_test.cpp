@@ -111,7 +111,7 @@ TEST_CASE("quantized values are within half a quantum, exact ones are the same b
 TEST_CASE("a key of all columns in exact format recomputes the state hash") {
   test::Scenery scenery(21);
   core::StableHasher hasher;
-  scenery.link = {17, 18, scenery.tick, 19};
+  scenery.link = {17, 18, 20, 0, scenery.tick, 19};
   scenery.hash = state::state_hash(hasher, scenery.link, scenery.lice);
   const RowLayout layout{protocol::all_columns(), Format::kExact};
   FrameEncoder encoder(layout);
@@ -123,10 +123,10 @@ TEST_CASE("a key of all columns in exact format recomputes the state hash") {
     lice.push_back(state::louse_of(std::span(decoded.values).subspan(i * decoded.columns, decoded.columns)));
   }
   CHECK(decoded.hash == state::state_hash(hasher, scenery.link, lice));
-  CHECK_THAT(
-      *frame.text,
-      Catch::Contains(
-          R"("previous":"0000000000000011","inputs":"0000000000000012","generator":"0000000000000013")"));
+  CHECK_THAT(*frame.text,
+             Catch::Contains(
+                 R"("previous":"0000000000000011","inputs":"0000000000000012","roster":"0000000000000014",)"
+                 R"("rules":"0000000000000000","link":0,"generator":"0000000000000013")"));
 }
 
 TEST_CASE("an empty room has empty frames") {

@@ -42,8 +42,7 @@ std::vector<protocol::Notice> play(Recorder& recorder, boost::asio::thread_pool&
   match::Match& match = *game;
   recorder.attach([&announced](const protocol::Notice& notice) { announced.push_back(notice); });
   recorder.begin(match);
-  const match::PlayerId player = match.join();
-  recorder.player(player, "mara", protocol::Role::kPlayer);
+  const match::PlayerId player = match.join({"mara", state::Role::kPlayer});
   for (int tick = 0; tick < ticks; ++tick) {
     if (tick % 10 == 1)
       match.file(
