@@ -1,5 +1,5 @@
 // `precision`: run time against error, of the integrators, of the surfaces, under central gravity and in
-// flight.
+// flight; and the order of the error, event by event.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -10,6 +10,7 @@
 #include "bench/lab/precision_flight.h"
 #include "bench/lab/precision_integrators.h"
 #include "bench/lab/precision_kepler.h"
+#include "bench/lab/precision_orders.h"
 #include "bench/lab/precision_surfaces.h"
 #include "bench/lab/problems/names.h"
 #include "bench/lab/report/output.h"
@@ -24,7 +25,8 @@ struct PrecisionOptions {
   std::string only;  ///< empty: all
 };
 
-constexpr std::array<std::string_view, 4> kProblems = {"integrators", "surfaces", "kepler", "flight"};
+constexpr std::array<std::string_view, 5> kProblems = {"integrators", "surfaces", "kepler", "orders",
+                                                       "flight"};
 
 std::string problem_names() {
   std::string names;
@@ -52,6 +54,9 @@ core::Expected<void> run(const PrecisionOptions& options) {
   if (wanted("kepler")) {
     if (auto done = measure_kepler(options.output); !done) return done;
   }
+  if (wanted("orders")) {
+    if (auto done = measure_orders(options.output); !done) return done;
+  }
   if (wanted("flight")) {
     if (auto done = measure_flight(options.output); !done) return done;
     return measure_flight_cost(options.output);
@@ -70,7 +75,8 @@ void add_precision(CLI::App& app, Job& job) {
   add_output_options(*command, options->output);
   command->footer(
       "Writes lab-precision-integrators, -surfaces, -kepler and -flight as .csv, .svg and .png, -flight-cost "
-      "as .csv.\n"
+      "as .csv; orders, of the rooms' methods at walls, seams, flights, stops and thrusts, is printed "
+      "alone.\n"
       "Example:\n  woodlouse-lab precision --quick --out .");
   command->callback([options, &job] {
     if (!options->only.empty()) options->output.command += " --only " + options->only;
