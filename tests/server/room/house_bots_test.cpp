@@ -3,11 +3,13 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <map>
 #include <set>
 #include <vector>
 
 #include "shared/map/map_file.h"
 #include "shared/match/match.h"
+#include "shared/physics/central_gravity.h"
 #include "shared/protocol/messages.h"
 
 using namespace woodlouse;
@@ -114,4 +116,52 @@ TEST_CASE("bots have names of their own, within the wire's length") {
     CHECK(names.insert(bot.name()).second);
     CHECK(bot.name().size() <= protocol::kMaxNameBytes);
   }
+}
+
+TEST_CASE("on the planet eight bots' energies rise in ten minutes by the work of their thrusts alone") {
+  const auto map = load("kepler");
+  const state::Parameters& p = map->definition.physics;
+  const auto energy_of = [&](const state::Louse& louse) {
+    return 0.5 * core::dot(louse.velocity, louse.velocity) + physics::central_potential(louse.position, p);
+  };
+  // Level ground: a held map vector's work is its product with the way; walls only take.
+  struct Account {
+    double last, unpaid, least;  ///< energy; what no work explains, and the least of it so far
+  };
+  const std::uint64_t seed = GENERATE(1, 2, 3);
+  match::Match match(map, {60, seed});
+  std::map<match::PlayerId, HouseBot> bots;
+  std::map<match::PlayerId, Account> accounts;
+  std::map<match::PlayerId, std::uint32_t> seqs;
+  for (std::uint32_t number = 0; number < 8; ++number) bots.emplace(match.join(), HouseBot(number, seed));
+  match.advance();
+  for (const state::Louse& louse : match.world().lice()) accounts[louse.id] = {energy_of(louse), 0.0, 0.0};
+  double worst = 0.0, highest = -1e300, lowest = 1e300;
+  for (int tick = 0; tick < 60 * 600; ++tick) {
+    for (auto& [player, bot] : bots) {
+      const auto& world = match.world();
+      if ((match.tick() + player) % 6 != 0) continue;
+      match.file(
+          {player, ++seqs[player], bot.decide({*world.find(player), world.terrain(), p}), state::kHeld, 0});
+    }
+    const std::vector<state::Louse> before(match.world().lice().begin(), match.world().lice().end());
+    match.advance();
+    for (const state::Louse& from : before) {
+      const state::Louse& louse = *match.world().find(from.id);
+      Account& account = accounts[louse.id];
+      const double now = energy_of(louse);
+      const double work = p.thrust_max * core::dot(louse.thrust, louse.position - from.position);
+      account.unpaid += now - account.last - work;
+      account.last = now;
+      account.least = std::fmin(account.least, account.unpaid);
+      worst = std::fmax(worst, (account.unpaid - account.least) / (now - physics::central_potential({}, p)));
+      highest = std::fmax(highest, now);
+      lowest = std::fmin(lowest, now);
+    }
+  }
+  INFO("seed " << seed << ": of the energy above the core's bottom " << worst << "; energies " << lowest
+               << " to " << highest);
+  REQUIRE(accounts.size() == 8);
+  CHECK(highest - lowest > 1.0);  // they do play
+  CHECK(worst < 1e-4);            // of the 1e-3 that the method may err
 }
