@@ -8,6 +8,7 @@
 #include "shared/core/random.h"
 #include "shared/map/map_file.h"
 #include "shared/map/map_world.h"
+#include "shared/physics/central_gravity.h"
 
 namespace woodlouse::map {
 namespace {
@@ -87,6 +88,24 @@ Pushed pushed(const Map& map, int ticks, int fine) {
           {world.lice().begin(), world.lice().end()}};
 }
 
+/// Kinetic energy and the planet's pull.
+double energy_at_planet(const physics::World& world) {
+  const state::Louse& louse = world.lice()[0];
+  return 0.5 * core::dot(louse.velocity, louse.velocity) +
+         physics::central_potential(louse.position, world.parameters());
+}
+
+/// A louse from (10, 0) on the planet, across.
+physics::World at_planet(const Map& map, double speed, int rate) {
+  physics::World world = make_world(map, 1.0 / rate);
+  state::Louse louse;
+  louse.id = 1;
+  louse.position = {10.0, 0.0};
+  louse.velocity = {0.0, speed};
+  world.insert(louse);
+  return world;
+}
+
 }  // namespace
 
 TEST_CASE("a drive along the heading leads to the same place at any rate, from rest across every slope") {
@@ -124,6 +143,52 @@ TEST_CASE(
   const Pushed changing = pushed(*map, 1, 1);
   CHECK(changing.sub_steps < 2.0 * pushed(*map, 64, 1).sub_steps);
   CHECK(between(changing.lice, pushed(*map, 1, 16).lice).median < 1e-5);
+}
+
+TEST_CASE("a brake held on the planet takes energy in every tick, and the louse spirals in") {
+  const std::shared_ptr<const Map> map = shipped("kepler");
+  for (const int rate : {15, 60, 240, 1000}) {
+    INFO(rate << " Hz");
+    physics::World world = at_planet(*map, std::sqrt(10.0), rate);
+    world.set_thrust(1, {state::ThrustKind::kAlongHeading, {-1.0, 0.0}}, state::kHeld);
+    double before = energy_at_planet(world);
+    REQUIRE(before == Approx(-5.0));
+    double rise = -1e9;
+    for (int tick = 0; tick < 40 * rate; ++tick) {
+      world.step();
+      rise = std::fmax(rise, energy_at_planet(world) - before);
+      before = energy_at_planet(world);
+    }
+    const core::Vec2 place = world.lice()[0].position;
+    CHECK(rise < 0.0);
+    CHECK(before == Approx(-139.67).margin(0.01));
+    CHECK(std::hypot(place.x, place.y) < 1.0);
+  }
+}
+
+TEST_CASE("all but fallen into the middle, a louse comes out again, keeps its energy and costs little") {
+  const std::shared_ptr<const Map> map = shipped("kepler");
+  for (const int rate : {15, 60, 240, 1000}) {
+    INFO(rate << " Hz");
+    physics::World world = at_planet(*map, 0.1, rate);
+    const double energy = energy_at_planet(world);
+    double worst = 0.0, farthest = 0.0;
+    std::uint64_t most = 0;
+    for (int tick = 0; tick < 120 * rate; ++tick) {
+      const std::uint64_t before = world.counters().sub_steps;
+      world.step();
+      most = std::max(most, world.counters().sub_steps - before);
+      worst = std::fmax(worst, std::fabs(energy_at_planet(world) - energy));
+      const core::Vec2 place = world.lice()[0].position;
+      if (tick > 90 * rate) farthest = std::fmax(farthest, std::hypot(place.x, place.y));
+    }
+    const physics::StepCounters& counters = world.counters();
+    CHECK(worst < 1e-5);
+    CHECK(farthest == Approx(10.0).margin(1e-3));
+    CHECK(most < 128);
+    CHECK(counters.sub_steps < 4 * counters.louse_steps);
+    CHECK(counters.capped == 0);
+  }
 }
 
 }  // namespace woodlouse::map

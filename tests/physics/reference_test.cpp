@@ -33,16 +33,16 @@ double trajectory_error(const tests::CsvTable& t, std::size_t row, double rate) 
 
 }  // namespace
 
-TEST_CASE("trajectories with drag, friction and thrust meet the reference to 1e-6 at 120 Hz") {
+TEST_CASE("trajectories with drag, friction and thrust meet the reference to 3e-7 at 120 Hz") {
   const tests::CsvTable table = tests::read_reference("exact_trajectories.csv");
   REQUIRE(table.rows.size() == 72);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     INFO("row " << row);
-    CHECK(trajectory_error(table, row, 120.0) < 1e-6);
+    CHECK(trajectory_error(table, row, 120.0) < 3e-7);
   }
 }
 
-TEST_CASE("rest positions under friction meet the reference to 1e-5 at 60 Hz") {
+TEST_CASE("rest positions under friction meet the reference to 3e-7 at 60 Hz") {
   const tests::CsvTable table = tests::read_reference("stops.csv");
   REQUIRE(table.rows.size() == 24);
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
@@ -57,6 +57,6 @@ TEST_CASE("rest positions under friction meet the reference to 1e-5 at 60 Hz") {
                                     end.louse.position.y - table.number(row, "y_rest"));
     INFO("row " << row);
     CHECK(end.louse.phase == state::Phase::kResting);
-    CHECK(error < 1e-5);
+    CHECK(error < 3e-7);
   }
 }

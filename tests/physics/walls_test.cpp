@@ -245,3 +245,25 @@ TEST_CASE("held against a wall by a push, a louse sticks where friction holds wi
     CHECK((run.louse.position.y > 0.0) == (push > 1.0));
   }
 }
+
+TEST_CASE(
+    "pushed up a ramp and along its high wall, a louse takes off once the push's vertical part beats "
+    "gravity") {
+  // z = x at x = max: N w = 2 g - sqrt(2) f, of a push of f along the ramp; with its friction, which it
+  // unloads.
+  const tests::Plane ramp{{}, 1.0, 0.0};
+  for (const double friction : {0.0, 0.3}) {
+    for (const double push : {0.99, 1.01}) {
+      state::Parameters p{.gravity = 9.81, .drag = 0.0, .friction = friction, .thrust_max = 20.0};
+      p.contact = state::SurfaceContact::kUnilateral;
+      state::Louse louse = moving({0, 0}, {0, 2});
+      louse.thrust = {push * std::sqrt(2.0) * 9.81 / 20.0, 0.0};
+      louse.thrust_kind = ThrustKind::kMapVector;
+      louse.thrust_ticks = kHeld;
+      const auto run = tests::run<Forces<true, true, true>>(ramp, p, louse, 60, 30, {-50, -50, 0, 50},
+                                                            [](const state::Louse&) { return true; });
+      INFO("push " << push << ", friction " << friction);
+      CHECK((run.counters.flights > 0) == (push > 1.0));
+    }
+  }
+}
