@@ -6,6 +6,20 @@ import pathlib
 import re
 import sys
 
+NUMBER = r"([\de.-]+)"
+
+
+def row_of_orders(event):
+    """The default's median errors at 60 Hz and their orders, as a row of docs/physics.md has them."""
+    def row(ground, method, error, with_error=True):
+        at_60 = r"(\S+)" if with_error else r"\S+"
+        return rf"{event} +{ground} +{method} +{error}, median +\S+ +\S+ +{at_60} +(?:\S+ +){{4}}(\S+) "
+    place = rf"{NUMBER} m, {NUMBER}"
+    return ("docs/physics.md", rf"\| {event} \| {place} \| {place} \| {place} \| {NUMBER} \|", "lab-orders.txt", "(?s:.*?)".join((
+        row("function", "standard", "place"), row("function", "standard", "way"), row("spline", "standard", "place"),
+        row("spline", "precise", "place", with_error=False))))
+
+
 # document, a pattern of its sentence with one group for each figure; table, a pattern of its row with as many groups.
 # A figure may be rounded: it must be the table's number to the digits that are printed.
 QUOTED = (
@@ -29,6 +43,9 @@ QUOTED = (
     ("docs/physics.md", r"3e-5 \| ([\de.-]+); pushed ever so little, so not projected, ([\de.-]+) \|", "lab-goals.txt",
      r"120 Hz, nystrom4 +([\de.-]+) (?s:.*)not projected +([\de.-]+)"),
     ("docs/physics.md", r"`verlet_q` \| 5e-4 \| ([\de.-]+) \|", "lab-goals.txt", r"verlet_q +([\de.-]+)"),
+    *(row_of_orders(event) for event in (
+        "none", "none, energy kept", "a wall", "a seam", "a take-off", "a landing", "along the heading, from rest",
+        "from rest under friction", "a thrust that changes", "a stop", "hardly moving under friction")),
 )
 
 
