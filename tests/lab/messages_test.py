@@ -27,7 +27,7 @@ class Messages(unittest.TestCase):
 
     def test_an_unknown_contact_or_problem_lists_the_names(self):
         self.assertIn("bilateral unilateral", self.refused("trajectory", "--surface", "function", "--contact", "glued"))
-        self.assertIn("integrators surfaces kepler flight", self.refused("precision", "--only", "planets"))
+        self.assertIn("integrators surfaces kepler orders flight", self.refused("precision", "--only", "planets"))
 
     def test_flight_and_central_gravity_are_refused_where_nothing_computes_them(self):
         start = ("trajectory", "--surface", "function")
