@@ -7,12 +7,14 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "server/room/row_table.h"
 #include "shared/core/random.h"
 #include "shared/core/stable_hash.h"
 #include "shared/physics/world.h"
+#include "shared/protocol/codec.h"
 #include "shared/state/state_hash.h"
 #include "shared/terrain/terrain.h"
 
@@ -136,9 +138,10 @@ void resting_tick(benchmark::State& state) {
   state.counters["awake"] = static_cast<double>(world.counters().louse_steps) / static_cast<double>(tick);
 }
 
-/// One row of the default columns, as the server writes it.
-void row_encoding(benchmark::State& state, protocol::Format format) {
-  const server::RowTable writer({protocol::default_columns(), format});
+/// One row of those columns, as the server writes it.
+void row_encoding(benchmark::State& state, const std::vector<protocol::Column>& columns,
+                  protocol::Format format) {
+  const server::RowTable writer({columns, format});
   const terrain::Terrain terrain{volcano(21)};
   core::Random random(3);
   const auto metres = [&] { return 40 * random.uniform() - 20; };
@@ -153,6 +156,32 @@ void row_encoding(benchmark::State& state, protocol::Format format) {
   for (auto _ : state) {
     if (row % lice.size() == 0) text.clear();
     writer.append(text, lice[row++ % lice.size()], terrain);
+    benchmark::DoNotOptimize(text.data());
+  }
+}
+
+void input_line(benchmark::State& state, std::string_view thrust) {
+  const std::string line =
+      R"({"type":"input","seq":1234,"thrust":)" + std::string(thrust) + R"(,"ticks":12})";
+  for (auto _ : state) {
+    auto message = protocol::decode_client(line);
+    benchmark::DoNotOptimize(message);
+  }
+}
+
+/// With the exact state of a louse on its way.
+void ack_line(benchmark::State& state) {
+  protocol::Ack ack{1234, 56789, 8123, false, false, false, protocol::ExactState{56790, {}}};
+  state::Louse& louse = ack.you->louse;
+  louse.id = 17;
+  louse.position = {1.2345678901234567, -9.876543210987654};
+  louse.velocity = {0.1234567890123456, 3.3333333333333335};
+  louse.heading = {0.6, -0.8};
+  louse.thrust = {0.5, -0.25};
+  louse.thrust_kind = state::ThrustKind::kMapVector;
+  louse.distance = 123.45678901234567;
+  for (auto _ : state) {
+    const std::string text = protocol::encode(protocol::ServerMessage(ack));
     benchmark::DoNotOptimize(text.data());
   }
 }
@@ -175,8 +204,17 @@ BENCHMARK_CAPTURE(spline_evaluation, coherent, Order::kCoherent)
     ->Arg(1001);
 BENCHMARK(world_tick)->ArgNames({"lice", "knots"})->ArgsProduct({{1, 1000, 10000}, {21, 201}});
 BENCHMARK(resting_tick)->ArgName("lice")->Arg(1000)->Arg(10000);
-BENCHMARK_CAPTURE(row_encoding, quantized, protocol::Format::kQuantized);
-BENCHMARK_CAPTURE(row_encoding, exact, protocol::Format::kExact);
+BENCHMARK_CAPTURE(row_encoding, quantized, protocol::default_columns(), protocol::Format::kQuantized);
+BENCHMARK_CAPTURE(row_encoding, exact, protocol::default_columns(), protocol::Format::kExact);
+BENCHMARK_CAPTURE(row_encoding, all_exact, protocol::all_columns(), protocol::Format::kExact);
+BENCHMARK_CAPTURE(row_encoding, height_and_speed,
+                  std::vector<protocol::Column>{protocol::Column::kId, protocol::Column::kX,
+                                                protocol::Column::kY, protocol::Column::kZ,
+                                                protocol::Column::kSpeed},
+                  protocol::Format::kQuantized);
+BENCHMARK_CAPTURE(input_line, pair, "[0.5,-0.25]");
+BENCHMARK_CAPTURE(input_line, number, "-0.75");
+BENCHMARK(ack_line);
 BENCHMARK(state_hash)->ArgName("lice")->Arg(200)->Arg(10000);
 
 BENCHMARK_MAIN();

@@ -19,6 +19,10 @@ struct Ground {
   physics::Attitude attitude;
 };
 
+bool is_of_the_attitude(Column column) {
+  return column == Column::kYaw || column == Column::kPitch || column == Column::kRoll;
+}
+
 double ground_value(Column column, const state::Louse& louse, const Ground& ground) {
   switch (column) {
     case Column::kZ:
@@ -45,13 +49,15 @@ RowTable::RowTable(RowLayout layout) : layout_(std::move(layout)) {
   assert(!layout_.fields.empty() && layout_.fields.size() <= protocol::kColumnCount);
   for (const Column column : layout_.fields) own_fields_.push_back(protocol::louse_field(column));
   needs_ground_ = std::find(own_fields_.begin(), own_fields_.end(), nullptr) != own_fields_.end();
+  needs_attitude_ = std::any_of(layout_.fields.begin(), layout_.fields.end(), is_of_the_attitude);
 }
 
 void RowTable::append(std::string& out, const state::Louse& louse, const terrain::Terrain& terrain) const {
   Ground ground;
   if (needs_ground_) {
     ground.sample = terrain.sample(louse.position.x, louse.position.y);
-    ground.attitude = physics::attitude(louse.heading, {ground.sample.zx, ground.sample.zy});
+    if (needs_attitude_)
+      ground.attitude = physics::attitude(louse.heading, {ground.sample.zx, ground.sample.zy});
   }
   constexpr std::size_t kSeparator = 1;
   char row[protocol::kColumnCount * (kSeparator + protocol::kMaxValueChars) + kSeparator];

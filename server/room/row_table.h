@@ -32,6 +32,7 @@ class RowTable {
   RowLayout layout_;
   std::vector<const state::LouseField*> own_fields_;  ///< of layout_.fields; null: computed
   bool needs_ground_ = false;                         ///< a column is computed, from the terrain's sample
+  bool needs_attitude_ = false;                       ///< one of them is an angle: three arc tangents
 };
 
 }  // namespace woodlouse::server

@@ -1,6 +1,7 @@
 // Writes one JSON object, members in the order they are added: the wire's lines, recordings, canonical maps.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <concepts>
 #include <cstdint>
@@ -25,13 +26,15 @@ void append_array(std::string& out, const Elements& elements, const Write& write
   out += ']';
 }
 
-/// The object is open until end() or line(). Names are written as they are given, escaped.
+/// The object is open until end() or line(). REQUIRES names of at most kMaxNameBytes that stand in JSON as
+/// they are.
 class ObjectText {
  public:
   /// Appends to `out`, which must outlive it.
   explicit ObjectText(std::string& out) : out_(out) { out_ += '{'; }
   /// A text of its own: a message of the wire, whose first member is its type.
   explicit ObjectText(std::string_view type) : out_(own_) {
+    out_.reserve(kMessageBytes);
     out_ += '{';
     text("type", type);
   }
@@ -44,16 +47,14 @@ class ObjectText {
   }
   template <std::integral T>
   ObjectText& integer(std::string_view name, T value) {
-    append_integer(key(name), value);
-    return *this;
+    return short_member(name, [&](char* to) { return write_integer(to, value); });
   }
   ObjectText& number(std::string_view name, double value) {
-    append_double(key(name), value);
-    return *this;
+    return short_member(name, [&](char* to) { return write_double(to, value); });
   }
   ObjectText& boolean(std::string_view name, bool value) {
-    key(name) += value ? "true" : "false";
-    return *this;
+    const std::string_view text = value ? "true" : "false";
+    return short_member(name, [&](char* to) { return std::copy(text.begin(), text.end(), to); });
   }
   /// 64 bits as 16 hex digits in quotes: many readers hold numbers as doubles.
   ObjectText& hash(std::string_view name, std::uint64_t value) {
@@ -110,11 +111,29 @@ class ObjectText {
   }
 
  private:
-  std::string& key(std::string_view name) {
-    if (!std::exchange(begins_, false)) out_ += ',';
-    append_string(out_, name);
-    return out_ += ':';
+  /// Comma, name and colon, then what write(to) writes, kMaxNumberChars at most: appended at once.
+  template <typename Write>
+  ObjectText& short_member(std::string_view name, const Write& write) {
+    char text[kMaxNameBytes + 4 + kMaxNumberChars];
+    out_.append(text, write(write_key(text, name)));
+    return *this;
   }
+  std::string& key(std::string_view name) {
+    char text[kMaxNameBytes + 4];
+    return out_.append(text, write_key(text, name));
+  }
+  char* write_key(char* to, std::string_view name) {
+    assert(name.size() <= kMaxNameBytes && std::all_of(name.begin(), name.end(), stands_as_it_is));
+    if (!std::exchange(begins_, false)) *to++ = ',';
+    *to++ = '"';
+    to = std::copy(name.begin(), name.end(), to);
+    *to++ = '"';
+    *to++ = ':';
+    return to;
+  }
+
+  static constexpr std::size_t kMaxNameBytes = 32;
+  static constexpr std::size_t kMessageBytes = 512;  ///< most fit
 
   std::string own_;
   std::string& out_;

@@ -50,7 +50,7 @@ void append_integer(std::string& out, long long value) {
 
 void append_integer(std::string& out, unsigned long long value) {
   char buffer[kMaxNumberChars];
-  out.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
+  out.append(buffer, write_integer(buffer, value));
 }
 
 void append_double(std::string& out, double value) {
@@ -73,8 +73,19 @@ char* write_integer(char* to, long long value) {
   return write_digits(to + (sign & 1), static_cast<std::uint32_t>(size));
 }
 
+char* write_integer(char* to, unsigned long long value) {
+  if (value < kDigitsBelow) return write_digits(to, static_cast<std::uint32_t>(value));
+  return std::to_chars(to, to + kMaxNumberChars, value).ptr;
+}
+
 char* write_double(char* to, double value) {
   assert(std::isfinite(value));
+  // Past it an exponent may be shorter.
+  constexpr double kWholeBelow = 100000.0;
+  if (value > -kWholeBelow && value < kWholeBelow) {
+    const auto whole = static_cast<long long>(value);
+    if (whole != 0 && static_cast<double>(whole) == value) return write_integer(to, whole);
+  }
   char* const end = std::to_chars(to, to + kMaxNumberChars, value).ptr;
   const bool minus_zero = value == 0.0 && std::signbit(value);
   return minus_zero ? std::copy_n("-0.0", 4, to) : end;
@@ -103,7 +114,12 @@ void append_rows(std::string& out, std::span<const double> values, std::size_t c
 
 void append_string(std::string& out, std::string_view text) {
   out += '"';
-  while (!text.empty()) {
+  for (;;) {
+    const auto end = std::find_if_not(text.begin(), text.end(), stands_as_it_is);
+    const auto plain = static_cast<std::size_t>(end - text.begin());
+    out += text.substr(0, plain);
+    text.remove_prefix(plain);
+    if (text.empty()) break;
     const core::Utf8Character character = core::first_character(text);
     if (!character.valid) {
       out += "\xef\xbf\xbd";

@@ -38,8 +38,20 @@ void append_rows(std::string& out, std::span<const double> values, std::size_t c
 
 /// These write at `to`, which has room for kMaxNumberChars, and return the end.
 char* write_integer(char* to, long long value);
+char* write_integer(char* to, unsigned long long value);
+template <std::unsigned_integral T>
+char* write_integer(char* to, T value) {
+  return write_integer(to, static_cast<unsigned long long>(value));
+}
+template <std::signed_integral T>
+char* write_integer(char* to, T value) {
+  return write_integer(to, static_cast<long long>(value));
+}
 /// REQUIRES a finite value.
 char* write_double(char* to, double value);
+
+/// In a JSON string, whatever stands beside it: ASCII but controls, quotes and backslashes.
+constexpr bool stands_as_it_is(char c) { return c >= 0x20 && c < 0x7f && c != '"' && c != '\\'; }
 
 /// Quoted and escaped; bytes that are not UTF-8 become U+FFFD, so that the text stays JSON whatever comes.
 void append_string(std::string& out, std::string_view text);

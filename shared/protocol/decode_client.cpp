@@ -5,6 +5,7 @@
 #include "shared/protocol/codes.h"
 #include "shared/protocol/field_reader.h"
 #include "shared/protocol/field_texts.h"
+#include "shared/protocol/input_line.h"
 
 namespace woodlouse::protocol {
 namespace {
@@ -121,6 +122,7 @@ constexpr std::array<std::pair<std::string_view, Read>, 10> kTypes = {{
 }  // namespace
 
 Decoded decode_client(std::string_view line) {
+  if (const std::optional<Input> input = scan_input(line)) return ClientMessage(*input);
   const auto document = parse_object(line);
   if (!document) return tl::unexpected(document.error());
   const auto type = read_type(*document, kTypes);

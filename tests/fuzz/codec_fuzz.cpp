@@ -14,6 +14,7 @@
 #include "shared/core/stable_hash.h"
 #include "shared/protocol/codec.h"
 #include "shared/protocol/codes.h"
+#include "shared/protocol/input_line.h"
 #include "tests/fuzz/property.h"
 
 using namespace woodlouse::protocol;
@@ -57,7 +58,18 @@ void check_range(const Chat& chat) {
 template <typename Other>
 void check_range(const Other&) {}
 
+/// The scanner takes nothing that the document's parser, which no line with a tab passes by, takes otherwise.
+void check_scanned(std::string_view line) {
+  const auto scanned = scan_input(line);
+  if (!scanned) return;
+  const auto message = decode_client("\t" + std::string(line));
+  const auto* input = message ? std::get_if<Input>(&*message) : nullptr;
+  demand(input != nullptr && *input == *scanned, "a scanned input is what the document says",
+         std::string(line));
+}
+
 void check_client_line(std::string_view line) {
+  check_scanned(line);
   const auto message = decode_client(line);
   if (!message) return check(message.error());
   std::visit([](const auto& alternative) { check_range(alternative); }, *message);
