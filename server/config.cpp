@@ -37,6 +37,7 @@ Examples:
 struct TypedServe {
   ServeConfig serve;
   std::string listen = "127.0.0.1:7777";
+  std::string bots_alone = "stand";
   std::string log_format = "text";
   std::string config_file;
 };
@@ -88,6 +89,11 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
       ->envname("WOODLOUSE_BOTS")
       ->check(whole_number(0, kMaxBots))
       ->capture_default_str();
+  app.add_option("--bots-alone", typed.bots_alone,
+                 "What they do while nobody is there: play, or stand still with the room after 10 s")
+      ->envname("WOODLOUSE_BOTS_ALONE")
+      ->check(CLI::IsMember({"play", "stand"}))
+      ->capture_default_str();
   app.add_option("--log-format", typed.log_format, "On standard error")
       ->envname("WOODLOUSE_LOG_FORMAT")
       ->check(CLI::IsMember({"text", "json"}))
@@ -116,8 +122,9 @@ CLI::App* add_fork(CLI::App& app, Typed& typed) {
 CLI::App* add_verify(CLI::App& app, VerifyRequest& request) {
   CLI::App* verify = app.add_subcommand(
       "verify",
-      "Re-run a recording and compare: places and hashes, inputs, who joined and left, and the index. Names, "
-      "chat, margins, that a server played this game and that it ended there are what the file says");
+      "Re-run a recording and compare: places and hashes, inputs, who joined and left under which name, and "
+      "the "
+      "index. Chat, margins, that a server played this game and that it ended there are what the file says");
   verify->add_option("file", request.files, "Recordings")->required();
   verify->add_option("--jobs", request.jobs, "Threads; each takes a stretch between keyframes")
       ->check(whole_number(1, kMaxJobs))
@@ -181,6 +188,7 @@ core::Expected<Config> checked(CLI::App& app, TypedServe& typed) {
   auto listen = parse_listen_address(typed.listen);
   if (!listen) return tl::unexpected(listen.error());
   serve.listen = std::move(*listen);
+  serve.bots_alone_play = typed.bots_alone == "play";
   serve.log_format = typed.log_format == "json" ? LogFormat::kJson : LogFormat::kText;
   return Config{std::move(serve)};
 }

@@ -33,6 +33,7 @@ struct ServeConfig {
   std::optional<std::uint64_t> ticks;  ///< stop after so many
   std::optional<std::uint64_t> seed;   ///< empty: from the machine's entropy
   std::uint32_t bots = 0;              ///< of the house, in every room
+  bool bots_alone_play = false;        ///< they keep a room awake in which nobody is
   LogFormat log_format = LogFormat::kText;
 };
 

@@ -153,6 +153,7 @@ core::Expected<void> Server::open_room(const ServeConfig& config, const std::str
   settings.name = name;
   settings.state_hz = config.state_hz;
   settings.bots = config.bots;
+  settings.bots_alone_play = config.bots_alone_play;
   settings.tick_limit = config.ticks;
   settings.per_room = limits_.per_room;
   auto watchers = make_watchers(config, name, start);

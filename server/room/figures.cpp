@@ -54,12 +54,13 @@ std::string summary(const std::string& room, const RoomFigures& m) {
       m.shadow ? fmt::format(", {} ticks shadowed{}, {} differences", m.shadow->ticks,
                              m.shadow->ended ? " until it was ended" : "", m.shadow->differences)
                : std::string();
+  const std::string sleeps = m.sleeps != 0 ? fmt::format(", stood still {} times", m.sleeps) : std::string();
   return fmt::format(
       "{}: ticks {}, lateness p50 {:.3f} ms p99 {:.3f} ms max {:.3f} ms, work p50 {:.3f} ms p99 {:.3f} ms, "
-      "clock moves {}, frames encoded {}{}{}",
+      "clock moves {}, frames encoded {}{}{}{}",
       room, m.ticks, milliseconds(m.lateness.quantile(0.5)), milliseconds(m.lateness.quantile(0.99)),
       milliseconds(m.lateness.max()), milliseconds(m.work.quantile(0.5)), milliseconds(m.work.quantile(0.99)),
-      m.clock_moves, m.frames_encoded, ground, shadow);
+      m.clock_moves, m.frames_encoded, sleeps, ground, shadow);
 }
 
 }  // namespace woodlouse::server

@@ -102,6 +102,23 @@ std::optional<protocol::ErrorMessage> Members::why_not() const {
   return std::nullopt;
 }
 
+bool Members::is_deserted() {
+  if (seats_.sessions() != 0 || !leaving_.empty()) return false;
+  if (settings_.bots_alone_play && settings_.bots != 0) return false;
+  const auto is_on = [](const state::Louse& louse) {
+    const bool counts_down = louse.thrust_ticks != 0 && louse.thrust_ticks != state::kHeld;
+    return louse.phase != state::Phase::kResting || counts_down;
+  };
+  const auto lice = game_.world().lice();
+  std::ptrdiff_t on = std::count_if(lice.begin(), lice.end(), is_on);
+  seats_.for_each<BotOccupant>([&](const Seat& seat, const BotOccupant&) {
+    const state::Louse* louse = game_.world().find(seat.louse);
+    if (louse != nullptr && is_on(*louse)) --on;
+  });
+  assert(on >= 0);
+  return on == 0;
+}
+
 void Members::refuse_closed(Subscriber& subscriber) {
   subscriber.refuse_join(error(code::kShutdown, "join: the room has closed"));
 }

@@ -30,6 +30,7 @@ struct RoomSettings {
   std::string name;
   std::uint32_t state_hz = 20;              ///< divides the match's tick_hz
   std::uint32_t bots = 0;                   ///< of the house
+  bool bots_alone_play = false;             ///< the house's bots keep a room awake in which nobody is
   std::optional<std::uint64_t> tick_limit;  ///< ends after so many
   std::uint32_t per_room = 1024;            ///< sessions at most, the house's bots apart
 };
@@ -59,6 +60,9 @@ class Members {
   void answer(std::uint64_t tick, Time begun);
   /// The picture of every layout in use, where one is due.
   void send_frames();
+
+  /// No session is here, and nothing goes on that somebody began.
+  [[nodiscard]] bool is_deserted();
 
   /// Any thread.
   [[nodiscard]] protocol::RoomEntry census() const;

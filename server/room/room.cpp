@@ -124,6 +124,7 @@ void Room::join(SessionId session, std::shared_ptr<Subscriber> subscriber, proto
                        join = std::move(join)]() mutable {
     if (state_ == State::kStopped) return Members::refuse_closed(*subscriber);
     members_.admit(session, std::move(subscriber), join);
+    if (state_ == State::kAsleep) wake();
   });
 }
 
@@ -162,6 +163,34 @@ void Room::on_tick_due() {
     state_ = State::kStopped;
     return ended_();
   }
+  if (is_to_sleep()) return fall_asleep();
+  await_tick();
+}
+
+/// A room that is to end by itself goes on.
+bool Room::is_to_sleep() {
+  deserted_ticks_ = members_.is_deserted() ? deserted_ticks_ + 1 : 0;
+  const std::uint64_t most = static_cast<std::uint64_t>(kSleepAfter.count()) * game_->settings().tick_hz;
+  return !settings_.tick_limit && deserted_ticks_ >= most;
+}
+
+void Room::fall_asleep() {
+  assert(state_ == State::kRunning);
+  state_ = State::kAsleep;
+  ++working_.sleeps;
+  post_figures();
+  log_->info(fmt::format("room {}: nobody is here: it stands still at tick {} until somebody joins",
+                         settings_.name, game_->tick()));
+  for (const auto& watcher : watchers_) watcher->fall_asleep(*game_);
+}
+
+void Room::wake() {
+  assert(state_ == State::kAsleep);
+  state_ = State::kRunning;
+  deserted_ticks_ = 0;
+  log_->info(fmt::format("room {}: goes on with tick {}", settings_.name, game_->tick()));
+  for (const auto& watcher : watchers_) watcher->wake(*game_);
+  clock_->restart(timekeeper_.now());
   await_tick();
 }
 

@@ -1,6 +1,9 @@
 // One game: a strand, a timer on an absolute schedule, a match. Its ticks run in a context of their own, so
 // that they never queue behind the sockets' work; frames and events leave through the broadcaster.
 //
+// A room in which nobody is stands still after kSleepAfter: no timer runs and no tick passes, until somebody
+// joins. Nothing is made up for then: the next tick is the one that was due.
+//
 // One tick: bots look, the match steps, the watchers see the step, inputs are acknowledged, every
 // tick_hz / state_hz ticks a frame is encoded and handed over.
 #pragma once
@@ -9,6 +12,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/strand.hpp>
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -32,6 +36,9 @@ namespace woodlouse::server {
 /// What it has posted keeps it until it ran.
 class Room : public std::enable_shared_from_this<Room> {
  public:
+  /// From the last moment on at which somebody was there, or a louse moved that is not the house's.
+  static constexpr std::chrono::seconds kSleepAfter{10};
+
   /// ticks: where the room's strand lives; io: where its broadcaster lives; timekeeper: whose time its ticks
   /// keep. All outlive it.
   static std::shared_ptr<Room> make(boost::asio::io_context& ticks, boost::asio::io_context& io,
@@ -70,6 +77,9 @@ class Room : public std::enable_shared_from_this<Room> {
   void await_tick();
   void on_tick_due();
   void tick(Time now);
+  [[nodiscard]] bool is_to_sleep();
+  void fall_asleep();
+  void wake();
   void finish_watching(const std::string& reason);
   void end();
   void post_figures();
@@ -85,7 +95,8 @@ class Room : public std::enable_shared_from_this<Room> {
   // The strand's:
   std::optional<TickClock> clock_;
   std::function<void()> ended_;
-  enum class State { kWaiting, kRunning, kStopped } state_ = State::kWaiting;
+  enum class State { kWaiting, kRunning, kAsleep, kStopped } state_ = State::kWaiting;
+  std::uint64_t deserted_ticks_ = 0;  ///< in a row
   RoomFigures working_;
   std::vector<std::function<void()>> awaiting_end_;  ///< who asked for the stop
   bool has_ended_ = false;

@@ -11,12 +11,16 @@ Duration TickClock::offset(std::uint64_t ticks) const {
   return std::chrono::duration_cast<Duration>(seconds + rest);
 }
 
+void TickClock::restart(Time now) {
+  origin_ = now;
+  begun_ = 0;
+}
+
 Duration TickClock::begin(Time now) {
   const Duration late = now - deadline();
   assert(late >= Duration::zero());
   if (late > offset(kMaxLateTicks)) {
-    origin_ = now;
-    begun_ = 0;
+    restart(now);
     ++moves_;
   }
   ++begun_;

@@ -24,6 +24,9 @@ class TickClock {
   /// Later than kMaxLateTicks ticks: the schedule moves so that this tick was due now.
   Duration begin(Time now);
 
+  /// No time has passed, whatever there was: the next tick is due at `now`.
+  void restart(Time now);
+
   /// How often the clock was moved.
   [[nodiscard]] std::uint64_t moves() const { return moves_; }
   /// Length of one tick, rounded down to the clock's unit.

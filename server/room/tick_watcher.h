@@ -21,7 +21,8 @@ struct InputMargin {
 };
 
 /// The room's strand calls it, in this order: attach(), begin(), then chat(), step() and rest() as they
-/// happen, finish(). Every call returns at once.
+/// happen, fall_asleep() and wake() around a time in which no tick passes, finish(). Every call returns at
+/// once.
 class TickWatcher {
  public:
   /// Tells every session of the room; any thread.
@@ -44,6 +45,10 @@ class TickWatcher {
                     const match::Match& /*game*/) {}
   /// After everything else of the tick is done: who is in the room was answered and shown it.
   virtual void rest(const match::Match& /*game*/) {}
+  /// The room stands still, as nobody is there. Nothing follows but wake() or finish().
+  virtual void fall_asleep(const match::Match& /*game*/) {}
+  /// The next step follows.
+  virtual void wake(const match::Match& /*game*/) {}
   /// Last of all, once; `done` is called when its work is done, on some thread. It outlives that call.
   virtual void finish(const std::string& reason, std::function<void()> done) = 0;
 

@@ -5,6 +5,7 @@
 #include <boost/asio/post.hpp>
 
 #include <cassert>
+#include <chrono>
 #include <utility>
 
 #include "shared/core/sink_file.h"
@@ -12,6 +13,13 @@
 
 namespace woodlouse::server {
 namespace {
+
+/// UTC, as people's clocks have it; no hash knows of it.
+std::uint64_t seconds_since_1970() {
+  using namespace std::chrono;
+  const auto since = duration_cast<seconds>(system_clock::now().time_since_epoch()).count();
+  return since > 0 ? static_cast<std::uint64_t>(since) : 0;
+}
 
 constexpr std::size_t kWriteAt = 256u << 10;  // bytes that are not kept back for the next flush
 
@@ -77,18 +85,31 @@ void Recorder::step(const match::StepRecord& record, std::span<const InputMargin
   });
 }
 
-void Recorder::finish(const std::string& reason, std::function<void()> done) {
-  boost::asio::post(disk_, [this, reason, done = std::move(done)] {
-    flush_timer_.cancel();
-    finished_ = true;
-    if (!failed_) {
-      writer_.append_end(bytes_, reason);
-      write_out();
-      if (!failed_) judge(out_->close());
-    }
-    // Behind the cancelled timer's handler: whoever is told may let go of the recording.
-    boost::asio::post(disk_, done);
+void Recorder::fall_asleep(const match::Match& game) { pause_ = {game.tick(), seconds_since_1970(), 0}; }
+
+void Recorder::wake(const match::Match&) {
+  assert(pause_);
+  pause_->until = seconds_since_1970();
+  enqueue([this, pause = *std::exchange(pause_, std::nullopt)](std::string& out) {
+    writer_.append_pause(out, pause);
   });
+}
+
+void Recorder::finish(const std::string& reason, std::function<void()> done) {
+  if (pause_) pause_->until = seconds_since_1970();
+  boost::asio::post(disk_,
+                    [this, reason, pause = std::exchange(pause_, std::nullopt), done = std::move(done)] {
+                      flush_timer_.cancel();
+                      finished_ = true;
+                      if (!failed_) {
+                        if (pause) writer_.append_pause(bytes_, *pause);
+                        writer_.append_end(bytes_, reason);
+                        write_out();
+                        if (!failed_) judge(out_->close());
+                      }
+                      // Behind the cancelled timer's handler: whoever is told may let go of the recording.
+                      boost::asio::post(disk_, done);
+                    });
 }
 
 void Recorder::enqueue(Job job) {

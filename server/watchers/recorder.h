@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -54,6 +55,9 @@ class Recorder final : public TickWatcher {
   /// The game is copied where a keyframe is due.
   void step(const match::StepRecord& record, std::span<const InputMargin> margins,
             const match::Match& game) override;
+  /// The pause is told when it is over; a server that is killed within one leaves it untold.
+  void fall_asleep(const match::Match& game) override;
+  void wake(const match::Match& game) override;
   /// `done` is called on the disk's thread when everything is in the file.
   void finish(const std::string& reason, std::function<void()> done) override;
 
@@ -70,6 +74,7 @@ class Recorder final : public TickWatcher {
   std::shared_ptr<spdlog::logger> log_;
   replay::Header header_;
   Announce announce_;
+  std::optional<replay::PauseLine> pause_;  ///< that is not over; the room's strand's
   std::atomic<std::size_t> queued_{0};
   std::atomic<bool> failed_{false};
   std::uint64_t keyframe_ticks_ = 0;

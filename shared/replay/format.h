@@ -5,6 +5,7 @@
 //     {"step":n,"roster":[..],"inputs":[..],"hash":"16 hex digits"}   step n -> n+1; the hash is tick n+1's
 //     {"step":n,"steps":k,"hash":..}             k steps that applied nothing and changed nothing
 //     {"chat":n,"player":..,"name":..,"text":..}                      for who reads; a re-run passes it over
+//     {"pause":n,"from":..,"until":..}                               likewise: no tick passed meanwhile
 //     {"index":n,"keyframes":[..],"players":[..],"marks":[..]}        where things stand
 //     {"end":n,"reason":"..","index":offset}                          the last tick
 //
@@ -75,6 +76,11 @@ struct ChatLine {
   match::PlayerId player = 0;
   std::string name, text;
 };
+/// Nobody was there, and no tick passed; for people. Seconds since 1970, UTC, as the server's clock had them.
+struct PauseLine {
+  std::uint64_t tick = 0;
+  std::uint64_t from = 0, until = 0;
+};
 /// Its contents are read from the end of the file (index.h); whoever reads on from above has seen them.
 struct IndexLine {
   std::uint64_t tick = 0;
@@ -84,6 +90,6 @@ struct End {
   std::string reason;
   std::uint64_t index_offset = 0;  ///< of the index line
 };
-using Line = std::variant<StepLine, Keyframe, ChatLine, IndexLine, End>;
+using Line = std::variant<StepLine, Keyframe, ChatLine, PauseLine, IndexLine, End>;
 
 }  // namespace woodlouse::replay

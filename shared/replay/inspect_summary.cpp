@@ -48,6 +48,8 @@ struct Punctuality {
 struct Reading {
   ReplayIndex lines;
   std::map<match::PlayerId, Punctuality> inputs;
+  std::uint64_t pauses = 0;
+  std::uint64_t paused_seconds = 0;  ///< in all
 };
 
 core::Expected<Reading> read_through(const ReplayArchive& archive) {
@@ -64,6 +66,10 @@ core::Expected<Reading> read_through(const ReplayArchive& archive) {
     if (const auto* keyframe = std::get_if<Keyframe>(&**line))
       reading.lines.add({keyframe->state.tick, reader.line_offset(), reader.line_number()}, *keyframe);
     if (const auto* chat = std::get_if<ChatLine>(&**line)) reading.lines.add(*chat);
+    if (const auto* pause = std::get_if<PauseLine>(&**line)) {
+      ++reading.pauses;
+      reading.paused_seconds += pause->until - std::min(pause->from, pause->until);
+    }
     if (auto* end = std::get_if<End>(&**line)) reading.lines.end = std::move(*end);
     const auto* step = std::get_if<StepLine>(&**line);
     if (step == nullptr) continue;
@@ -87,7 +93,8 @@ std::string formatted(const char* format, Values... values) {
 /// What came in a file, for a terminal.
 std::string shown(std::string_view text) { return protocol::clean_text(text, kMaxTextBytes); }
 
-std::string head(const ReplayArchive& archive, const ReplayIndex& lines) {
+std::string head(const ReplayArchive& archive, const Reading& reading) {
+  const ReplayIndex& lines = reading.lines;
   const Header& header = archive.header();
   std::string out = core::joined(
       {archive.source().name, "\nmap      ", shown(header.map_name), " ", core::to_hex(header.map_hash),
@@ -110,6 +117,10 @@ std::string head(const ReplayArchive& archive, const ReplayIndex& lines) {
                        " leaves, ", std::to_string(counts[2]), " respawns, ", std::to_string(counts[3]),
                        " chats\n"});
   out += core::joined({"inputs   ", std::to_string(lines.inputs), "\n"});
+  if (reading.pauses != 0) {
+    out += core::joined({"pauses   ", std::to_string(reading.pauses), ", in which nobody was there, ",
+                         std::to_string(reading.paused_seconds), " s in all\n"});
+  }
   const std::string unlike = unlike_index(archive.index(), lines);
   if (!unlike.empty())
     out += core::joined({"index    is not that of the lines, which are told here: ", unlike, "\n"});
@@ -137,7 +148,7 @@ std::string row(const PlayerSpan& player, const Punctuality& inputs) {
 core::Expected<std::string> inspect_summary(const ReplayArchive& archive) {
   const core::Expected<Reading> reading = read_through(archive);
   if (!reading) return tl::unexpected(reading.error());
-  std::string out = head(archive, reading->lines);
+  std::string out = head(archive, *reading);
   out += "margin: how long before its step an input came; 99 of 100 came at least `99%` ms before\n";
   out += "player role     joined     left    inputs     late  median     99%   least  name\n";
   for (const PlayerSpan& player : reading->lines.players) {

@@ -3,6 +3,34 @@
 #include <string>
 
 namespace woodlouse::replay {
+namespace {
+
+/// A whole number counts quanta; one with a point stands as itself.
+double read_component(const json::Value& value, json::Problems& problems) {
+  constexpr json::Range kUnit{-1.0, 1.0, ""};
+  constexpr json::Range kQuanta{-128.0, 128.0, "/ 128"};
+  if (value.is(json::Kind::kInteger)) {
+    const double quanta = json::number_in(value, kQuanta, problems).value_or(0.0);
+    return (quanta == 0.0 ? 0.0 : quanta) * state::kThrustQuantum;
+  }
+  return json::number_in(value, kUnit, problems).value_or(0.0);
+}
+
+}  // namespace
+
+void read_thrust(const json::Value& value, match::AppliedInput& input, json::Problems& problems) {
+  if (value.is(json::Kind::kNull)) return;
+  if (!value.is(json::Kind::kArray)) {
+    input.kind = state::ThrustKind::kAlongHeading;
+    input.thrust.x = read_component(value, problems);
+    return;
+  }
+  const std::vector<json::Value> pair = value.children();
+  if (pair.size() != 2) return problems.add(value, "a pair [x, y] is wanted");
+  input.kind = state::ThrustKind::kMapVector;
+  input.thrust = {read_component(pair[0], problems), read_component(pair[1], problems)};
+  if (core::dot(input.thrust, input.thrust) > 1.0) problems.add(value, "is longer than 1");
+}
 
 match::PlayerLabel label_of(const json::Value& name, const json::Value& role, json::Problems& problems) {
   const std::optional<state::Role> known =

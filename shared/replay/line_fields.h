@@ -21,6 +21,10 @@ inline constexpr std::size_t kMaxTextBytes = 4096;                   ///< of a t
 /// Of a player or a bot; another role is reported.
 match::PlayerLabel label_of(const json::Value& name, const json::Value& role, json::Problems& problems);
 
+/// A thrust as recordings name it, into an input's kind and value: a number along the heading, a pair, or
+/// null.
+void read_thrust(const json::Value& value, match::AppliedInput& input, json::Problems& problems);
+
 /// Calls read(element) for each element of a list; stops at the first problem, of which one is enough.
 template <typename Read>
 void read_list(const json::Value& value, json::Problems& problems, const Read& read) {

@@ -32,7 +32,8 @@ core::Expected<void> LineOrder::follow(const Line& line) {
     return core::fail({}, "is no keyframe", "one stands behind the header");
   return std::visit(Overloaded{[&](const StepLine& l) { return step(l.step.tick); },
                                [&](const Keyframe& l) { return keyframe(l.state.tick); },
-                               [&](const ChatLine& l) { return chat(l.tick); },
+                               [&](const ChatLine& l) { return aside("chat", l.tick); },
+                               [&](const PauseLine& l) { return aside("pause", l.tick); },
                                [&](const IndexLine& l) { return index(l.tick); },
                                [&](const End& l) { return end(l.tick); }},
                     line);
@@ -67,16 +68,16 @@ core::Expected<void> LineOrder::keyframe(std::uint64_t tick) {
   return {};
 }
 
-core::Expected<void> LineOrder::chat(std::uint64_t tick) {
+core::Expected<void> LineOrder::aside(const char* kind, std::uint64_t tick) {
   if (due_ && tick != *due_) {
-    return core::fail("chat",
+    return core::fail(kind,
                       joined({"of step ", number(tick), " stands where step ", number(*due_), " is due"}),
-                      "what is said stands before the step that was due");
+                      "what is told stands before the step that was due");
   }
   due_ = tick;
   if (++chats_ > kMaxChatsAStep) {
     return core::fail(
-        "chat", joined({"more than ", number(kMaxChatsAStep), " lines of chat before step ", number(tick)}),
+        kind, joined({"more than ", number(kMaxChatsAStep), " lines of chat before step ", number(tick)}),
         "no server lets so many pass");
   }
   return {};

@@ -2,7 +2,8 @@
 //
 //     header, keyframe, { chat* step [keyframe] }*, chat*, [index, end]
 //
-// A step is the one that is due, a chat belongs to it, a keyframe shows where the steps led. Pure.
+// A step is the one that is due, a chat (or a pause) belongs to it, a keyframe shows where the steps led.
+// Pure.
 #pragma once
 
 #include <cstddef>
@@ -26,14 +27,14 @@ class LineOrder {
  private:
   [[nodiscard]] core::Expected<void> step(std::uint64_t tick);
   [[nodiscard]] core::Expected<void> keyframe(std::uint64_t tick);
-  [[nodiscard]] core::Expected<void> chat(std::uint64_t tick);
+  [[nodiscard]] core::Expected<void> aside(const char* kind, std::uint64_t tick);
   [[nodiscard]] core::Expected<void> index(std::uint64_t tick);
   [[nodiscard]] core::Expected<void> end(std::uint64_t tick);
 
   bool wants_keyframe_ = false;
   std::optional<std::uint64_t> due_;  ///< the step that is to come; unknown before the first line
   std::uint64_t steps_ = 0;           ///< since the last keyframe
-  std::size_t chats_ = 0;             ///< since the last step
+  std::size_t chats_ = 0;             ///< and pauses, since the last step
   bool has_keyframe_ = false;         ///< of the tick that is reached
   bool has_index_ = false;
   bool has_end_ = false;

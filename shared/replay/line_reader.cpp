@@ -60,31 +60,6 @@ void read_change(const json::Value& value, StepLine& line, Problems& problems) {
   problems.add(value, "{\"join\": id}, {\"leave\": id} or {\"respawn\": id} is wanted");
 }
 
-/// A whole number counts quanta; one with a point stands as itself.
-double read_component(const json::Value& value, Problems& problems) {
-  constexpr Range kUnit{-1.0, 1.0, ""};
-  constexpr Range kQuanta{-128.0, 128.0, "/ 128"};
-  if (value.is(json::Kind::kInteger)) {
-    const double quanta = json::number_in(value, kQuanta, problems).value_or(0.0);
-    return (quanta == 0.0 ? 0.0 : quanta) * state::kThrustQuantum;
-  }
-  return json::number_in(value, kUnit, problems).value_or(0.0);
-}
-
-void read_thrust(const json::Value& value, match::AppliedInput& input, Problems& problems) {
-  if (value.is(json::Kind::kNull)) return;
-  if (!value.is(json::Kind::kArray)) {
-    input.kind = state::ThrustKind::kAlongHeading;
-    input.thrust.x = read_component(value, problems);
-    return;
-  }
-  const std::vector<json::Value> pair = value.children();
-  if (pair.size() != 2) return problems.add(value, "a pair [x, y] is wanted");
-  input.kind = state::ThrustKind::kMapVector;
-  input.thrust = {read_component(pair[0], problems), read_component(pair[1], problems)};
-  if (core::dot(input.thrust, input.thrust) > 1.0) problems.add(value, "is longer than 1");
-}
-
 /// `values` from its front: player, seq, thrust.
 match::AppliedInput read_push(std::span<const json::Value> values, Problems& problems) {
   match::AppliedInput input;
@@ -229,6 +204,12 @@ ChatLine read_chat(const json::Value& root, Problems& problems) {
   return line;
 }
 
+PauseLine read_pause(const json::Value& root, Problems& problems) {
+  const Fields fields(root, {"pause", "from", "until"}, problems);
+  return {fields.integer("pause", 0, kMaxTick), fields.integer("from", 0, kMaxTick),
+          fields.integer("until", 0, kMaxTick)};
+}
+
 /// Its other fields are checked by who reads it (index_text.cpp).
 IndexLine read_index_line(const json::Value& root, Problems& problems) {
   const Fields fields(root, {"index", "keyframes", "players", "marks", "inputs"}, problems);
@@ -248,9 +229,10 @@ Line read_object(const json::Value& root, Problems& problems) {
   if (root.find("step")) return read_step(root, problems);
   if (root.find("keyframe")) return read_keyframe(root, problems);
   if (root.find("chat")) return read_chat(root, problems);
+  if (root.find("pause")) return read_pause(root, problems);
   if (root.find("index") && !root.find("end")) return read_index_line(root, problems);
   if (root.find("end")) return read_end(root, problems);
-  problems.add(root, "is no step, keyframe, chat, index or end");
+  problems.add(root, "is no step, keyframe, chat, pause, index or end");
   return End{};
 }
 

@@ -209,6 +209,12 @@ void append_chat(std::string& out, const ChatLine& chat) {
   end_line(out, line);
 }
 
+void append_pause(std::string& out, const PauseLine& pause) {
+  json::ObjectText line(out);
+  line.integer("pause", pause.tick).integer("from", pause.from).integer("until", pause.until);
+  end_line(out, line);
+}
+
 void append_end(std::string& out, const End& end) {
   json::ObjectText line(out);
   line.integer("end", end.tick).text("reason", end.reason).integer("index", end.index_offset);

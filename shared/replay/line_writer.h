@@ -21,6 +21,7 @@ void append_step(std::string& out, const match::StepRecord& step, const Margins&
 /// Steps from `first` on that applied nothing and left the hash as it was. REQUIRES steps >= 1.
 void append_quiet_steps(std::string& out, std::uint64_t first, std::uint64_t steps, std::uint64_t hash);
 void append_chat(std::string& out, const ChatLine& line);
+void append_pause(std::string& out, const PauseLine& line);
 void append_end(std::string& out, const End& end);
 
 }  // namespace woodlouse::replay

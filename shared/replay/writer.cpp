@@ -104,6 +104,12 @@ bool ReplayWriter::append_chat(std::string& out, std::uint64_t tick, match::Play
   return true;
 }
 
+void ReplayWriter::append_pause(std::string& out, const PauseLine& pause) {
+  put_quiet(out);
+  replay::append_pause(line_, pause);
+  put(out);
+}
+
 void ReplayWriter::append_end(std::string& out, std::string_view reason) {
   put_quiet(out);
   if (packer_) packer_->end_frame(out);

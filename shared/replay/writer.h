@@ -46,6 +46,7 @@ class ReplayWriter {
   /// False: it was left out, for there are kMaxChatsAStep since the last step (line_order.h).
   bool append_chat(std::string& out, std::uint64_t tick, match::PlayerId player, std::string_view name,
                    std::string_view text);
+  void append_pause(std::string& out, const PauseLine& pause);
   /// The index and the last line. `reason`: for people ("SIGTERM", "ticks done").
   void append_end(std::string& out, std::string_view reason);
 

@@ -79,6 +79,11 @@ struct LineText {
     append_chat(out, line);
     return out;
   }
+  std::string operator()(const PauseLine& line) const {
+    std::string out;
+    append_pause(out, line);
+    return out;
+  }
   std::string operator()(const IndexLine&) const { return {}; }
   std::string operator()(const End& line) const {
     std::string out;

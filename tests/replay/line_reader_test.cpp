@@ -297,8 +297,8 @@ TEST_CASE("every field of a keyframe, a chat and an end is checked") {
   CHECK(error_of("{\"chat\":1,\"player\":1,\"name\":\"a\",\"text\":\"" + std::string(5000, 'x') + "\"}\n")
             .find("r:1: text: text of at most") == 0);
   CHECK(error_of("{\"end\":\"1\",\"reason\":\"\"}\n").find("r:1: end: a whole number") == 0);
-  CHECK(error_of("{\"hello\":1}\n") == "r:1: is no step, keyframe, chat, index or end");
-  CHECK(error_of("[]\n") == "r:1: is no step, keyframe, chat, index or end");
+  CHECK(error_of("{\"hello\":1}\n") == "r:1: is no step, keyframe, chat, pause, index or end");
+  CHECK(error_of("[]\n") == "r:1: is no step, keyframe, chat, pause, index or end");
   CHECK(error_of("\n").find("r:1: not JSON") == 0);
 }
 

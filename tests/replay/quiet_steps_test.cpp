@@ -5,6 +5,7 @@
 #include <sstream>
 #include <string>
 
+#include "shared/replay/inspect.h"
 #include "shared/replay/line_reader.h"
 #include "shared/replay/writer.h"
 #include "tests/replay/recorded_match.h"
@@ -108,6 +109,31 @@ TEST_CASE(
   const Verification found = verdict(altered);
   REQUIRE(found.difference);
   CHECK(found.difference->tick == 101);
+}
+
+TEST_CASE("a pause stands where no tick passed, moves nothing, and is told") {
+  match::Match match(small_map("spline"), {60, 3});
+  ReplayWriter writer;
+  std::string text;
+  writer.append_header(text, make_header(match, "tests", "small.json"));
+  writer.append_keyframe(text, match.state());
+  for (int tick = 0; tick < 40; ++tick) {
+    if (tick == 20) writer.append_pause(text, {match.tick(), 1000, 4600});
+    if (tick == 30) writer.append_pause(text, {match.tick(), 9000, 8000});  // a clock that was set back
+    writer.append_step(text, match.advance());
+  }
+  writer.append_end(text, "test over");
+  CHECK(text.find("{\"pause\":20,\"from\":1000,\"until\":4600}\n{\"step\":20,\"steps\":10,") !=
+        std::string::npos);
+  CHECK(to_text(verdict(text)) == "ok ticks 0 to 40\n");
+  const auto summary = inspect_summary(*opened(text));
+  REQUIRE(summary);
+  CHECK(summary->find("pauses   2, in which nobody was there, 3600 s in all\n") != std::string::npos);
+  std::string misplaced = text;
+  misplaced.replace(misplaced.find("{\"pause\":20"), 11, "{\"pause\":19");
+  const auto refused = verify_text(misplaced);
+  REQUIRE_FALSE(refused);
+  CHECK(refused.error().text().find("pause: of step 19 stands where step 20 is due") != std::string::npos);
 }
 
 TEST_CASE("a line of many steps is no way past the keyframe that is due") {

@@ -63,15 +63,34 @@ TEST_CASE("what is not asked for has its default") {
   CHECK(config.tick_hz == 60);
   CHECK(config.state_hz == 20);
   CHECK(config.bots == 0);
+  CHECK_FALSE(config.bots_alone_play);
   CHECK_FALSE(config.seed);
   CHECK_FALSE(config.record);
   CHECK_FALSE(config.ticks);
 }
 
 TEST_CASE("flags are read, several maps make several rooms") {
-  const ServeConfig config = serve({"--map", "a.json", "b.json", "--listen", "[::1]:0", "--tick-hz", "120",
-                                    "--state-hz", "40", "--record", "game.ndjson", "--ticks", "7", "--seed",
-                                    "18446744073709551615", "--bots", "3", "--log-format", "json"});
+  const ServeConfig config = serve({"--map",
+                                    "a.json",
+                                    "b.json",
+                                    "--listen",
+                                    "[::1]:0",
+                                    "--tick-hz",
+                                    "120",
+                                    "--state-hz",
+                                    "40",
+                                    "--record",
+                                    "game.ndjson",
+                                    "--ticks",
+                                    "7",
+                                    "--seed",
+                                    "18446744073709551615",
+                                    "--bots",
+                                    "3",
+                                    "--bots-alone",
+                                    "play",
+                                    "--log-format",
+                                    "json"});
   CHECK(config.maps == std::vector<std::filesystem::path>{"a.json", "b.json"});
   CHECK(config.listen == ListenAddress{"::1", 0});
   CHECK(config.tick_hz == 120);
@@ -80,6 +99,7 @@ TEST_CASE("flags are read, several maps make several rooms") {
   CHECK(config.ticks == 7u);
   CHECK(config.seed == 18446744073709551615u);
   CHECK(config.bots == 3);
+  CHECK(config.bots_alone_play);
   CHECK(config.log_format == LogFormat::kJson);
 }
 
@@ -112,6 +132,7 @@ TEST_CASE("a wrong option is refused by its name") {
       {{"--map", "a", "--state-hz", "25"}, "--state-hz"},
       {{"--map", "a", "--state-hz", "120"}, "--state-hz"},
       {{"--map", "a", "--bots", "-1"}, "--bots"},
+      {{"--map", "a", "--bots-alone", "sleep"}, "--bots-alone"},
       {{"--map", "a", "--ticks", "0"}, "--ticks"},
       {{"--map", "a", "--seed", "1.5"}, "--seed"},
       {{"--map", "a", "--log-format", "xml"}, "--log-format"},
