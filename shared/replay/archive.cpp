@@ -54,7 +54,7 @@ bool ReplayArchive::is_index_sound(std::istream& in) const {
   ReplayReader tail(in, source_.name);
   if (!is_keyframe(tail.next(), last.tick)) return false;
   for (bool has_index = false;;) {
-    const auto line = tail.next();
+    const auto line = tail.next_line();
     if (!line || !*line || std::holds_alternative<Keyframe>(**line)) return false;
     if (const auto* index = std::get_if<IndexLine>(&**line)) {
       has_index = index->tick == index_.last_tick && index_.end &&

@@ -45,7 +45,7 @@ void ReplayIndex::add(const KeyframePlace& place, const Keyframe& keyframe) {
 
 void ReplayIndex::add(const StepLine& line) {
   const match::StepRecord& step = line.step;
-  last_tick = step.tick + 1;
+  last_tick = step.tick + line.steps;
   inputs += step.inputs.size();
   for (const match::RosterChange& change : step.roster) {
     switch (change.action) {
@@ -112,7 +112,7 @@ core::Expected<ReplayIndex> scan_index(std::istream& in, const std::string& sour
   if (const auto header = reader.read_header(); !header) return tl::unexpected(header.error());
   ReplayIndex index;
   for (;;) {
-    const core::Expected<std::optional<Line>> line = reader.next();
+    const core::Expected<std::optional<Line>> line = reader.next_line();
     if (!line) return tl::unexpected(line.error());
     if (!*line) break;
     if (const auto* keyframe = std::get_if<Keyframe>(&**line)) {

@@ -60,7 +60,7 @@ core::Expected<Reading> read_through(const ReplayArchive& archive) {
   Reading reading;
   std::size_t margins = 0;
   for (;;) {
-    const core::Expected<std::optional<Line>> line = reader.next();
+    const core::Expected<std::optional<Line>> line = reader.next_line();
     if (!line) return tl::unexpected(line.error());
     if (!*line) return reading;
     if (const auto* keyframe = std::get_if<Keyframe>(&**line))

@@ -30,7 +30,7 @@ core::Expected<void> LineOrder::follow(const Line& line) {
     return core::fail({}, "stands after the index", "the end alone follows it");
   if (wants_keyframe_ && !std::holds_alternative<Keyframe>(line))
     return core::fail({}, "is no keyframe", "one stands behind the header");
-  return std::visit(Overloaded{[&](const StepLine& l) { return step(l.step.tick); },
+  return std::visit(Overloaded{[&](const StepLine& l) { return step(l.step.tick, l.steps); },
                                [&](const Keyframe& l) { return keyframe(l.state.tick); },
                                [&](const ChatLine& l) { return aside("chat", l.tick); },
                                [&](const PauseLine& l) { return aside("pause", l.tick); },
@@ -39,17 +39,18 @@ core::Expected<void> LineOrder::follow(const Line& line) {
                     line);
 }
 
-core::Expected<void> LineOrder::step(std::uint64_t tick) {
+core::Expected<void> LineOrder::step(std::uint64_t tick, std::uint64_t steps) {
   if (due_ && tick != *due_) {
     return core::fail({}, joined({"step ", number(tick), " stands where step ", number(*due_), " is due"}),
                       "lines are missing or out of order");
   }
-  if (++steps_ > kMaxStepsBetweenKeyframes) {
+  steps_ += steps;
+  if (steps_ > kMaxStepsBetweenKeyframes) {
     return core::fail(
         {}, joined({"more than ", number(kMaxStepsBetweenKeyframes), " steps after the last keyframe"}),
         joined({"one stands every ", number(kKeyframeSeconds), " s"}));
   }
-  due_ = tick + 1;
+  due_ = tick + steps;
   chats_ = 0;
   has_keyframe_ = false;
   return {};

@@ -21,11 +21,11 @@ class LineOrder {
  public:
   /// The header was read: a keyframe has to follow. Without it, any line may be the first one seen.
   void begin();
-  /// The next line. Errors, without a place: it can't stand here.
+  /// The next line, or as many steps as it stands for. Errors, without a place: it can't stand here.
   [[nodiscard]] core::Expected<void> follow(const Line& line);
 
  private:
-  [[nodiscard]] core::Expected<void> step(std::uint64_t tick);
+  [[nodiscard]] core::Expected<void> step(std::uint64_t tick, std::uint64_t steps);
   [[nodiscard]] core::Expected<void> keyframe(std::uint64_t tick);
   [[nodiscard]] core::Expected<void> aside(const char* kind, std::uint64_t tick);
   [[nodiscard]] core::Expected<void> index(std::uint64_t tick);

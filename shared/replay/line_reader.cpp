@@ -294,35 +294,33 @@ core::Expected<bool> ReplayReader::read_into(Line& line) {
   return true;
 }
 
-/// One of the steps that the line stands for.
-StepLine ReplayReader::next_quiet() {
-  assert(quiet_.steps != 0 && quiet_.step.inputs.empty() && quiet_.step.roster.empty());
-  StepLine step;
-  step.step.tick = quiet_.step.tick++;
-  step.step.hash = quiet_.step.hash;
-  --quiet_.steps;
-  return step;
-}
-
-core::Expected<std::optional<Line>> ReplayReader::next() {
+core::Expected<std::optional<Line>> ReplayReader::next_line() {
+  assert(quiet_.steps == 0);
   Line line;
-  if (quiet_.steps != 0) {
-    line = next_quiet();
-  } else {
-    const core::Expected<bool> whole = read_into(line);
-    if (!whole) return tl::unexpected(whole.error());
-    if (!*whole) return core::Expected<std::optional<Line>>(tl::in_place);
-    if (auto* step = std::get_if<StepLine>(&line); step != nullptr && step->steps > 1) {
-      quiet_ = std::move(*step);
-      line = next_quiet();
-    }
-  }
+  const core::Expected<bool> whole = read_into(line);
+  if (!whole) return tl::unexpected(whole.error());
+  if (!*whole) return core::Expected<std::optional<Line>>(tl::in_place);
   if (auto fits = order_.follow(line); !fits) {
     core::Error error = std::move(fits.error());
     error.where = error.where.empty() ? place() : joined({place(), ": ", error.where});
     return tl::unexpected(std::move(error));
   }
   return core::Expected<std::optional<Line>>(tl::in_place, std::move(line));
+}
+
+core::Expected<std::optional<Line>> ReplayReader::next() {
+  if (quiet_.steps == 0) {
+    core::Expected<std::optional<Line>> line = next_line();
+    auto* step = line && *line ? std::get_if<StepLine>(&**line) : nullptr;
+    if (step == nullptr || step->steps == 1) return line;
+    quiet_ = std::move(*step);
+  }
+  assert(quiet_.step.inputs.empty() && quiet_.step.roster.empty());
+  StepLine step;
+  step.step.tick = quiet_.step.tick++;
+  step.step.hash = quiet_.step.hash;
+  --quiet_.steps;
+  return core::Expected<std::optional<Line>>(tl::in_place, std::move(step));
 }
 
 }  // namespace woodlouse::replay

@@ -31,6 +31,9 @@ class ReplayReader {
   /// The next line; nothing at the end of the file, or after a last line that was cut off. A line that stands
   /// for many steps is given as often, a step at a time.
   core::Expected<std::optional<Line>> next();
+  /// The same, but such a line is given once, for who does not re-run them: a short file can stand for more
+  /// steps than anybody wants to wait for. REQUIRES that next() has given all steps of the line before.
+  core::Expected<std::optional<Line>> next_line();
 
   /// The file's last line has no newline: whoever wrote it was interrupted. Known once next() gave nothing.
   [[nodiscard]] bool is_cut_off() const { return cut_off_; }
@@ -48,7 +51,6 @@ class ReplayReader {
 
  private:
   core::Expected<bool> read_line();  ///< false: no further whole line
-  StepLine next_quiet();
   core::Expected<bool> read_into(Line& line);
 
   std::istream& in_;

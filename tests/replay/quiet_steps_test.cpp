@@ -4,9 +4,12 @@
 #include <cstdint>
 #include <sstream>
 #include <string>
+#include <vector>
 
+#include "shared/map/map_file.h"
 #include "shared/replay/inspect.h"
 #include "shared/replay/line_reader.h"
+#include "shared/replay/parallel_verify.h"
 #include "shared/replay/writer.h"
 #include "tests/replay/recorded_match.h"
 
@@ -19,6 +22,44 @@ std::string refusal(const std::string& step) {
   ReplayReader reader(in, "r");
   const auto line = reader.next();
   return line ? "no error" : line.error().text();
+}
+
+struct Rests {
+  std::string bytes;
+  std::vector<std::string> states;  ///< of each tick
+};
+
+/// Nobody is there; somebody comes and stands; another comes, and goes while somebody speaks; all is still.
+Rests played_at_rest(Encoding encoding) {
+  const auto level = map::parse_map(R"({"name":"level","terrain":{"spacing":9,"heights":)"
+                                    R"([[0,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,0]]}})",
+                                    "level.json", {});
+  REQUIRE(level);
+  match::Match match(*level, {60, 3});
+  ReplayWriter writer(encoding);
+  Rests rests;
+  writer.append_header(rests.bytes, make_header(match, "tests", "level.json"));
+  writer.append_keyframe(rests.bytes, match.state());
+  rests.states.push_back(state_text(match.state()));
+  while (match.tick() < 800) {
+    if (match.tick() == 130) match.join({"ada", state::Role::kPlayer});
+    if (match.tick() == 299) match.join({"bob", state::Role::kBot});
+    if (match.tick() == 511) match.leave(2);
+    if (match.tick() == 520) match.file({1, 1, {state::ThrustKind::kNone, {}}, state::kHeld, 575});
+    if (match.tick() == 450 || match.tick() == 511)
+      writer.append_chat(rests.bytes, match.tick(), 1, "ada", "so quiet");
+    writer.append_step(rests.bytes, match.advance());
+    rests.states.push_back(state_text(match.state()));
+    if (match.tick() % 150 == 0) writer.append_keyframe(rests.bytes, match.state());
+    if (match.tick() % 64 == 0) writer.flush(rests.bytes);
+  }
+  writer.append_end(rests.bytes, "test over");
+  return rests;
+}
+
+std::string verdict_of(const std::string& bytes, unsigned jobs) {
+  const auto verification = verify(ReplaySource::of_bytes(bytes, "r.jsonl"), jobs);
+  return verification ? to_text(*verification) : verification.error().text();
 }
 
 }  // namespace
@@ -134,6 +175,109 @@ TEST_CASE("a pause stands where no tick passed, moves nothing, and is told") {
   const auto refused = verify_text(misplaced);
   REQUIRE_FALSE(refused);
   CHECK(refused.error().text().find("pause: of step 19 stands where step 20 is due") != std::string::npos);
+}
+
+TEST_CASE(
+    "in a game that stands still, every tick is found, from either side, and as many steps by any scan") {
+  for (const Encoding encoding : {Encoding::kPlain, Encoding::kZstd}) {
+    const Rests rests = played_at_rest(encoding);
+    for (const unsigned jobs : {1u, 4u}) CHECK(verdict_of(rests.bytes, jobs) == "ok ticks 0 to 800\n");
+    const auto archive = opened(rests.bytes);
+    const auto playback = archive->play(0);
+    REQUIRE(playback);
+    const auto check_at = [&](std::uint64_t tick) {
+      REQUIRE((*playback)->seek(tick));
+      // An input that waits is known from the keyframe on that it stands in, or once it was applied.
+      const bool waits = tick > 520 && tick <= 575;
+      const std::size_t size = waits ? rests.states[tick].find("\"next_player\"") : std::string::npos;
+      const std::string found = state_text((*playback)->match().state());
+      REQUIRE(found.substr(0, size) == rests.states[tick].substr(0, size));
+    };
+    for (std::uint64_t tick = 0; tick <= 800; ++tick) check_at(tick);
+    for (std::uint64_t tick = 800; tick-- > 0;) check_at(tick);
+    std::istringstream in(encoding == Encoding::kPlain ? rests.bytes
+                                                       : played_at_rest(Encoding::kPlain).bytes);
+    const auto scanned = scan_index(in, "r.jsonl");
+    REQUIRE(scanned);
+    CHECK(unlike_index(archive->index(), *scanned).empty());
+    CHECK(scanned->last_tick == 800);
+  }
+}
+
+TEST_CASE(
+    "a recording that is cut off anywhere in a game that stands still is good up to there, by any jobs") {
+  const std::string text = played_at_rest(Encoding::kPlain).bytes;
+  const std::size_t begin = text.find('\n', text.find('\n') + 1) + 1;  // behind the first keyframe
+  std::uint64_t ticks = 0;
+  for (std::size_t size = begin; size < text.size(); size = text.find('\n', size) + 1) {
+    if (text.compare(size, 7, "{\"end\":") == 0) break;
+    for (const std::size_t cut : {size, size + 20}) {
+      const std::string verdict = verdict_of(text.substr(0, cut), 1);
+      CHECK(verdict_of(text.substr(0, cut), 4) == verdict);
+      REQUIRE(verdict.find("ok ticks 0 to ") == 0);
+      CHECK(verdict.find("then the recording is cut off") != std::string::npos);
+      const std::uint64_t reached = std::stoull(verdict.substr(14));
+      CHECK(reached >= ticks);
+      CHECK(opened(text.substr(0, cut))->last_tick() == reached);
+      ticks = reached;
+    }
+  }
+  CHECK(ticks == 800);
+}
+
+TEST_CASE(
+    "who shortens or lengthens a stretch in which nothing happened is found by the next step that did") {
+  const std::string text = played_at_rest(Encoding::kPlain).bytes;
+  // All ticks behind it told one later or earlier, as whoever alters a recording would.
+  for (const int change : {-1, 1}) {
+    std::string altered;
+    std::istringstream in(text);
+    std::uint64_t tick = 0;
+    for (std::string line; std::getline(in, line);) {
+      const bool is_step = line.compare(0, 8, "{\"step\":") == 0;
+      if (!is_step && line.compare(0, 8, "{\"chat\":") != 0) {
+        if (line.find("\"keyframe\":") == 1 && tick > 0) continue;  // the stretch is under 5000 steps
+        if (line.find("\"index\":") != 1 && line.find("\"end\":") != 1) altered += line + "\n";
+        continue;
+      }
+      if (!is_step) continue;
+      const NumberPlace steps = find_number(line, "\"steps\":");
+      std::uint64_t count = steps.begin == std::string::npos
+                                ? 1
+                                : std::stoull(line.substr(steps.begin, steps.end - steps.begin));
+      if (tick == 0) {
+        REQUIRE(count > 2);
+        count = static_cast<std::uint64_t>(static_cast<int>(count) + change);
+        line.replace(steps.begin, steps.end - steps.begin, std::to_string(count));
+      }
+      const NumberPlace number = find_number(line, "\"step\":");
+      line.replace(number.begin, number.end - number.begin, std::to_string(tick));
+      altered += line + "\n";
+      tick += count;
+    }
+    const Verification found = verdict(altered);
+    REQUIRE(found.difference);
+    CHECK(found.difference->tick == static_cast<std::uint64_t>(131 + change));
+  }
+}
+
+TEST_CASE("a line of many steps costs who only scans it no more than a line") {
+  match::Match match(small_map("spline"), {60, 3});
+  std::string text;
+  append_header(text, make_header(match, "tests", "small.json"));
+  append_keyframe(text, match.state());
+  append_quiet_steps(text, 0, 5000, 0);
+  std::istringstream in(text);
+  ReplayReader reader(in, "r");
+  REQUIRE(reader.read_header());
+  REQUIRE(reader.next_line());
+  const auto line = reader.next_line();
+  REQUIRE((line && *line));
+  CHECK(std::get<StepLine>(**line).steps == 5000);
+  CHECK(std::get<StepLine>(**line).step.tick == 0);
+  const auto end = reader.next_line();
+  REQUIRE(end);
+  CHECK_FALSE(end->has_value());
 }
 
 TEST_CASE("a line of many steps is no way past the keyframe that is due") {
