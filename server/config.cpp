@@ -122,9 +122,9 @@ CLI::App* add_fork(CLI::App& app, Typed& typed) {
 CLI::App* add_verify(CLI::App& app, VerifyRequest& request) {
   CLI::App* verify = app.add_subcommand(
       "verify",
-      "Re-run a recording and compare: places and hashes, inputs, who joined and left under which name, and "
-      "the "
-      "index. Chat, margins, that a server played this game and that it ended there are what the file says");
+      "Re-run a recording and compare: places and hashes, inputs, who joined under which name and left, and "
+      "the index. Chat, margins, that a server played this game and that it ended there are what the file "
+      "says");
   verify->add_option("file", request.files, "Recordings")->required();
   verify->add_option("--jobs", request.jobs, "Threads; each takes a stretch between keyframes")
       ->check(whole_number(1, kMaxJobs))

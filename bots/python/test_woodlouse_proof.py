@@ -74,9 +74,11 @@ class Verifying(unittest.TestCase):
         self.assertEqual(self.verified(dict(self.key(), louse=rows, hash="00da3f79a97fc6d8")), 1)
 
     def test_before_anything_was_done_the_hash_is_0_and_nobody_is_there(self):
-        beginning = dict(self.key(), louse=[], link=0, hash="%016x" % 0)
+        nothing = "%016x" % 0
+        beginning = dict(self.key(), louse=[], link=0, hash=nothing, previous=nothing, inputs=nothing, roster=nothing)
         self.assertEqual(self.verified(beginning), 1)
-        for change in ({"hash": "%016x" % 1}, {"louse": self.ROWS}):
+        for change in ({"hash": "%016x" % 1}, {"louse": self.ROWS}, {"previous": "%016x" % 1}, {"inputs": "%016x" % 1},
+                       {"roster": "%016x" % 1}, {"rules": "%016x" % 1}):
             with self.assertRaises(woodlouse.WoodlouseError) as caught:
                 self.verified(dict(beginning, **change))
             self.assertEqual(caught.exception.code, "differs")

@@ -15,7 +15,7 @@ def state_hash(key):
     previous, inputs, roster, rules, generator = (
         int(key[name], 16) for name in ("previous", "inputs", "roster", "rules", "generator"))
     rows = [_LOUSE.pack(*row) for row in key["louse"]]
-    if not key["link"] and not rows:
+    if not (rows or previous or inputs or roster or rules or key["link"]):
         return 0  # no step has done anything
     blocks = [xxh64(b"".join(rows[first:first + _BLOCK])) for first in range(0, len(rows), _BLOCK)]
     return xxh64(struct.pack("<%dQ" % (6 + len(blocks)), previous, inputs, roster, rules, key["link"], generator,

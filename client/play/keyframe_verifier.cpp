@@ -18,9 +18,10 @@ void KeyVerifier::take(const protocol::Frame& frame) {
   lice.reserve(frame.rows());
   for (std::size_t row = 0; row < frame.rows(); ++row)
     lice.push_back(state::louse_of(std::span(frame.values).subspan(row * frame.columns, frame.columns)));
-  // Before the first step that did something there is no link, and nobody there.
-  const bool has_link = frame.proof->tick != 0 || !lice.empty();
-  const std::uint64_t recomputed = has_link ? state::state_hash(hasher_, *frame.proof, lice) : 0;
+  const state::HashLink& link = *frame.proof;
+  // Before the first step that did something nobody is there, and of the link the generator alone is not 0.
+  const bool is_beginning = lice.empty() && link == state::HashLink{.generator = link.generator};
+  const std::uint64_t recomputed = is_beginning ? 0 : state::state_hash(hasher_, link, lice);
   if (recomputed == *frame.hash) {
     ++verified_;
     hash_ = recomputed;

@@ -1,5 +1,6 @@
 // Recomputes the state hash of keys from their rows, so that a watcher need not believe the server: a bit
 // that changed anywhere on the way here, or a server whose picture is not its state, shows at the next key.
+// The tick alone is what the key says, where nothing has been done since its link.
 #pragma once
 
 #include <cstdint>

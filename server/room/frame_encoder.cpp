@@ -12,13 +12,6 @@ namespace {
 
 bool same_bytes(const state::Louse& a, const state::Louse& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
-}  // namespace
-
-FrameEncoder::FrameEncoder(RowLayout layout) : rows_(std::move(layout)) {
-  proves_hash_ =
-      rows_.layout().format == protocol::Format::kExact && rows_.layout().fields == protocol::all_columns();
-}
-
 /// What besides the rows went into the hash.
 void append_proof(std::string& text, const state::HashLink& link) {
   text += R"(,"previous":")" + core::to_hex(link.previous) + R"(","inputs":")" + core::to_hex(link.inputs);
@@ -26,6 +19,13 @@ void append_proof(std::string& text, const state::HashLink& link) {
   text += R"(","link":)";
   json::append_integer(text, link.tick);
   text += R"(,"generator":")" + core::to_hex(link.generator) + '"';
+}
+
+}  // namespace
+
+FrameEncoder::FrameEncoder(RowLayout layout) : rows_(std::move(layout)) {
+  proves_hash_ =
+      rows_.layout().format == protocol::Format::kExact && rows_.layout().fields == protocol::all_columns();
 }
 
 Frame FrameEncoder::key(const Scene& scene) {

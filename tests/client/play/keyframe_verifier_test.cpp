@@ -138,8 +138,17 @@ TEST_CASE("before anybody came there is no hash, and a key that shows somebody t
   match::Match match(*map, {60, 7});
   for (int k = 0; k < 10; ++k) match.advance();
   KeyVerifier verifier;
-  verifier.take(decoded(key_line(match)));
+  const protocol::Frame beginning = decoded(key_line(match));
+  verifier.take(beginning);
   CHECK(verifier.verified() == 1);
+  for (const auto word : {&state::HashLink::previous, &state::HashLink::inputs, &state::HashLink::roster,
+                          &state::HashLink::rules}) {
+    protocol::Frame forged = beginning;
+    *forged.proof.*word = 1;
+    KeyVerifier other;
+    other.take(forged);
+    CHECK(other.difference());
+  }
   protocol::Frame altered = decoded(key_line(*played()));
   altered.proof->tick = 0;
   altered.hash = 0;
