@@ -105,11 +105,14 @@ std::string unlike_players(const match::MatchState& recorded, std::vector<match:
   return joined({"players: ", both(std::to_string(recorded.players.size()), std::to_string(rerun.size()))});
 }
 
+/// Of who is in both; who is not, unlike_players() tells.
 std::string unlike_labels(const match::PlayerLabels& recorded, const match::PlayerLabels& rerun) {
-  assert(recorded.size() == rerun.size());  // the players are the same
-  const auto [a, b] = std::mismatch(recorded.begin(), recorded.end(), rerun.begin());
-  if (a == recorded.end()) return {};
-  return joined({"the name or role of player ", std::to_string(a->first), " is another"});
+  for (const auto& [player, label] : recorded) {
+    const auto own = rerun.find(player);
+    if (own != rerun.end() && own->second != label)
+      return joined({"the name or role of player ", std::to_string(player), " is another"});
+  }
+  return {};
 }
 
 }  // namespace
@@ -221,6 +224,8 @@ std::string Rerun::difference_to(const Keyframe& keyframe) const {
   const match::MatchState own = match_->state();
   assert(recorded.tick == own.tick);
   std::string found = first_difference(recorded.lice, own.lice);
+  // Before the hashes, which another name changes, too.
+  if (found.empty()) found = unlike_labels(recorded.labels, own.labels);
   const auto compare = [&](std::string_view name, std::uint64_t a, std::uint64_t b) {
     if (found.empty() && a != b) found = joined({name, ": ", both(core::to_hex(a), core::to_hex(b))});
   };
@@ -237,7 +242,6 @@ std::string Rerun::difference_to(const Keyframe& keyframe) const {
   }
   if (found.empty()) found = unlike_waiting(recorded.waiting, own.waiting);
   if (found.empty()) found = unlike_players(recorded, own.players);
-  if (found.empty()) found = unlike_labels(recorded.labels, own.labels);
   return found;
 }
 

@@ -57,7 +57,7 @@ Rests played_at_rest(Encoding encoding) {
   return rests;
 }
 
-std::string verdict_of(const std::string& bytes, unsigned jobs) {
+std::string verdict_by(const std::string& bytes, unsigned jobs) {
   const auto verification = verify(ReplaySource::of_bytes(bytes, "r.jsonl"), jobs);
   return verification ? to_text(*verification) : verification.error().text();
 }
@@ -181,7 +181,7 @@ TEST_CASE(
     "in a game that stands still, every tick is found, from either side, and as many steps by any scan") {
   for (const Encoding encoding : {Encoding::kPlain, Encoding::kZstd}) {
     const Rests rests = played_at_rest(encoding);
-    for (const unsigned jobs : {1u, 4u}) CHECK(verdict_of(rests.bytes, jobs) == "ok ticks 0 to 800\n");
+    for (const unsigned jobs : {1u, 4u}) CHECK(verdict_by(rests.bytes, jobs) == "ok ticks 0 to 800\n");
     const auto archive = opened(rests.bytes);
     const auto playback = archive->play(0);
     REQUIRE(playback);
@@ -212,8 +212,8 @@ TEST_CASE(
   for (std::size_t size = begin; size < text.size(); size = text.find('\n', size) + 1) {
     if (text.compare(size, 7, "{\"end\":") == 0) break;
     for (const std::size_t cut : {size, size + 20}) {
-      const std::string verdict = verdict_of(text.substr(0, cut), 1);
-      CHECK(verdict_of(text.substr(0, cut), 4) == verdict);
+      const std::string verdict = verdict_by(text.substr(0, cut), 1);
+      CHECK(verdict_by(text.substr(0, cut), 4) == verdict);
       REQUIRE(verdict.find("ok ticks 0 to ") == 0);
       CHECK(verdict.find("then the recording is cut off") != std::string::npos);
       const std::uint64_t reached = std::stoull(verdict.substr(14));
