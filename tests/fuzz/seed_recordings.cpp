@@ -23,6 +23,7 @@ struct Seed {
   std::string_view name;
   std::string_view map;
   std::uint64_t steps;
+  bool drives = true;  ///< else nobody does, and most steps do nothing
 };
 
 constexpr Seed kSeeds[] = {
@@ -35,6 +36,8 @@ constexpr Seed kSeeds[] = {
     {"flight",
      R"({"name":"j","terrain":{"function":"hills","scale":20},"surface":"function","physics":{"gravity":2,"contact":"unilateral","method":"cheap"},"spawns":[{"position":[0,0],"speed":30}]})",
      12},
+    {"rest", R"({"name":"r","terrain":{"spacing":2,"heights":[[0,0,0,0],[0,0,0,0],[0,0,0,0],[0,0,0,0]]}})",
+     45, false},
 };
 
 /// Lice come, steer, ask for later ticks out of order, respawn and leave.
@@ -55,7 +58,7 @@ std::string recording(const Seed& seed, replay::Encoding encoding) {
     if (step % 12 == 0) match.join({"louse", state::Role::kBot});
     if (step == 20) match.respawn(1);
     if (step == 30) match.leave(2);
-    if (step % 3 == 0) {
+    if (seed.drives && step % 3 == 0) {
       match::Input input;
       input.player = 1;
       input.seq = ++seq;
