@@ -33,6 +33,9 @@ inline constexpr int kFormatVersion = 3;
 inline constexpr std::size_t kMaxInlineMapBytes = 1u << 20;  ///< a longer map is named by hash and file
 inline constexpr std::size_t kMaxReplayLineBytes = 32u << 20;
 inline constexpr std::uint32_t kKeyframeSeconds = 5;
+/// At once, and as many players. Twice what a server takes; each join, leave and respawn costs a walk through
+/// them, and a name is kept of each.
+inline constexpr std::size_t kMaxLice = 4096;
 /// At the highest tick rate there is.
 inline constexpr std::uint64_t kMaxStepsBetweenKeyframes = std::uint64_t{kKeyframeSeconds} * 1000;
 

@@ -141,6 +141,9 @@ void read_columns(const json::Value& columns, Problems& problems) {
 }
 
 void read_player(const json::Value& value, Keyframe& keyframe, Problems& problems) {
+  if (keyframe.state.players.size() == kMaxLice)
+    return problems.add(
+        value, joined({"more than ", std::to_string(kMaxLice), " players: no server takes so many"}));
   const std::vector<json::Value> values = value.children();
   if (!value.is(json::Kind::kArray) || values.size() != 4) {
     return problems.add(value, "[player, seq, name, role] is wanted");

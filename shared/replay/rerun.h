@@ -22,9 +22,6 @@ struct Difference {
   std::string detail;      ///< from the next keyframe: louse, field, both values; or why it says nothing
 };
 
-/// At once. Twice what a server takes; each join, leave and respawn costs a walk through them.
-inline constexpr std::size_t kMaxLice = 4096;
-
 class Rerun {
  public:
   /// Errors: the keyframe is none of that map, its hash is not that of what it holds, too many lice. `place`:

@@ -1,5 +1,6 @@
 // Who joined under which name and role: the same live, recorded and re-run, and found where it was altered.
 #include <catch2/catch.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -90,7 +91,26 @@ Verification verdict_by_any(const std::string& text) {
   return *verification;
 }
 
+/// Of a keyframe with so many players, each named.
+std::string refusal_of_players(std::size_t count) {
+  match::MatchState state;
+  state.next_player = 10'000;
+  for (match::PlayerId player = 1; player <= count; ++player) {
+    state.players.push_back({player, {}});
+    state.labels[player] = {"a", state::Role::kBot};
+  }
+  std::istringstream in(state_text(state));
+  ReplayReader reader(in, "r");
+  const auto line = reader.next();
+  return line ? "no error" : line.error().text();
+}
+
 }  // namespace
+
+TEST_CASE("a keyframe has as many players as lice at the most: each of their names is kept") {
+  CHECK(refusal_of_players(kMaxLice) == "no error");
+  CHECK(refusal_of_players(kMaxLice + 1).find("players[4096]: more than 4096 players") != std::string::npos);
+}
 
 TEST_CASE("a name of any characters is the same live, recorded and re-run") {
   const std::vector<std::string> names = names_of_all_characters();
