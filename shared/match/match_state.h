@@ -15,7 +15,8 @@
 
 namespace woodlouse::match {
 
-/// Who plays a louse. The name as it is shown, cleaned where it came from outside.
+/// Who plays a louse. The name as it is shown: UTF-8 of at most 4096 bytes, or no recording has it as it was
+/// hashed; cleaned where it came from outside.
 struct PlayerLabel {
   std::string name;
   state::Role role = state::Role::kPlayer;
