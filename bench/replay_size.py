@@ -71,13 +71,14 @@ def main():
 
     steps = [json.loads(line) for part in parts for line in part if line.startswith(b'{"step"')]
     inputs = sum(len(step.get("inputs", [])) for step in steps)
+    step_count = sum(step.get("steps", 1) for step in steps)  # a line stands for many that did nothing
     if inputs == 0:
         sys.exit("no inputs in this recording")
     whole = packed(lambda line: line)
     steps_alone = packed(lambda line: line, is_no_keyframe)
     inputs_alone = packed(without_hash, is_no_keyframe)
     no_margins = packed(lambda line: without_margin(without_hash(line)), is_no_keyframe)
-    print(f"{len(steps)} steps, {inputs} inputs, {len(parts)} keyframes; zstd level {options.level}")
+    print(f"{step_count} steps, {inputs} inputs, {len(parts)} keyframes; zstd level {options.level}")
     print(f"{'':34} {'bytes':>10} {'an input':>9} {'a step':>7}")
     for name, size in (
         ("as written", os.path.getsize(options.recording)),
@@ -88,7 +89,7 @@ def main():
         ("inputs (and an empty step's line)", inputs_alone),
         ("  of these, margins", inputs_alone - no_margins),
     ):
-        print(f"{name:34} {size:10} {size / inputs:9.2f} {size / len(steps):7.1f}")
+        print(f"{name:34} {size:10} {size / inputs:9.2f} {size / step_count:7.1f}")
 
 
 if __name__ == "__main__":
