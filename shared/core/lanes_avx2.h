@@ -47,10 +47,10 @@ struct Lanes4 {
   friend Mask operator<=(Lanes4 a, Lanes4 b) { return {_mm256_cmp_pd(a.value, b.value, _CMP_LE_OQ)}; }
   friend Mask operator!=(Lanes4 a, Lanes4 b) { return {_mm256_cmp_pd(a.value, b.value, _CMP_NEQ_UQ)}; }
 
-  /// The integer part, kept within [0, last]: the index of a cell.
+  /// The integer part, kept within [0, last]: the index of a cell; of NaN 0.
   [[nodiscard]] Lanes4 cell_index(int last) const {
-    const __m128i whole = _mm256_cvttpd_epi32(value);
-    return _mm256_cvtepi32_pd(_mm_min_epi32(_mm_max_epi32(whole, _mm_setzero_si128()), _mm_set1_epi32(last)));
+    const __m256d positive = _mm256_max_pd(value, _mm256_setzero_pd());  // of NaN the second
+    return _mm256_cvtepi32_pd(_mm256_cvttpd_epi32(_mm256_min_pd(positive, _mm256_set1_pd(last))));
   }
 
   /// to[l] = base + 16 * lane l, an integer below 2^31.

@@ -41,11 +41,10 @@ struct Lanes8 {
   friend Mask operator<=(Lanes8 a, Lanes8 b) { return {_mm512_cmp_pd_mask(a.value, b.value, _CMP_LE_OQ)}; }
   friend Mask operator!=(Lanes8 a, Lanes8 b) { return {_mm512_cmp_pd_mask(a.value, b.value, _CMP_NEQ_UQ)}; }
 
-  /// The integer part, kept within [0, last]: the index of a cell.
+  /// The integer part, kept within [0, last]: the index of a cell; of NaN 0.
   [[nodiscard]] Lanes8 cell_index(int last) const {
-    const __m256i whole = _mm512_cvttpd_epi32(value);
-    return _mm512_cvtepi32_pd(
-        _mm256_min_epi32(_mm256_max_epi32(whole, _mm256_setzero_si256()), _mm256_set1_epi32(last)));
+    const __m512d positive = _mm512_max_pd(value, _mm512_setzero_pd());  // of NaN the second
+    return _mm512_cvtepi32_pd(_mm512_cvttpd_epi32(_mm512_min_pd(positive, _mm512_set1_pd(last))));
   }
 
   /// to[l] = base + 16 * lane l, an integer below 2^31.

@@ -39,10 +39,10 @@ struct Lanes1 {
   friend Mask operator<=(Lanes1 a, Lanes1 b) { return {a.value <= b.value}; }
   friend Mask operator!=(Lanes1 a, Lanes1 b) { return {a.value != b.value}; }
 
-  /// The integer part, kept within [0, last]: the index of a cell.
+  /// The integer part, kept within [0, last]: the index of a cell; of NaN 0.
   [[nodiscard]] Lanes1 cell_index(int last) const {
-    const auto whole = static_cast<long long>(value);
-    return static_cast<double>(whole < 0 ? 0 : (whole > last ? last : whole));
+    const double positive = value > 0.0 ? value : 0.0;
+    return static_cast<double>(static_cast<long long>(positive < last ? positive : last));
   }
   /// to[l] = base + 16 * lane l, an integer below 2^31.
   void store_pointers(const double* base, const double** to) const {

@@ -90,8 +90,8 @@ class BicubicSpline {
   /// cells on.
   [[nodiscard]] CellIndex cells() const { return cells_each_way_; }
   [[nodiscard, gnu::always_inline]] inline CellIndex cell_at(double x, double y) const {
-    return nearest_cell(static_cast<long long>((x - x_origin_) * inverse_dx_),
-                        static_cast<long long>((y - y_origin_) * inverse_dy_));
+    return {cell_index((x - x_origin_) * inverse_dx_, last_column_),
+            cell_index((y - y_origin_) * inverse_dy_, last_row_)};
   }
   [[nodiscard]] Rectangle bounds(CellIndex cell) const {
     const double x = x_origin_ + static_cast<double>(cell.column) * dx_;
@@ -119,6 +119,12 @@ class BicubicSpline {
   }
 
  private:
+  /// Bounded before the conversion, so that no number is too large for it; NaN gives cell 0.
+  [[gnu::always_inline]] static inline long long cell_index(double u, long long last) {
+    const double most = static_cast<double>(last);
+    const double positive = u > 0.0 ? u : 0.0;
+    return static_cast<long long>(positive < most ? positive : most);
+  }
   /// Copies the domain's cells to those stored beyond its seams; it begins at that column and row.
   void repeat_beyond_seams(std::size_t first_column, std::size_t first_row);
 

@@ -156,3 +156,12 @@ TEST_CASE("halving the spacing divides the spline's height error by 16, up to th
   const double order = std::log2(error(20) / error(80)) / 2.0;
   CHECK(order == Approx(4.0).margin(0.3));
 }
+
+TEST_CASE("a place too far for any integer is nearest to a cell at the rim, NaN to the first") {
+  const BicubicSpline spline(sample_function(FunctionName::kWavyPot, 1.0, 4));
+  const auto cell = spline.cell_at(1e300, -1e300);
+  CHECK(cell.column == spline.cells().column - 1);
+  CHECK(cell.row == 0);
+  CHECK(spline.cell_at(std::nan(""), 1e25).column == 0);
+  CHECK(spline.cell_at(std::nan(""), 1e25).row == spline.cells().row - 1);
+}
