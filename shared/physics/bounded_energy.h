@@ -1,9 +1,10 @@
-// The end of a sub-step that could not be short enough, or that lies where nobody can be: finite, within the
-// rim, and with no energy from nothing.
+// That no step makes energy. The rules of sub-steps see its start alone; so where it is not smooth
+// (nystrom.h), its gain is told by its last sample, and where that is more than may be, measured. What gains
+// is slowed down to what it may have; what gains far more is refused, and tried again over half its length.
+// The end of a step that could not be short enough is finite, within the rim, and bounded likewise.
 #pragma once
 
 #include <cmath>
-#include <optional>
 
 #include "shared/physics/central_gravity.h"
 #include "shared/physics/energy_projection.h"
@@ -13,6 +14,9 @@
 
 namespace woodlouse::physics {
 
+/// What an energy may be off by, of its terms.
+inline constexpr double kEnergyRounding = 0x1p-50;
+
 /// What a louse at rest at x would have of energy [m^2/s^2].
 template <bool kCentral>
 double potential(core::Vec2 x, double z, const state::Parameters& p) {
@@ -21,34 +25,62 @@ double potential(core::Vec2 x, double z, const state::Parameters& p) {
 }
 
 /// `end`, slowed down to the energy that the start and the drive's push over h can have given it; where it
-/// keeps its energy, brought to all of the start's. Where there is none on its way, the louse turns back
-/// where it started. Start: ground.h.
+/// keeps its energy, brought to all of the start's. Of the kinetic energies of both ends it may have gained
+/// `share`, and what doubles round. Where there is none on its way, the louse turns back where it started.
+/// Start: ground.h.
 template <bool kCentral, typename S, typename Start>
 Motion energy_bounded(const S& surface, const Rim& rim, const state::Parameters& p, const Start& start,
-                      const Drive& drive, double h, const Motion& end, bool keeps_energy) {
+                      const Drive& drive, double h, const Motion& end, bool keeps_energy, double share) {
   const Motion back{start.at.position, -start.at.velocity};
   if (!rim.admits(end.position)) return back;  // also NaN
   const core::Vec2 place = rim.inside(end.position);
-  const double speed = std::sqrt(start.speed2);
-  const double push = drive.push;  // a brake gives nothing
-  const double most = 0.5 * start.speed2 + potential<kCentral>(start.at.position, start.sample.z, p) +
-                      push * (h * speed + 0.5 * h * h * push);
   const auto s = surface.sample(place.x, place.y);
-  const double kinetic = most - potential<kCentral>(place, s.z, p);
   const double speed2 = squared_length_in_space(s, end.velocity);
-  if (!(kinetic >= 0.0) || !(speed2 < 1e300)) return back;
-  if (!keeps_energy && 0.5 * speed2 <= kinetic) return end;
+  if (!(speed2 < 1e300)) return back;
+  const double from = potential<kCentral>(start.at.position, start.sample.z, p);
+  const double to = potential<kCentral>(place, s.z, p);
+  const double climbed = to - from;
+  const double speed0 = std::sqrt(start.speed2);
+  // v1^2 = v0^2 - 2 climbed + push h (v0 + v1): a brake gives nothing.
+  const double half = 0.5 * h * drive.push;
+  const double most2 = half * half + start.speed2 - 2.0 * climbed + 2.0 * half * speed0;
+  const double slack =
+      share * (start.speed2 + speed2) + 2.0 * kEnergyRounding * (std::fabs(from) + std::fabs(to));
+  if (!(most2 > -slack)) return back;
+  const double most = half + std::sqrt(most2 > 0.0 ? most2 : 0.0);
+  if (!keeps_energy && speed2 <= most * most + slack) return end;
   if (!(speed2 > kStandstill2)) return back;
-  return {end.position, std::sqrt(2.0 * kinetic / speed2) * end.velocity};
+  return {end.position, most / std::sqrt(speed2) * end.velocity};
 }
 
-/// `end`, put right to the energy of the start (energy_projection.h); nothing where that is not near, or lies
-/// beyond a wall. Ground, Start: ground.h.
+/// What becomes of a step.
+enum class Verdict {
+  kTaken,
+  kDoubtful,  ///< taken once its energy is bounded
+  kRefused,   ///< it makes energy as no step of this motion does, and a shorter one may not
+};
+
+/// The gain of a step over h by a sample of its end, beyond a wall too.
+template <typename Ground, typename Start>
+Gain measured_gain(const Ground& ground, const Rim& rim, const Start& start, const Drive& drive, double h,
+                   const StepResult& result) {
+  const core::Vec2 end = result.end.position;
+  const core::Vec2 place = rim.wraps() ? rim.inside(end) : end;
+  return ground.gain(start, ground.site(place), end, result.end, h, most_given(drive.push, result.way));
+}
+
+/// Whether a step gains far more energy than the `share` that it may, beyond what rounds in the potential.
+inline bool is_gross(const Gain& gain, double share, double potential) {
+  return !(gain.energy <= 16.0 * share * gain.kinetic + kEnergyRounding * std::fabs(potential));
+}
+
+/// Puts `end` right to the energy of the start (energy_projection.h); false, and `end` as it was, where that
+/// is not near, or lies beyond a wall. Ground, Start: ground.h.
 template <bool kCentral, typename Ground, typename Start>
-std::optional<Motion> energy_kept(const Ground& ground, const Rim& rim, const state::Parameters& p,
-                                  const Start& start, double h, const Motion& end) {
+bool energy_kept(const Ground& ground, const Rim& rim, const state::Parameters& p, const Start& start,
+                 double h, Motion& end) {
   const double energy0 = energy(start.sample, start.at.velocity, p.gravity);
-  const auto s = ground.site(end.position);
+  const auto s = ground.site(rim.inside(end.position));
   EnergyKept<double> kept;
   if constexpr (kCentral) {
     const double climbed = central_potential(end.position, p) - central_potential(start.at.position, p);
@@ -56,8 +88,9 @@ std::optional<Motion> energy_kept(const Ground& ground, const Rim& rim, const st
   } else {
     kept = with_energy(energy0, s, end, h, p.gravity);
   }
-  if (!kept.near || !rim.lets_pass(kept.end.position)) return std::nullopt;
-  return kept.end;
+  if (!kept.near || !rim.lets_pass(kept.end.position)) return false;
+  end = kept.end;
+  return true;
 }
 
 }  // namespace woodlouse::physics

@@ -1,5 +1,7 @@
 #include "shared/physics/central_gravity.h"
 
+#include "shared/physics/sub_step_rules.h"
+
 namespace woodlouse::physics {
 namespace {
 

@@ -19,10 +19,6 @@
 
 namespace woodlouse::physics {
 
-/// What the sub-step rules (sub_step_rules.h) leave of an orbit's phase to a sub-step, h sqrt(pull), and how
-/// many sub-steps a tick has.
-inline constexpr double kOrbit = 0.05;
-inline constexpr double kMaxSubSteps = 256.0;
 /// The pull per distance in the middle of a core of radius 1 at k = 1.
 inline constexpr double kCorePull = 35.0 / 8.0;
 

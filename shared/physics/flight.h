@@ -32,9 +32,15 @@ struct Flight {
 };
 
 /// Where in a step of h the normal force ends, that is there no more at the step's end: again(t) is the step
-/// over t, load(Motion) the force's sign. The last result that was asked for; h becomes its length.
+/// over t, load(Motion) the force's sign. The last result that was asked for; h becomes its length. Where it
+/// is due at the start, there, with that heading.
 template <typename Load, typename Again>
-StepResult last_contact(double& h, const Load& load, const Again& again) {
+StepResult last_contact(const Motion& start, double& h, core::Vec2 heading, const Load& load,
+                        const Again& again) {
+  if (!(load(start) > 0.0)) {
+    h = 0.0;
+    return {start, 0.0, 0.0, heading};
+  }
   double low = 0.0;
   double high = h;
   for (int i = 0; i < 50; ++i) {
@@ -127,21 +133,23 @@ class Flyer {
     Flight end = after(flight, remaining);
     if (!rim_.admits(end.over.position)) end.over.position = flight.over.position;  // also NaN
     end.over.position = rim_.inside(end.over.position);
-    const auto s = surface_.sample(end.over.position.x, end.over.position.y);
-    landed = !(end.height > s.z);
-    if (!landed) return end;
-    const core::Vec2 v0 = flight.over.velocity;
-    const double most =
-        0.5 * (dot(v0, v0) + flight.climb * flight.climb) + parameters_.gravity * flight.height;
-    core::Vec2 v = landed_velocity(s, end);
-    const double kinetic = most - parameters_.gravity * s.z;
+    landed = !(clearance(end) > 0.0);
+    return landed ? landing(flight, end) : end;
+  }
+
+  /// On the ground where a flight ends, or below where it ends: with what a landing leaves of its velocity
+  /// and no more energy than it had. Where the ground lies higher than that leads, it falls back to where it
+  /// began, at rest.
+  [[nodiscard]] Flight landing(const Flight& start, const Flight& end) const {
+    const auto s = sample_at(end.over.position);
+    const double climbed = parameters_.gravity * (s.z - end.height);
+    const core::Vec2 v = landed_velocity(s, end);
+    const double before = dot(end.over.velocity, end.over.velocity) + end.climb * end.climb;
     const double speed2 = squared_length_in_space(s, v);
-    if (!(kinetic > 0.0)) {
-      v = {};
-    } else if (0.5 * speed2 > kinetic) {
-      v = std::sqrt(2.0 * kinetic / speed2) * v;
-    }
-    return {{end.over.position, v}, s.z, 0.0};
+    const double most2 = before - 2.0 * climbed;
+    if (speed2 <= most2) return {{end.over.position, v}, s.z, 0.0};
+    if (most2 >= 0.0 && speed2 > 0.0) return {{end.over.position, std::sqrt(most2 / speed2) * v}, s.z, 0.0};
+    return {{start.over.position, {}}, sample_at(start.over.position).z, 0.0};
   }
 
   /// The length of the way through the air [m]: Simpson's rule, order 4.
@@ -162,9 +170,8 @@ class Flyer {
             f.climb - g * t};
   }
 
-  [[nodiscard]] double clearance(const Flight& f) const {
-    return f.height - surface_.sample(f.over.position.x, f.over.position.y).z;
-  }
+  [[nodiscard]] auto sample_at(core::Vec2 x) const { return surface_.sample(x.x, x.y); }
+  [[nodiscard]] double clearance(const Flight& f) const { return f.height - sample_at(f.over.position).z; }
 
   const S& surface_;
   const state::Parameters& parameters_;
@@ -174,9 +181,10 @@ class Flyer {
 
 /// A louse leaves the ground at `end`.
 template <terrain::Surface S>
-[[gnu::always_inline]] inline void begin_flight(const S& surface, const Motion& end, state::Louse& louse,
-                                                StepCounters& counters) {
-  const Flight flight = taken_off(surface.sample(end.position.x, end.position.y), end);
+[[gnu::always_inline]] inline void begin_flight(const S& surface, const Rim& rim, const Motion& end,
+                                                state::Louse& louse, StepCounters& counters) {
+  const core::Vec2 place = rim.inside(end.position);
+  const Flight flight = taken_off(surface.sample(place.x, place.y), end);
   louse.phase = state::Phase::kFlying;
   louse.flight_z = flight.height;
   louse.flight_vz = flight.climb;
@@ -200,8 +208,8 @@ template <terrain::Surface S>
   louse.flight_z = flight.height;
   louse.flight_vz = flight.climb;
   if (piece.landed) {
-    at.position = flyer.rim().inside(at.position);
-    at.velocity = landed_velocity(flyer.surface().sample(at.position.x, at.position.y), flight);
+    at = flyer.landing(start, {{flyer.rim().inside(at.position), at.velocity}, flight.height, flight.climb})
+             .over;
     louse.phase = state::Phase::kMoving;
     louse.flight_z = louse.flight_vz = 0.0;
   }

@@ -78,6 +78,17 @@ class Ground {
     return potential<F::central>(x, s.z, parameters_);
   }
 
+  /// What a step over h to `end` has gained, to which a push gave `given`; as a sample tells that was taken
+  /// at `place`, at its end or near it.
+  [[nodiscard, gnu::always_inline]] inline Gain gain(const Start& start, const Site& s, core::Vec2 place,
+                                                     const Motion& end, double h, double given) const {
+    const core::Vec2 from = start.at.position;
+    if (F::central && parameters_.central_gravity > 0.0)
+      given = given + central_potential(from, parameters_) - central_potential(end.position, parameters_);
+    return energy_gain(start.sample.z, start.speed2, end.position - from, s, end.position - place,
+                       end.velocity, h, parameters_.gravity, given);
+  }
+
   /// v after the implicit half kick v' = v + k a(s, v').
   [[nodiscard]] core::Vec2 kick(const Site& s, core::Vec2 v, double k, const Drive& drive,
                                 Contact contact) const requires E::kExact {
@@ -130,6 +141,27 @@ class Ground {
       v = x ? react_x(start.sample, v, 1.0) : react_y(start.sample, v, 1.0);
     }
     start.contact = leans;
+  }
+
+  /// What a sub-step from there begins with: the surface's sample, the walls it leans on, a1. Who runs into a
+  /// wall is thrown back first, and `bounces` set. kRules: who is slower than can be told stands still.
+  template <bool kRules>
+  Start depart(const Motion& at, Drive& drive, const Rim& rim, double restitution, bool& bounces) const {
+    Start start;
+    start.at = at;
+    start.sample = site(at.position);
+    start.contact = rim.touching(at.position);
+    if (start.contact.any()) {
+      bounces = bounce(start, drive, restitution);
+      lean_on(start, drive, rim);
+    }
+    start.speed2 = squared_length_in_space(start.sample, start.at.velocity);
+    if (kRules && !(start.speed2 > kStandstill2)) {
+      start.at.velocity = {};
+      start.speed2 = 0.0;
+    }
+    start.acceleration = accelerate(start.sample, start.at.velocity, drive, start.contact);
+    return start;
   }
 
  private:
@@ -193,15 +225,10 @@ struct Field {
     return ground.kick(s, v, k, drive, start.contact);
   }
 
-  /// What energy a motion has gained since the start beyond what the push can have given it on that way, of
-  /// the kinetic energies of both.
-  [[nodiscard]] double gain(const typename Ground::Site& s, const Motion& end, double way) const {
-    const double before = 0.5 * start.speed2;
-    const double after = 0.5 * squared_length_in_space(s, end.velocity);
-    const double climbed =
-        ground.potential_at(end.position, s) - ground.potential_at(start.at.position, start.sample);
-    const double gained = after - before + climbed - drive.push * way;
-    return before + after > 0.0 ? gained / (before + after) : 0.0;
+  /// A step's gain of energy, as a sample tells that was taken at `place`, at its end or near it.
+  [[nodiscard, gnu::always_inline]] inline Gain gain(const typename Ground::Site& s, core::Vec2 place,
+                                                     const Motion& end, double way, double h) const {
+    return ground.gain(start, s, place, end, h, most_given(drive.push, way));
   }
 
   /// Whether the drive acts along a heading that turns; then the same with that heading.

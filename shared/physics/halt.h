@@ -36,6 +36,18 @@ template <typename Ground>
   return is_held(start, ground.balance(start, drive));
 }
 
+/// Where a louse halts that slows down evenly over `half` seconds twice; where it stands, if what it has and
+/// what `push` gives it on the way does not lead that high.
+template <typename Ground>
+[[nodiscard]] core::Vec2 halting_place(const Ground& ground, const Rim& rim,
+                                       const typename Ground::Start& start, double half, double push) {
+  const core::Vec2 from = start.at.position;
+  const core::Vec2 place = rim.stopped(from + half * start.at.velocity);
+  const double climbed =
+      ground.potential_at(place, ground.site(place)) - ground.potential_at(from, start.sample);
+  return climbed <= 0.5 * start.speed2 + push * half * std::sqrt(start.speed2) ? place : rim.stopped(from);
+}
+
 /// At v = 0: the acceleration out of rest, friction opposing the motion about to begin. False: it is held.
 template <typename Ground>
 bool set_off(const Ground& ground, typename Ground::Start& start, const Drive& drive) {

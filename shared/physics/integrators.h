@@ -51,14 +51,14 @@ struct VerletQ {
     const double way = h * std::sqrt(speed2);
     if (!field.turns()) {
       const core::Vec2 v = field.kick(s, half, k);
-      return {{x, v}, h, way, {}, field.gain(s, {x, v}, way)};
+      return {{x, v}, h, way, {}, field.gain(s, x, {x, v}, way, h)};
     }
     // The midpoint rule.
     const core::Vec2 h1 = field.heading();
     const core::Vec2 middle = h1 + k * heading_rate(h1, start.at.velocity);
     const core::Vec2 heading = unit(h1 + h * heading_rate(middle, half));
     const core::Vec2 v = field.kick(s, half, k, heading);
-    return {{x, v}, h, way, heading, field.gain(s, {x, v}, way)};
+    return {{x, v}, h, way, heading, field.gain(s, x, {x, v}, way, h)};
   }
 };
 
@@ -71,17 +71,33 @@ struct Nystrom4 {
   [[gnu::always_inline]] inline StepResult step(const Start& start, const Field& field, double h) const {
     const auto sample = [&](core::Vec2 x) { return field.sample(x); };
     if (field.turns()) return turning_step(start, field, h, sample);
-    return nystrom4(start.at, start.acceleration, h, sample,
-                    [&](const auto& s, core::Vec2 v) { return field.accelerate(s, v); });
+    return straight_step(start, field, h, sample);
   }
 
   /// sample(x): the surface.
+  template <typename Start, typename Field, typename Sample>
+  [[gnu::always_inline]] static inline StepResult straight_step(const Start& start, const Field& field,
+                                                                double h, const Sample& sample) {
+    return nystrom4(
+        start.at, start.acceleration, h, sample,
+        [&](const auto& s, core::Vec2 v) { return field.accelerate(s, v); }, gain_of(field, h));
+  }
+
   template <typename Start, typename Field, typename Sample>
   [[gnu::noinline]] static StepResult turning_step(const Start& start, const Field& field, double h,
                                                    const Sample& sample) {
     return nystrom4_turning(
         start.at, field.heading(), start.acceleration, h, sample,
-        [&](const auto& s, core::Vec2 v, core::Vec2 heading) { return field.accelerate(s, v, heading); });
+        [&](const auto& s, core::Vec2 v, core::Vec2 heading) { return field.accelerate(s, v, heading); },
+        gain_of(field, h));
+  }
+
+ private:
+  template <typename Field>
+  [[gnu::always_inline]] static inline auto gain_of(const Field& field, double h) {
+    return [&field, h](const auto& s, core::Vec2 place, const Motion& end, double way) {
+      return field.gain(s, place, end, way, h);
+    };
   }
 };
 

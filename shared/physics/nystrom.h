@@ -8,6 +8,8 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
+#include <type_traits>
 
 #include "shared/core/lanes.h"
 #include "shared/core/vec2.h"
@@ -48,36 +50,98 @@ template <typename T>
           start.velocity + sixth * (a1 + T(2.0) * (a2 + a3) + a4)};
 }
 
+/// What a step has of energy beyond what it may have, per unit mass [m^2/s^2].
+template <typename T>
+struct BasicGain {
+  T energy;   ///< gained beyond what the push gave on the way; infinite or NaN where that can't be told
+  T kinetic;  ///< the kinetic energies of both ends together, what a gain is measured by
+  [[nodiscard]] bool is_told() const requires std::is_same_v<T, double> { return !(kinetic < 0.0); }
+};
+using Gain = BasicGain<double>;
+
+/// The gain of a step over h from a place of height z0 at |v|3^2 = speed2 to `end`, moved by `moved`, to
+/// which a push gave `given`; as the sample s tells, that was taken `beyond` before the end: by its second
+/// order, which holds only near there.
+template <typename Sample, typename T>
+[[gnu::always_inline]] inline BasicGain<T> energy_gain(T z0, T speed2, core::Pair<T> moved, const Sample& s,
+                                                       core::Pair<T> beyond, core::Pair<T> velocity, T h,
+                                                       double gravity, T given) {
+  T zx = s.zx, zy = s.zy;
+  T climbed;
+  auto near = given <= given;
+  if constexpr (terrain::Curved<Sample>) {
+    const core::Pair<T> turned = curvature_times(s, beyond);
+    zx = zx + turned.x;
+    zy = zy + turned.y;
+    climbed = s.z - z0 + T(0.5) * ((s.zx + zx) * beyond.x + (s.zy + zy) * beyond.y);
+  } else {
+    climbed = zx * moved.x + zy * moved.y;
+  }
+  const T climb = zx * velocity.x + zy * velocity.y;
+  const T before = T(0.5) * speed2;
+  const T after = T(0.5) * (dot(velocity, velocity) + climb * climb);
+  const T kinetic = before + after;
+  constexpr double kNear = 0x1p-5;  // of the way
+  if constexpr (terrain::Curved<Sample>)
+    near = dot(beyond, beyond) <= T(2.0 * kNear * kNear) * (h * h) * kinetic;
+  const T energy = after - before + T(gravity) * climbed - given;
+  return {core::select(near, energy, T(std::numeric_limits<double>::infinity())), kinetic};
+}
+
+/// The most that a push gives on a way in space [m^2/s^2]: by the speed in the middle, and the little that
+/// this errs.
+template <typename T>
+[[gnu::always_inline]] inline T most_given(T push, T way) {
+  return push * way * T(1.0 + 0x1p-8);
+}
+
+/// Whether the acceleration bends so little within a step that it gains no energy worth a look: by its second
+/// difference; v4: the velocity of the last stage.
+template <typename T>
+[[gnu::always_inline]] inline auto nystrom_is_smooth(core::Pair<T> a1, core::Pair<T> a2, core::Pair<T> a3,
+                                                     core::Pair<T> a4, core::Pair<T> v4, T h) {
+  constexpr double kSmooth = 1e-3;  // of v
+  const core::Pair<T> bend = (a1 - a2) + (a4 - a3);
+  return (h * h) * dot(bend, bend) <= T(kSmooth * kSmooth) * dot(v4, v4);
+}
+/// Of a step that is smooth.
+inline constexpr Gain kNoGain{0.0, 1.0};
+
 /// What a step leads to.
 struct StepResult {
   Motion end;
-  double used = 0.0;   ///< [s], 0 < used <= h: all of the step, or up to where the integrator chose to stop
-  double way = 0.0;    ///< in space [m]
-  core::Vec2 heading;  ///< where it turns along (heading.h)
-  double gain =
-      0.0;  ///< of energy beyond what the push gave, in kinetic energies; only of methods that tell it
+  double used = 0.0;     ///< [s], 0 < used <= h: all of the step, or up to where the integrator chose to stop
+  double way = 0.0;      ///< in space [m]
+  core::Vec2 heading;    ///< where it turns along (heading.h)
+  Gain gain{0.0, -1.0};  ///< only of methods that tell it
 };
 
 /// The step at one go; lanes/kernel.h makes it in stages. sample(x) gives the surface, accelerate(sample,
-/// velocity) the acceleration; a1 is that of the start.
-template <typename Sample, typename Accelerate>
+/// velocity) the acceleration; a1 is that of the start. gain(sample, its place, end, way) tells the Gain.
+template <typename Sample, typename Accelerate, typename TellGain>
 [[gnu::always_inline]] inline StepResult nystrom4(const Motion& start, core::Vec2 a1, double h,
-                                                  const Sample& sample, const Accelerate& accelerate) {
+                                                  const Sample& sample, const Accelerate& accelerate,
+                                                  const TellGain& gain) {
   const core::Vec2 v = start.velocity;
   const double half = 0.5 * h;
   const auto s2 = sample(nystrom_middle(start, a1, h));
   const core::Vec2 a2 = accelerate(s2, v + half * a1);
   const core::Vec2 middle = v + half * a2;
   const core::Vec2 a3 = accelerate(s2, middle);
-  const auto s4 = sample(nystrom_last(start, a3, h));
-  const core::Vec2 a4 = accelerate(s4, v + h * a3);
-  return {nystrom_end(start, a1, a2, a3, a4, h), h, h * std::sqrt(squared_length_in_space(s2, middle)), {}};
+  const core::Vec2 x4 = nystrom_last(start, a3, h);
+  const auto s4 = sample(x4);
+  const core::Vec2 v4 = v + h * a3;
+  const core::Vec2 a4 = accelerate(s4, v4);
+  const Motion end = nystrom_end(start, a1, a2, a3, a4, h);
+  const double way = h * std::sqrt(squared_length_in_space(s2, middle));
+  const bool smooth = nystrom_is_smooth(a1, a2, a3, a4, v4, h);
+  return {end, h, way, {}, smooth ? kNoGain : gain(s4, x4, end, way)};
 }
 
 /// The same where the heading turns along: accelerate(sample, velocity, heading).
-template <typename Sample, typename Accelerate>
+template <typename Sample, typename Accelerate, typename TellGain>
 StepResult nystrom4_turning(const Motion& start, core::Vec2 heading, core::Vec2 a1, double h,
-                            const Sample& sample, const Accelerate& accelerate) {
+                            const Sample& sample, const Accelerate& accelerate, const TellGain& gain) {
   const core::Vec2 v = start.velocity;
   const double half = 0.5 * h;
   const core::Vec2 r1 = heading_rate(heading, v);
@@ -90,13 +154,16 @@ StepResult nystrom4_turning(const Motion& start, core::Vec2 heading, core::Vec2 
   const core::Vec2 h3 = heading + half * r2;
   const core::Vec2 a3 = accelerate(s2, v3, h3);
   const core::Vec2 r3 = heading_rate(h3, v3);
-  const auto s4 = sample(nystrom_last(start, a3, h));
+  const core::Vec2 x4 = nystrom_last(start, a3, h);
+  const auto s4 = sample(x4);
   const core::Vec2 v4 = v + h * a3;
   const core::Vec2 h4 = heading + h * r3;
   const core::Vec2 a4 = accelerate(s4, v4, h4);
   const core::Vec2 r4 = heading_rate(h4, v4);
-  return {nystrom_end(start, a1, a2, a3, a4, h), h, h * std::sqrt(squared_length_in_space(s2, v3)),
-          heading_end(heading, r1, r2, r3, r4, h)};
+  const Motion end = nystrom_end(start, a1, a2, a3, a4, h);
+  const double way = h * std::sqrt(squared_length_in_space(s2, v3));
+  const bool smooth = nystrom_is_smooth(a1, a2, a3, a4, v4, h);
+  return {end, h, way, heading_end(heading, r1, r2, r3, r4, h), smooth ? kNoGain : gain(s4, x4, end, way)};
 }
 
 }  // namespace woodlouse::physics

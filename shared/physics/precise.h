@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "shared/physics/integrators.h"
 #include "shared/physics/rim.h"
@@ -29,18 +30,22 @@ class Precise {
     } else {
       if (!known_) cell_ = spline.cell_at(start.at.position.x, start.at.position.y);
       const auto sample = [&](core::Vec2 x) { return field.at(spline.sample_in(cell_, x.x, x.y), x); };
-      const auto accelerate = [&](const auto& s, core::Vec2 v) { return field.accelerate(s, v); };
       const auto run = [&](double t) {
         return field.turns() ? Nystrom4::turning_step(start, field, t, sample)
-                             : nystrom4(start.at, start.acceleration, t, sample, accelerate);
+                             : Nystrom4::straight_step(start, field, t, sample);
       };
+      const terrain::Rectangle cell = spline.bounds(cell_);
       const StepResult whole = run(h);
-      const Exit exit = first_exit(spline.bounds(cell_), start.at, whole.end, h);
+      const Exit exit = first_exit(cell, start.at, whole.end, h);
       next_ = cell_;
       if (exit.columns == 0 && exit.rows == 0) return whole;
       next_ = {cell_.column + exit.columns, cell_.row + exit.rows};
       // Never a step of nothing: the line it starts on is behind it.
-      return run(std::max(exit.time, 1e-9 * h));
+      StepResult result = run(std::max(exit.time, 1e-9 * h));
+      // The cell's polynomial says nothing of what lies beyond it, but for the little that the line is missed
+      // by.
+      if (!is_near(cell, result.end.position)) result.gain.energy = std::numeric_limits<double>::infinity();
+      return result;
     }
   }
 
@@ -71,6 +76,13 @@ class Precise {
   struct Way {
     double from, from_velocity, to, to_velocity;
   };
+
+  static bool is_near(const terrain::Rectangle& box, core::Vec2 p) {
+    constexpr double kNear = 1e-3;  // of its sides
+    const double x = kNear * (box.x_max - box.x_min);
+    const double y = kNear * (box.y_max - box.y_min);
+    return p.x >= box.x_min - x && p.x <= box.x_max + x && p.y >= box.y_min - y && p.y <= box.y_max + y;
+  }
 
   /// When the cubic through these ends reaches `line`, which its end lies beyond: Newton's method from that
   /// end, inside a bracket. It doubles its digits with each turn, so one that moved by kNear is as exact as

@@ -50,6 +50,8 @@ class Rim {
   [[nodiscard]] double tolerance() const { return tolerance_; }
   /// Whether no wall is met on the way to p.
   [[nodiscard]] bool lets_pass(core::Vec2 p) const { return walls_.contains(p.x, p.y); }
+  /// Whether p is not beyond a seam.
+  [[nodiscard]] bool is_here(core::Vec2 p) const { return !wraps() || interior_.contains(p.x, p.y); }
   [[nodiscard]] Contact touching(core::Vec2 p) const { return physics::touching(walls_, p); }
   /// Whether p can be made a position again: within the walls, or not absurdly many periods away. False for
   /// NaN.

@@ -2,16 +2,14 @@
 // (sub_step_rules.h), the friction stop (halt.h), the walls (rim.h, walls.h) and flight (flight.h). ground.h:
 // what acts on the louse.
 //
-// A sub-step is halved at most to 1/256 of the tick; one that wanted to be shorter still is counted, and its
-// energy bounded. After kMaxSubSteps sub-steps and pieces of flight, or kMaxEvents walls, stops, take-offs
-// and landings, what is left of the tick is one such step. The moment of an event is located within its
-// sub-step, and the rest of the tick goes on from there; after kMaxBounces in a tick a louse keeps no
-// velocity into a wall. A sub-step runs over a seam (the surface goes on beyond it), and then the louse is at
-// the opposite rim.
+// A sub-step is halved at most to 1/256 of the tick; one that wanted to be shorter still is counted. After
+// kMaxSubSteps sub-steps and pieces of flight, or kMaxEvents walls, stops, take-offs and landings, what is
+// left of the tick is one such step. No step makes energy (bounded_energy.h). The moment of an event is
+// located within its sub-step, and the rest of the tick goes on from there; after kMaxBounces in a tick a
+// louse keeps no velocity into a wall. Over a seam a sub-step runs on, then the louse is at the other rim.
 #pragma once
 
 #include <cmath>
-#include <optional>
 
 #include "shared/physics/bounded_energy.h"
 #include "shared/physics/flight.h"
@@ -76,7 +74,6 @@ class Stepper {
   static constexpr bool kMayKeepEnergy = E::kExact && I::kKeepsEnergy && (kCurved || F::central);
   static constexpr int kMaxBounces = 8;
   static constexpr int kMaxEvents = 64;
-  static constexpr double kMaxGain = 2e-4;  // of the kinetic energy, by a step
 
   /// A louse on its way through what is left of the tick: the locals of run(), which so can stay in
   /// registers.
@@ -88,14 +85,8 @@ class Stepper {
     double& remaining;  ///< [s]
     int& bounces;       ///< so far, in this tick
     int& events;        ///< likewise
+    double& longest;    ///< of the next sub-step [s]
     I& integrator;
-  };
-
-  /// A sub-step on the ground.
-  struct SubStep {
-    double h;      ///< [s]
-    double speed;  ///< |v|3 at its start [m/s]
-    bool capped;   ///< it wanted to be shorter
   };
 
   /// See finish(). Inlined where lice are stepped one after the other.
@@ -104,8 +95,9 @@ class Stepper {
     Drive drive = drive_of(louse);
     Motion at{louse.position, louse.velocity};
     int bounces = 0, events = 0;
+    double longest = tick_;
     I integrator;
-    const Way way{louse, counters, drive, at, remaining, bounces, events, integrator};
+    const Way way{louse, counters, drive, at, remaining, bounces, events, longest, integrator};
     for (int piece = pieces; remaining > 0.0; ++piece) {
       if (piece >= static_cast<int>(kMaxSubSteps) || events >= kMaxEvents) {
         run_out(way);
@@ -146,7 +138,7 @@ class Stepper {
       ++way.counters.sub_steps;
       way.counters.samples += I::kSamples;
       way.louse.distance += way.remaining * std::sqrt(start.speed2);
-      way.at = bounded(start, way.drive, way.remaining, result.end);
+      way.at = bounded(start, way.drive, {way.remaining, 0.0, true}, result.end);
       way.at.position = rim_.inside(way.at.position);
     }
     follow(way);
@@ -167,39 +159,39 @@ class Stepper {
       way.louse.phase = state::Phase::kResting;
       return false;
     }
-    SubStep step = choose(start, way.drive, way.remaining);
+    SubStep step = choose(start, way.drive, way.remaining < way.longest ? way.remaining : way.longest);
     ++way.counters.sub_steps;
     const bool turns_with_v = kRules && (F::friction || (F::thrust && way.drive.along < 0.0));
     if (turns_with_v && start.speed2 > 0.0 && turns_too_far(rules_, start, way.drive, step.h)) {
       const Turning turning = limit_turn(rules_, start, way.drive, step.speed, step.h);
       step.h = turning.h;
       const Halt halt = halts(ground_, start, turning, way.drive);
-      if (halt != Halt::kNo) return come_to_halt(way, turning, halt);
+      if (halt != Halt::kNo) return come_to_halt(way, start, turning, halt);
     }
     integrate(Field{ground_, start, way.drive}, way, step);
     return true;
   }
 
-  /// The longest of remaining, its half, its quarter ... that the rules allow.
+  /// The longest of h, its half, its quarter ... that the rules allow.
   [[nodiscard, gnu::always_inline]] inline SubStep choose(const Start& start, const Drive& drive,
-                                                          double remaining) const {
-    double h = remaining;
+                                                          double h) const {
     while (kRules && h > rules_.shortest() && is_too_long(start, drive, h)) h = rules_.halved(h);
     const bool capped = kRules && h <= rules_.shortest() && is_too_long(start, drive, h);
     return {h, std::sqrt(start.speed2), capped};
   }
 
   /// Slows the louse down to v = 0, as far as the tick lasts. False: it rests there.
-  [[gnu::always_inline]] inline bool come_to_halt(const Way& way, const Turning& turning, Halt halt) const {
+  [[gnu::always_inline]] inline bool come_to_halt(const Way& way, const Start& start, const Turning& turning,
+                                                  Halt halt) const {
     const auto [speed, rate, h, resolved] = turning;
     const double time = speed < -rate * way.remaining ? -speed / rate : way.remaining;
     way.louse.distance += 0.5 * time * speed;
     if (!way.drive.turns) way.louse.heading = unit(way.at.velocity);
-    way.at = {rim_.stopped(way.at.position + (0.5 * time) * way.at.velocity), {}};
+    way.at = {halting_place(ground_, rim_, start, 0.5 * time, way.drive.push), {}};
     way.remaining -= time;
     way.integrator = I{};
     ++way.events;
-    ++way.counters.samples;
+    way.counters.samples += 2;
     // It may have stopped where it is not held, unlike where this step began.
     if (halt == Halt::kTurnsBack || !holds_at(ground_, rim_, way.at.position, way.drive)) return true;
     way.louse.phase = state::Phase::kResting;
@@ -207,15 +199,20 @@ class Stepper {
     return false;
   }
 
-  /// The integrator's step, up to where it meets a wall or takes off.
+  /// The integrator's step, up to where it meets a wall or takes off. One that makes energy is not taken, but
+  /// tried again over half of it.
   [[gnu::always_inline]] inline void integrate(const Field& field, const Way& way, SubStep step) const {
     StepResult result = take_step(field, way, step.h);
     step.h = step.h == result.used ? step.h : result.used;
-    const bool hits = put_right(field, way, step, result);
+    const Verdict verdict = judge(field, way, step, result);
+    way.longest = verdict == Verdict::kRefused ? rules_.halved(step.h) : tick_;
+    if (verdict == Verdict::kRefused) return;
+    const bool hits = meets_wall(field, way, step, result);
     bool flies = false;
     if constexpr (E::kExact) flies = unilateral_ && takes_off(field, way, step.h, result);
-    if (flies && step.capped) result.end = bounded(field.start, way.drive, step.h, result.end);
-    if (flies) begin_flight(surface_, result.end, way.louse, way.counters);
+    if (verdict == Verdict::kDoubtful || (kRules && (hits || flies)))
+      result.end = bounded(field.start, way.drive, step, result.end);
+    if (flies) begin_flight(surface_, rim_, result.end, way.louse, way.counters);
     if (hits || flies) ++way.events;
     if constexpr (requires { way.integrator.accept(hits); }) {
       way.integrator.accept(hits || step.capped || flies);
@@ -233,40 +230,46 @@ class Stepper {
     return way.integrator.step(field.start, field, h);
   }
 
-  /// The end within the walls and with no more energy than it may have; whether a wall is met, where step.h
-  /// then ends.
-  [[gnu::always_inline]] inline bool put_right(const Field& field, const Way& way, SubStep& step,
-                                               StepResult& result) const {
+  /// Looks at a step's energy; puts the end right where that is known.
+  [[gnu::always_inline]] inline Verdict judge(const Field& field, const Way& way, const SubStep& step,
+                                              StepResult& result) const {
     const Start& start = field.start;
     Motion& end = result.end;
     if (step.capped) {
       ++way.counters.capped;
-      end = bounded(start, way.drive, step.h, end);
+      end = bounded(start, way.drive, step, end);
+      return Verdict::kTaken;
     }
-    const bool hits = !rim_.lets_pass(end.position);
-    if (hits) {
-      Motion reached = end;
-      step.h = rim_.reach(step.h, reached, [&](double t) {
-        result = take_step(field, way, t);
-        return result.end;
-      });
-      end = reached;
-      if (step.capped) end = bounded(start, way.drive, step.h, end);
-    }
+    const Verdict makes_it = step.h > rules_.shortest() ? Verdict::kRefused : Verdict::kDoubtful;
     if constexpr (kMayKeepEnergy) {
-      if (keeps_energy(way.drive) && !step.capped && !start.contact.any()) {
-        const std::optional<Motion> kept =
-            hits ? std::nullopt : energy_kept<F::central>(ground_, rim_, parameters_, start, step.h, end);
-        end = kept ? *kept : bounded(start, way.drive, step.h, end);
+      if (brings_to_energy(start, way.drive)) {
+        if (!rim_.lets_pass(end.position)) return Verdict::kDoubtful;
+        const bool kept = energy_kept<F::central>(ground_, rim_, parameters_, start, step.h, end);
+        return kept ? Verdict::kTaken : makes_it;
       }
     }
-    // A method that has no such end may gain by a step no more than it says; where sub-steps vary along an
-    // orbit, none.
-    if constexpr (kRules && !I::kKeepsEnergy) {
-      const bool kept = F::central && step.h < tick_ && keeps_energy(way.drive) && result.gain != 0.0;
-      if (kept || result.gain > kMaxGain) end = bounded(start, way.drive, step.h, end);
-    }
-    return hits;
+    if (!kRules || !result.gain.is_told()) return Verdict::kTaken;
+    const double share = bearable_gain(step.h);
+    // Where sub-steps vary along an orbit, no method's own energy stays bounded.
+    const bool varies = !I::kKeepsEnergy && F::central && step.h < tick_ && keeps_energy(way.drive);
+    const Verdict fair = varies ? Verdict::kDoubtful : Verdict::kTaken;
+    if (result.gain.energy <= share * result.gain.kinetic && rim_.is_here(end.position)) return fair;
+    ++way.counters.samples;
+    const Gain gain = measured_gain(ground_, rim_, start, way.drive, step.h, result);
+    if (gain.energy <= share * gain.kinetic) return fair;
+    return is_gross(gain, share, ground_.potential_at(start.at.position, start.sample)) ? makes_it
+                                                                                        : Verdict::kDoubtful;
+  }
+
+  /// Whether a wall is met, where step.h and the result then end.
+  [[gnu::always_inline]] inline bool meets_wall(const Field& field, const Way& way, SubStep& step,
+                                                StepResult& result) const {
+    if (rim_.lets_pass(result.end.position)) return false;
+    step.h = rim_.reach(step.h, result.end, [&](double t) {
+      result = take_step(field, way, t);
+      return result.end;
+    });
+    return true;
   }
 
   /// Over a seam, a louse goes on at the opposite rim.
@@ -279,26 +282,15 @@ class Stepper {
     return F::thrust ? physics::drive_of<kTurns>(louse, parameters_.thrust_max) : Drive{};
   }
 
-  /// Samples the surface, lets the louse bounce off a wall it is about to leave through, finds a1.
+  /// What a step's start is; a wall that the louse runs into throws it back before.
   Start begin(const Way& way) const {
-    Start start;
-    start.at = way.at;
-    start.sample = ground_.site(start.at.position);
-    start.contact = rim_.touching(start.at.position);
-    if (start.contact.any()) {
-      const double restitution = way.bounces < kMaxBounces ? parameters_.edge_restitution : 0.0;
-      if (ground_.bounce(start, way.drive, restitution)) {
-        ++way.bounces;
-        ++way.counters.bounces;
-      }
-      ground_.lean_on(start, way.drive, rim_);
+    const double restitution = way.bounces < kMaxBounces ? parameters_.edge_restitution : 0.0;
+    bool bounces = false;
+    const Start start = ground_.template depart<kRules>(way.at, way.drive, rim_, restitution, bounces);
+    if (bounces) {
+      ++way.bounces;
+      ++way.counters.bounces;
     }
-    start.speed2 = squared_length_in_space(start.sample, start.at.velocity);
-    if (kRules && !(start.speed2 > kStandstill2)) {
-      start.at.velocity = {};
-      start.speed2 = 0.0;
-    }
-    start.acceleration = ground_.accelerate(start.sample, start.at.velocity, way.drive, start.contact);
     ++way.counters.samples;
     return start;
   }
@@ -311,19 +303,15 @@ class Stepper {
     return rules_.too_long(start.sample, start.speed2, h);
   }
 
-  /// Whether the normal force ends within the sub-step; then h and result become those of that moment.
+  /// Whether the normal force ends within the sub-step; h and result then are those of that moment.
   bool takes_off(const Field& field, const Way& way, double& h, StepResult& result) const {
     const Start& start = field.start;
     const auto load = [&](const Motion& m) {
       return ground_.load(ground_.site(m.position), m.velocity, way.drive, start.contact);
     };
     if (!(load(result.end) < 0.0)) return false;
-    if (load(start.at) > 0.0) {
-      result = last_contact(h, load, [&](double t) { return take_step(field, way, t); });
-    } else {  // due at once
-      result = {start.at, 0.0, 0.0, way.drive.direction};
-      h = 0.0;
-    }
+    const auto again = [&](double t) { return take_step(field, way, t); };
+    result = last_contact(start.at, h, way.drive.direction, load, again);
     return true;
   }
 
@@ -331,10 +319,21 @@ class Stepper {
   [[nodiscard]] bool keeps_energy(const Drive& drive) const {
     return keeps_energy_ && !(drive.push > 0.0) && !(drive.along < 0.0);
   }
+  /// Whether the ends of its steps are brought to it.
+  [[nodiscard]] bool brings_to_energy(const Start& start, const Drive& drive) const {
+    return kMayKeepEnergy && keeps_energy(drive) && !start.contact.any();
+  }
 
-  /// For a sub-step longer than the rules ask, or far off.
-  [[nodiscard]] Motion bounded(const Start& start, const Drive& drive, double h, const Motion& end) const {
-    return energy_bounded<F::central>(surface_, rim_, parameters_, start, drive, h, end, keeps_energy(drive));
+  [[nodiscard]] double bearable_gain(double h) const {
+    return rules_.template bearable_gain<I::kKeepsEnergy>(h);
+  }
+
+  /// The end of a sub-step with no more energy than it may have.
+  [[nodiscard, gnu::noinline]] Motion bounded(const Start& start, const Drive& drive, const SubStep& step,
+                                              const Motion& end) const {
+    const double share = step.capped || brings_to_energy(start, drive) ? 0.0 : bearable_gain(step.h);
+    return energy_bounded<F::central>(surface_, rim_, parameters_, start, drive, step.h, end,
+                                      keeps_energy(drive), share);
   }
 
   const S& surface_;

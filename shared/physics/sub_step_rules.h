@@ -16,11 +16,21 @@
 // The comparisons are between squares and higher powers: no roots. T is double, or several at once.
 #pragma once
 
-#include "shared/physics/central_gravity.h"
 #include "shared/physics/surface_motion.h"
 #include "shared/state/parameters.h"
 
 namespace woodlouse::physics {
+
+/// What is left of an orbit's phase to a sub-step, h sqrt(pull), and how many sub-steps a tick has.
+inline constexpr double kOrbit = 0.05;
+inline constexpr double kMaxSubSteps = 256.0;
+
+/// A sub-step on the ground.
+struct SubStep {
+  double h;      ///< [s]
+  double speed;  ///< |v|3 at its start [m/s]
+  bool capped;   ///< it wanted to be shorter
+};
 
 class SubStepRules {
  public:
@@ -28,6 +38,7 @@ class SubStepRules {
   SubStepRules(const state::Parameters& p, double way, double tick)
       : shortest_(tick / kMaxSubSteps),
         longest_(p.drag > 0.0 && kDecay / p.drag < tick ? kDecay / p.drag : tick),
+        gain_rate_(kMaxGain / tick),
         inverse_way2_(1.0 / (way * way)),
         swing_factor_(p.gravity * p.gravity / (kSwing * kSwing * kSwing * kSwing)),
         grip_(p.friction * p.gravity),
@@ -55,6 +66,17 @@ class SubStepRules {
     } else {
       return h > T(longest_);  // flat ground has no cells either
     }
+  }
+
+  /// What a step over h may gain of energy, of the kinetic energies of both its ends: in a tick kMaxGain. Of
+  /// a method that shows its own energy, whose gains are lost again, a step may as much, but a tick not many
+  /// times that.
+  template <bool kKeepsEnergy = true, typename T>
+  [[gnu::always_inline, nodiscard]] inline T bearable_gain(T h) const {
+    const T share = T(gain_rate_) * h;
+    if constexpr (kKeepsEnergy) return share;
+    const T shown = T(kShownGains) * share;
+    return core::select(shown < T(kMaxGain), shown, T(kMaxGain));
   }
 
   /// Whether central gravity asks for less than h; pull: k / r^3 [1/s^2].
@@ -87,10 +109,13 @@ class SubStepRules {
   static constexpr double kSwing = 0.20;
   static constexpr double kDecay = 0.25;
   static constexpr double kTurn = 0.10;
+  static constexpr double kMaxGain = 2e-4;
+  static constexpr double kShownGains = 25.0;
   static constexpr double kAstray = 3e-7;  // [m]
 
   double shortest_;
   double longest_;
+  double gain_rate_;
   double inverse_way2_;
   double swing_factor_;
   double grip_;  ///< what friction can hold on the level [m/s^2]

@@ -39,8 +39,9 @@ TEST_CASE("with a constant velocity tan(angle / 2) decays with the way over L") 
   Motion at{{0, 0}, velocity};
   for (int i = 1; i <= 60; ++i) {
     const auto flat = [](core::Vec2) { return terrain::SlopeSample{}; };
-    const StepResult step = nystrom4_turning(
-        at, heading, {}, kStep, flat, [](const auto&, core::Vec2, core::Vec2) { return core::Vec2{}; });
+    const auto no_force = [](const auto&, core::Vec2, core::Vec2) { return core::Vec2{}; };
+    const auto no_gain = [](const auto&, core::Vec2, const Motion&, double) { return Gain{}; };
+    const StepResult step = nystrom4_turning(at, heading, {}, kStep, flat, no_force, no_gain);
     heading = step.heading;
     at = step.end;
     const double decayed = std::tan(1.25) * std::exp(-1.5 * i * kStep / kHeadingLength);

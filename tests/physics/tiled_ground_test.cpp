@@ -19,7 +19,7 @@ using terrain::TiledGround;
 
 namespace {
 
-constexpr double kTick = 1.0 / 60.0;
+constexpr double kTileTick = 1.0 / 60.0;
 
 /// 300 x 270 knots, half a metre apart: 25 tiles.
 HeightGrid hills() {
@@ -43,7 +43,7 @@ std::shared_ptr<const terrain::Terrain> tiled(std::size_t max_tiles) {
 World peopled(std::shared_ptr<const terrain::Terrain> ground, state::Method method) {
   state::Parameters parameters;
   parameters.method = method;
-  World world(std::move(ground), parameters, kTick);
+  World world(std::move(ground), parameters, kTileTick);
   core::Random random(5);
   for (state::LouseId id = 1; id <= 30; ++id) {
     state::Louse louse;

@@ -1,6 +1,6 @@
 // The batched step compiled for AVX2; see CMakeLists.txt for its flags.
 #include "shared/core/lanes_avx2.h"
-#include "shared/physics/lanes/kernel.h"
+#include "shared/physics/lanes/kernels.h"
 
 namespace woodlouse::physics {
 

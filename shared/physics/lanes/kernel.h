@@ -9,7 +9,7 @@
 //     load      fields of the lice, their drives; finds their cells and asks the memory for them
 //     sample, a1; the sub-step h; x2 and its cell
 //     sample, a2, a3; x4 and its cell
-//     sample, a4; the end; where energy is kept, its sample and projection
+//     sample, a4; the end, its gain of energy; where energy is kept, its sample and projection
 //     write back what is done
 // Who has not used up the tick goes through again, with others of that kind.
 #pragma once
@@ -24,7 +24,6 @@
 #include "shared/physics/lanes/fields.h"
 #include "shared/physics/lanes/grounds.h"
 #include "shared/physics/nystrom.h"
-#include "shared/physics/surface_motion.h"
 
 namespace woodlouse::physics {
 
@@ -249,6 +248,13 @@ class LaneStepper {
 
   [[gnu::always_inline]] inline void arrive(Batch& batch) {
     batch.end = nystrom_end(batch.start, batch.a1, batch.a2, batch.a3, batch.a4, batch.h);
+    if (!kMayKeepEnergy || F::thrust || !keeps_energy_) {
+      auto rough = ~nystrom_is_smooth(batch.a1, batch.a2, batch.a3, batch.a4, batch.w, batch.h);
+      if constexpr (F::thrust && kMayKeepEnergy) {
+        if (keeps_energy_) rough = rough & ~idle(batch);  // keep_energy() sees to those
+      }
+      if (core::any(rough)) batch.special |= (rough & gains_too_much(batch)).lanes();
+    }
     if constexpr (F::thrust) batch.drive.finish(batch.w, batch.h);
     if constexpr (kMayKeepEnergy) {
       batch.special |= (~inside(batch.end.position)).lanes();
@@ -256,16 +262,41 @@ class LaneStepper {
     }
   }
 
+  /// For the rare step that asks for heights: the others go without.
+  [[nodiscard]] typename G::Sample sample_anew(Pair<L> x) const {
+    typename G::Place place;
+    ground_.locate(x, place);
+    return ground_.sample(place);
+  }
+
+  /// Who may have gained energy.
+  [[gnu::noinline]] typename L::Mask gains_too_much(const Batch& batch) const {
+    const L h = batch.h;
+    const Pair<L> x = batch.start.position, last = nystrom_last(batch.start, batch.a3, h);
+    const auto s = sample_anew(x);
+    L given = L(0.0);
+    if constexpr (F::thrust) given = most_given(batch.drive.force.push, batch.way);
+    const auto gain = energy_gain(s.z, squared_length_in_space(s, batch.start.velocity),
+                                  batch.end.position - x, sample_anew(last), batch.end.position - last,
+                                  batch.end.velocity, h, context_.parameters.gravity, given);
+    return ~(gain.energy <= context_.rules.bearable_gain(h) * gain.kinetic);
+  }
+
+  /// Who has no thrust.
+  [[gnu::always_inline]] inline typename L::Mask idle(const Batch& batch) const {
+    return ~((batch.drive.force.push > L(0.0)) | (batch.drive.force.along < L(0.0)));
+  }
+
   [[gnu::always_inline]] inline void keep_energy(Batch& batch) {
     const auto kept = with_energy(batch.energy, batch.s, batch.end, batch.h, context_.parameters.gravity);
     if constexpr (F::thrust) {  // who has a thrust does not
-      const auto idle = ~((batch.drive.force.push > L(0.0)) | (batch.drive.force.along < L(0.0)));
+      const auto is_idle = idle(batch);
       const auto choose = [&](Pair<L> a, Pair<L> b) __attribute__((always_inline)) {
-        return Pair<L>{core::select(idle, a.x, b.x), core::select(idle, a.y, b.y)};
+        return Pair<L>{core::select(is_idle, a.x, b.x), core::select(is_idle, a.y, b.y)};
       };
       batch.end = {choose(kept.end.position, batch.end.position),
                    choose(kept.end.velocity, batch.end.velocity)};
-      batch.special |= (idle & ~kept.near).lanes();
+      batch.special |= (is_idle & ~kept.near).lanes();
     } else {
       batch.end = kept.end;
       batch.special |= (~kept.near).lanes();
@@ -315,27 +346,5 @@ class LaneStepper {
   bool keeps_energy_;
   Batch batches_[kBatches];
 };
-
-template <typename L, typename F, typename G>
-void advance_lanes(const BatchContext& context, state::Louse* lice, std::span<const std::uint32_t> moving,
-                   BatchLists& lists, StepCounters& counters) {
-  LaneStepper<L, F, G>(context).advance(lice, moving, lists, counters);
-}
-
-template <typename L, typename G>
-BatchStep choose_kernel(const BatchForces& forces) {
-  const auto kernel = []<typename F>(F) { return BatchStep{L::kCount, advance_lanes<L, F, G>}; };
-  if (forces.friction)
-    return forces.thrust ? kernel(ForcesWithAnyDrag<true, true>{}) : kernel(ForcesWithAnyDrag<true, false>{});
-  if (forces.thrust) return kernel(ForcesWithAnyDrag<false, true>{});
-  return forces.drag ? kernel(Forces<true, false, false>{}) : kernel(Forces<false, false, false>{});
-}
-
-/// The kernel for a map's ground and forces.
-template <typename L>
-BatchStep choose_kernel(BatchGround ground, const BatchForces& forces) {
-  return ground == BatchGround::kPlane ? choose_kernel<L, PlaneLanes<L>>(forces)
-                                       : choose_kernel<L, SplineLanes<L>>(forces);
-}
 
 }  // namespace woodlouse::physics

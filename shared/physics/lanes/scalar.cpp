@@ -1,6 +1,6 @@
 // The batched step compiled for any machine.
 #include "shared/core/lanes_scalar.h"
-#include "shared/physics/lanes/kernel.h"
+#include "shared/physics/lanes/kernels.h"
 
 namespace woodlouse::physics {
 
