@@ -66,7 +66,7 @@ Gain measured_gain(const Ground& ground, const Rim& rim, const Start& start, con
                    const StepResult& result) {
   const core::Vec2 end = result.end.position;
   const core::Vec2 place = rim.wraps() ? rim.inside(end) : end;
-  return ground.gain(start, ground.site(place), end, result.end, h, most_given(drive.push, result.way));
+  return ground.gain(start, ground.site(place), end, result.end, h, drive.push);
 }
 
 /// Whether a step gains far more energy than the `share` that it may, beyond what rounds in the potential.

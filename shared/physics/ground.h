@@ -78,15 +78,16 @@ class Ground {
     return potential<F::central>(x, s.z, parameters_);
   }
 
-  /// What a step over h to `end` has gained, to which a push gave `given`; as a sample tells that was taken
-  /// at `place`, at its end or near it.
+  /// What a step over h to `end` has gained with a push; as a sample tells that was taken at `place`, at its
+  /// end or near it.
   [[nodiscard, gnu::always_inline]] inline Gain gain(const Start& start, const Site& s, core::Vec2 place,
-                                                     const Motion& end, double h, double given) const {
+                                                     const Motion& end, double h, double push) const {
     const core::Vec2 from = start.at.position;
+    double fallen = 0.0;
     if (F::central && parameters_.central_gravity > 0.0)
-      given = given + central_potential(from, parameters_) - central_potential(end.position, parameters_);
+      fallen = central_potential(from, parameters_) - central_potential(end.position, parameters_);
     return energy_gain(start.sample.z, start.speed2, end.position - from, s, end.position - place,
-                       end.velocity, h, parameters_.gravity, given);
+                       end.velocity, h, parameters_.gravity, push, fallen);
   }
 
   /// v after the implicit half kick v' = v + k a(s, v').
@@ -227,8 +228,8 @@ struct Field {
 
   /// A step's gain of energy, as a sample tells that was taken at `place`, at its end or near it.
   [[nodiscard, gnu::always_inline]] inline Gain gain(const typename Ground::Site& s, core::Vec2 place,
-                                                     const Motion& end, double way, double h) const {
-    return ground.gain(start, s, place, end, h, most_given(drive.push, way));
+                                                     const Motion& end, double h) const {
+    return ground.gain(start, s, place, end, h, drive.push);
   }
 
   /// Whether the drive acts along a heading that turns; then the same with that heading.

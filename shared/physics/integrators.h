@@ -51,14 +51,14 @@ struct VerletQ {
     const double way = h * std::sqrt(speed2);
     if (!field.turns()) {
       const core::Vec2 v = field.kick(s, half, k);
-      return {{x, v}, h, way, {}, field.gain(s, x, {x, v}, way, h)};
+      return {{x, v}, h, way, {}, field.gain(s, x, {x, v}, h)};
     }
     // The midpoint rule.
     const core::Vec2 h1 = field.heading();
     const core::Vec2 middle = h1 + k * heading_rate(h1, start.at.velocity);
     const core::Vec2 heading = unit(h1 + h * heading_rate(middle, half));
     const core::Vec2 v = field.kick(s, half, k, heading);
-    return {{x, v}, h, way, heading, field.gain(s, x, {x, v}, way, h)};
+    return {{x, v}, h, way, heading, field.gain(s, x, {x, v}, h)};
   }
 };
 
@@ -95,8 +95,8 @@ struct Nystrom4 {
  private:
   template <typename Field>
   [[gnu::always_inline]] static inline auto gain_of(const Field& field, double h) {
-    return [&field, h](const auto& s, core::Vec2 place, const Motion& end, double way) {
-      return field.gain(s, place, end, way, h);
+    return [&field, h](const auto& s, core::Vec2 place, const Motion& end) {
+      return field.gain(s, place, end, h);
     };
   }
 };

@@ -59,16 +59,17 @@ struct BasicGain {
 };
 using Gain = BasicGain<double>;
 
-/// The gain of a step over h from a place of height z0 at |v|3^2 = speed2 to `end`, moved by `moved`, to
-/// which a push gave `given`; as the sample s tells, that was taken `beyond` before the end: by its second
-/// order, which holds only near there.
+/// The gain of a step over h from a place of height z0 at |v|3^2 = speed2, moved by `moved`, with a push; of
+/// what else there is it has `fallen` so far [m^2/s^2]. As the sample s tells, that was taken `beyond` before
+/// the end: by its second order, which holds only near there. A push gives what it does by the mean of both
+/// speeds, and the little that this errs; a speed in the middle may be anything.
 template <typename Sample, typename T>
 [[gnu::always_inline]] inline BasicGain<T> energy_gain(T z0, T speed2, core::Pair<T> moved, const Sample& s,
                                                        core::Pair<T> beyond, core::Pair<T> velocity, T h,
-                                                       double gravity, T given) {
+                                                       double gravity, T push, T fallen) {
   T zx = s.zx, zy = s.zy;
   T climbed;
-  auto near = given <= given;
+  auto near = fallen <= fallen;
   if constexpr (terrain::Curved<Sample>) {
     const core::Pair<T> turned = curvature_times(s, beyond);
     zx = zx + turned.x;
@@ -84,15 +85,10 @@ template <typename Sample, typename T>
   constexpr double kNear = 0x1p-5;  // of the way
   if constexpr (terrain::Curved<Sample>)
     near = dot(beyond, beyond) <= T(2.0 * kNear * kNear) * (h * h) * kinetic;
-  const T energy = after - before + T(gravity) * climbed - given;
+  const T speeds = core::square_root(speed2) + core::square_root(T(2.0) * after);
+  const T given = push * h * T(0.5 * (1.0 + 0x1p-11)) * speeds;
+  const T energy = after - before + T(gravity) * climbed - fallen - given;
   return {core::select(near, energy, T(std::numeric_limits<double>::infinity())), kinetic};
-}
-
-/// The most that a push gives on a way in space [m^2/s^2]: by the speed in the middle, and the little that
-/// this errs.
-template <typename T>
-[[gnu::always_inline]] inline T most_given(T push, T way) {
-  return push * way * T(1.0 + 0x1p-8);
 }
 
 /// Whether the acceleration bends so little within a step that it gains no energy worth a look: by its second
@@ -117,7 +113,7 @@ struct StepResult {
 };
 
 /// The step at one go; lanes/kernel.h makes it in stages. sample(x) gives the surface, accelerate(sample,
-/// velocity) the acceleration; a1 is that of the start. gain(sample, its place, end, way) tells the Gain.
+/// velocity) the acceleration; a1 is that of the start. gain(sample, its place, end) tells the Gain.
 template <typename Sample, typename Accelerate, typename TellGain>
 [[gnu::always_inline]] inline StepResult nystrom4(const Motion& start, core::Vec2 a1, double h,
                                                   const Sample& sample, const Accelerate& accelerate,
@@ -135,7 +131,7 @@ template <typename Sample, typename Accelerate, typename TellGain>
   const Motion end = nystrom_end(start, a1, a2, a3, a4, h);
   const double way = h * std::sqrt(squared_length_in_space(s2, middle));
   const bool smooth = nystrom_is_smooth(a1, a2, a3, a4, v4, h);
-  return {end, h, way, {}, smooth ? kNoGain : gain(s4, x4, end, way)};
+  return {end, h, way, {}, smooth ? kNoGain : gain(s4, x4, end)};
 }
 
 /// The same where the heading turns along: accelerate(sample, velocity, heading).
@@ -163,7 +159,7 @@ StepResult nystrom4_turning(const Motion& start, core::Vec2 heading, core::Vec2 
   const Motion end = nystrom_end(start, a1, a2, a3, a4, h);
   const double way = h * std::sqrt(squared_length_in_space(s2, v3));
   const bool smooth = nystrom_is_smooth(a1, a2, a3, a4, v4, h);
-  return {end, h, way, heading_end(heading, r1, r2, r3, r4, h), smooth ? kNoGain : gain(s4, x4, end, way)};
+  return {end, h, way, heading_end(heading, r1, r2, r3, r4, h), smooth ? kNoGain : gain(s4, x4, end)};
 }
 
 }  // namespace woodlouse::physics

@@ -113,7 +113,7 @@ class Stepper {
     louse.velocity = at.velocity;
     if (drive.turns) {
       louse.heading = drive.direction;
-    } else if (dot(at.velocity, at.velocity) > 0.0) {
+    } else if (dot(at.velocity, at.velocity) > kStandstill2) {
       louse.heading = unit(at.velocity);
     }
   }
@@ -147,7 +147,7 @@ class Stepper {
 
   /// A heading that turns, where nothing turned it: the velocity's direction.
   static void follow(const Way& way) {
-    if (way.drive.turns && dot(way.at.velocity, way.at.velocity) > 0.0)
+    if (way.drive.turns && dot(way.at.velocity, way.at.velocity) > kStandstill2)
       point(way.drive, unit(way.at.velocity));
   }
 

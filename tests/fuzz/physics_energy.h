@@ -27,35 +27,30 @@ class EnergyLaw {
 
   /// Kinetic and potential energy together.
   [[nodiscard]] double of(const state::Louse& louse) const {
-    const core::Vec2 v = louse.velocity;
-    if (louse.phase == state::Phase::kFlying) {
-      return 0.5 * (core::dot(v, v) + louse.flight_vz * louse.flight_vz) +
-             parameters_.gravity * louse.flight_z + pull_of(louse.position);
-    }
-    const auto s = terrain_.sample(louse.position.x, louse.position.y);
-    const double climb = s.zx * v.x + s.zy * v.y;
-    return 0.5 * (core::dot(v, v) + climb * climb) + parameters_.gravity * s.z + pull_of(louse.position);
+    const double z = louse.phase == state::Phase::kFlying
+                         ? louse.flight_z
+                         : terrain_.sample(louse.position.x, louse.position.y).z;
+    return kinetic(louse) + parameters_.gravity * z + pull_of(louse.position);
   }
 
-  /// Of `energy`, what is above a louse at rest in the map's lowest place, the core's bottom included.
-  [[nodiscard]] double above_floor(double energy) const {
-    return std::max(0.0, energy - parameters_.gravity * lowest_ - pull_of({}));
+  /// What a louse has above one at rest in the map's lowest place, the core's bottom included: where that is
+  /// lower than anybody looked, at least what it moves with.
+  [[nodiscard]] double above_floor(const state::Louse& louse) const {
+    return std::max(kinetic(louse), of(louse) - parameters_.gravity * lowest_ - pull_of({}));
   }
 
   /// The most that of() may be after a tick of `step` seconds that began with this louse: what its push can
   /// have given, and what the method may err.
   [[nodiscard]] double most_after(const state::Louse& before, double step) const {
-    const double energy = of(before);
-    const double push = most_of_push(before, energy, step);
-    return energy + push + error_share() * (above_floor(energy) + push) + rounding();
+    const double push = most_of_push(before, step);
+    return of(before) + push + error_share() * (above_floor(before) + push) + rounding();
   }
 
   /// Of what there was above the floor, what `after` has beyond what the push can have given; 0 or more.
   [[nodiscard]] double gained_share(const state::Louse& before, double after, double step) const {
-    const double energy = of(before);
-    const double push = most_of_push(before, energy, step);
-    const double gain = after - energy - push - rounding();
-    return gain > 0.0 ? gain / (above_floor(energy) + push) : 0.0;
+    const double push = most_of_push(before, step);
+    const double gain = after - of(before) - push - rounding();
+    return gain > 0.0 ? gain / (above_floor(before) + push) : 0.0;
   }
 
   /// What a tick may err by, of above_floor().
@@ -66,11 +61,21 @@ class EnergyLaw {
  private:
   /// A push of f m/s^2 gives dE/dt <= f |v|3, and |v|3^2 / 2 is at most what is above the floor, whose root
   /// therefore grows by at most f step / sqrt(2).
-  [[nodiscard]] double most_of_push(const state::Louse& before, double energy, double step) const {
+  [[nodiscard]] double most_of_push(const state::Louse& before, double step) const {
     if (before.thrust_kind == state::ThrustKind::kAlongHeading && before.thrust.x < 0.0)
       return 0.0;  // a brake
     const double gain = parameters_.thrust_max * std::sqrt(core::dot(before.thrust, before.thrust)) * step;
-    return gain * (std::sqrt(2.0 * above_floor(energy)) + 0.5 * gain);
+    return gain * (std::sqrt(2.0 * above_floor(before)) + 0.5 * gain);
+  }
+
+  [[nodiscard]] double kinetic(const state::Louse& louse) const {
+    const core::Vec2 v = louse.velocity;
+    double climb = louse.flight_vz;
+    if (louse.phase != state::Phase::kFlying) {
+      const auto s = terrain_.sample(louse.position.x, louse.position.y);
+      climb = s.zx * v.x + s.zy * v.y;
+    }
+    return 0.5 * (core::dot(v, v) + climb * climb);
   }
 
   [[nodiscard]] double pull_of(core::Vec2 place) const {

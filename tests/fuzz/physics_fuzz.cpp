@@ -176,7 +176,7 @@ class Table {
     demand(false, "a tick makes no energy",
            core::joined({json::double_text(old), " to ", json::double_text(energy), ", at most ",
                          json::double_text(most), "; above the lowest place it was ",
-                         json::double_text(energy_.above_floor(old)), "\n", told(before, after)}));
+                         json::double_text(energy_.above_floor(before)), "\n", told(before, after)}));
   }
 
   void check_rest(const state::Louse& before, const state::Louse& after) const {

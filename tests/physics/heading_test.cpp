@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shared/physics/nystrom.h"
+#include "shared/terrain/function_surface.h"
 #include "tests/support/motion.h"
 
 namespace woodlouse::physics {
@@ -40,7 +41,7 @@ TEST_CASE("with a constant velocity tan(angle / 2) decays with the way over L") 
   for (int i = 1; i <= 60; ++i) {
     const auto flat = [](core::Vec2) { return terrain::SlopeSample{}; };
     const auto no_force = [](const auto&, core::Vec2, core::Vec2) { return core::Vec2{}; };
-    const auto no_gain = [](const auto&, core::Vec2, const Motion&, double) { return Gain{}; };
+    const auto no_gain = [](const auto&, core::Vec2, const Motion&) { return Gain{}; };
     const StepResult step = nystrom4_turning(at, heading, {}, kStep, flat, no_force, no_gain);
     heading = step.heading;
     at = step.end;
@@ -104,6 +105,19 @@ TEST_CASE("braked to rest by friction against its drive, a louse looks the same 
   }
   CHECK(apart(headings[0], headings[2]) < 1e-3);
   CHECK(apart(headings[1], headings[2]) < 1e-3);
+}
+
+TEST_CASE("a louse whose speed is next to nothing keeps a heading of length 1") {
+  // The middle of a core that no step resolves: what it may have of energy is next to nothing.
+  state::Parameters p{.gravity = 0.0, .drag = 0.015625, .friction = 3.0517578125e-05, .thrust_max = 0.0};
+  p.central_gravity = 0.062255859375;
+  p.core_radius = 0.001;
+  const terrain::FunctionSurface ground(terrain::FunctionName::kWaves, 0.1);
+  state::Louse louse = tests::moving({1.0614110704363165e-99, -3.798340216381364e-99},
+                                     {2.5086082449583777e-94, 3.0013065898282845e-94});
+  louse.heading = {0.6413181838933792, 0.7672750400004535};
+  const auto after = tests::run<Forces<true, true, true, true>>(ground, p, louse, 33, 1);
+  CHECK(std::hypot(after.louse.heading.x, after.louse.heading.y) == Approx(1.0).epsilon(1e-12));
 }
 
 }  // namespace woodlouse::physics

@@ -274,11 +274,11 @@ class LaneStepper {
     const L h = batch.h;
     const Pair<L> x = batch.start.position, last = nystrom_last(batch.start, batch.a3, h);
     const auto s = sample_anew(x);
-    L given = L(0.0);
-    if constexpr (F::thrust) given = most_given(batch.drive.force.push, batch.way);
+    L push = L(0.0);
+    if constexpr (F::thrust) push = batch.drive.force.push;
     const auto gain = energy_gain(s.z, squared_length_in_space(s, batch.start.velocity),
                                   batch.end.position - x, sample_anew(last), batch.end.position - last,
-                                  batch.end.velocity, h, context_.parameters.gravity, given);
+                                  batch.end.velocity, h, context_.parameters.gravity, push, L(0.0));
     return ~(gain.energy <= context_.rules.bearable_gain(h) * gain.kinetic);
   }
 
@@ -310,7 +310,7 @@ class LaneStepper {
     const Pair<L> w = batch.end.velocity;
     const L way2 = dot(w, w);
     const auto finished = ~(h != batch.remaining);
-    batch.special |= (~(inside(y) & (way2 > L(0.0)))).lanes();
+    batch.special |= (~(inside(y) & (way2 > L(kStandstill2)))).lanes();
     batch.finished = finished.lanes();
     const unsigned done = batch.active & ~batch.special;
 
