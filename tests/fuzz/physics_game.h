@@ -142,7 +142,9 @@ inline std::string read_heights(Bytes& bytes, GameGround ground, bool wraps) {
   const double given = bytes.number(0.0, 1e5);
   const double dy = given == 0.0 ? dx : std::max(given, 1e-3);
   const double steepness = std::ldexp(kSteepest, -static_cast<int>(bytes.below(32)));
-  const double height = std::min(steepness * std::min(dx, dy), kHighest) / kWhole;
+  const double highest =
+      ground == GameGround::kPlane ? 0.5 * kHighest : kHighest;  // a plane's is of two sides
+  const double height = std::min(steepness * std::min(dx, dy), highest) / kWhole;
   std::vector<double> heights(columns * rows);
   if (ground == GameGround::kPlane) {
     const double east = wraps ? 0.0 : bytes.signed_byte() / static_cast<double>(columns);

@@ -94,6 +94,7 @@ SEEDS = {
     "function": game(map_of(FUNCTION, function=VOLCANO, friction=0.3), CROWD, *STEER),
     "sampled": game(map_of(FUNCTION_SPLINE, PRECISE, function=WAVY_POT, grid=4), CROWD, *STEER),
     "plane": game(map_of(PLANE, friction=0.2, heights=(40, -90)), CROWD, *STEER),
+    "highest_plane": game(map_of(PLANE, dx=1e5, steepness=0, heights=(127, 127)), CROWD, *STEER),
     "wrap": game(map_of(SPLINE, PRECISE, WRAP, thrust_max=8.0, rows=5), CROWD, *STEER),
     "wrapped_flight": game(map_of(FUNCTION, CHEAP, WRAP | UNILATERAL, function=WAVES), CROWD, *STEER),
     "flight": game(map_of(SPLINE, STANDARD, UNILATERAL, hz=20, gravity=3.0), CROWD, *STEER, ticks=32),
