@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -10,10 +12,12 @@
 namespace woodlouse::map {
 namespace {
 
-/// A folder of files that goes with the test.
+/// A folder of files that goes with the test; the process', for tests run side by side.
 class Folder {
  public:
-  Folder() : path_(std::filesystem::path(WOODLOUSE_BINARY_DIR) / "tests" / "map_errors") {
+  Folder()
+      : path_(std::filesystem::path(WOODLOUSE_BINARY_DIR) / "tests" /
+              ("map_errors_" + std::to_string(::getpid()))) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_ / "inside");
   }
@@ -246,7 +250,8 @@ TEST_CASE("a grid file never leaves the map's folder") {
   };
   CHECK(error_for("good.asc") == "no error");
   CHECK(error_for("inside/good.asc") == "no error");
-  CHECK(error_for("../map_errors/good.asc").find(":2: terrain.file: leaves the map's folder") == 0);
+  CHECK(error_for("../" + folder.path().filename().string() + "/good.asc")
+            .find(":2: terrain.file: leaves the map's folder") == 0);
   CHECK(error_for("/etc/passwd").find(":2: terrain.file: leaves the map's folder") == 0);
   CHECK(error_for("link.asc") == ":2: terrain.file: " + (folder.path() / "link.asc").string() +
                                      ": leads out of its folder (put the file itself there, not a link)");

@@ -128,7 +128,7 @@ TEST_CASE("on the planet eight bots' energies rise in ten minutes by the work of
   struct Account {
     double last, unpaid, least;  ///< energy; what no work explains, and the least of it so far
   };
-  const std::uint64_t seed = GENERATE(1, 2, 3);
+  const std::uint64_t seed = GENERATE(1u, 2u, 3u);
   match::Match match(map, {60, seed});
   std::map<match::PlayerId, HouseBot> bots;
   std::map<match::PlayerId, Account> accounts;
