@@ -86,7 +86,7 @@ template <typename Sample, typename T>
   if constexpr (terrain::Curved<Sample>)
     near = dot(beyond, beyond) <= T(2.0 * kNear * kNear) * (h * h) * kinetic;
   const T speeds = core::square_root(speed2) + core::square_root(T(2.0) * after);
-  const T given = push * h * T(0.5 * (1.0 + 0x1p-11)) * speeds;
+  const T given = push * h * T(0.5 * (1.0 + 0x1p-13)) * speeds;
   const T energy = after - before + T(gravity) * climbed - fallen - given;
   return {core::select(near, energy, T(std::numeric_limits<double>::infinity())), kinetic};
 }

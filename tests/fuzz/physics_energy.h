@@ -18,11 +18,13 @@ class EnergyLaw {
  public:
   EnergyLaw(const terrain::Terrain& terrain, const state::Parameters& parameters)
       : terrain_(terrain), parameters_(parameters) {
-    constexpr std::size_t kLooks = 49;  // each way: four a cell and more
     const terrain::HeightGrid looks = terrain::sample_grid(terrain, kLooks, kLooks);
     const auto [low, high] = std::minmax_element(looks.heights.begin(), looks.heights.end());
     lowest_ = *low;
     highest_ = *high;
+    for (std::size_t k = 0; k < looks.heights.size(); ++k) {
+      if (is_pit(looks, k)) lowest_ = std::min(lowest_, pit_bottom(looks, k));
+    }
   }
 
   /// Kinetic and potential energy together.
@@ -59,6 +61,40 @@ class EnergyLaw {
   }
 
  private:
+  static constexpr std::size_t kLooks = 49;  // each way: four a cell and more
+
+  /// Whether no look beside this one is lower.
+  static bool is_pit(const terrain::HeightGrid& looks, std::size_t k) {
+    const std::size_t column = k % kLooks, row = k / kLooks;
+    const double z = looks.heights[k];
+    return (column == 0 || looks.heights[k - 1] >= z) &&
+           (column + 1 == kLooks || looks.heights[k + 1] >= z) &&
+           (row == 0 || looks.heights[k - kLooks] >= z) &&
+           (row + 1 == kLooks || looks.heights[k + kLooks] >= z);
+  }
+
+  /// How deep the ground is around a look: by ever shorter ways down.
+  [[nodiscard]] double pit_bottom(const terrain::HeightGrid& looks, std::size_t k) const {
+    const terrain::Rectangle& domain = terrain_.domain();
+    core::Vec2 place{looks.x_origin + static_cast<double>(k % kLooks) * looks.dx,
+                     looks.y_origin + static_cast<double>(k / kLooks) * looks.dy};
+    double z = looks.heights[k];
+    constexpr int kShorter = 30;
+    double part = 0.5;
+    for (int i = 0; i < kShorter; ++i, part *= 0.6) {
+      for (const core::Vec2 way :
+           {core::Vec2{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}) {
+        const double x = std::clamp(place.x + part * looks.dx * way.x, domain.x_min, domain.x_max);
+        const double y = std::clamp(place.y + part * looks.dy * way.y, domain.y_min, domain.y_max);
+        const double there = terrain_.sample(x, y).z;
+        if (!(there < z)) continue;
+        z = there;
+        place = {x, y};
+      }
+    }
+    return z;
+  }
+
   /// A push of f m/s^2 gives dE/dt <= f |v|3, and |v|3^2 / 2 is at most what is above the floor, whose root
   /// therefore grows by at most f step / sqrt(2).
   [[nodiscard]] double most_of_push(const state::Louse& before, double step) const {
