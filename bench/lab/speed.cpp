@@ -5,28 +5,46 @@
 #include "bench/lab/report/output.h"
 #include "bench/lab/report/race.h"
 #include "bench/lab/speed_evaluations.h"
+#include "bench/lab/speed_maps.h"
 #include "bench/lab/speed_steps.h"
 
 namespace woodlouse::lab {
 namespace {
 
-core::Expected<void> run(const Output& output) {
+struct SpeedOptions {
+  Output output;
+  std::filesystem::path maps;  ///< empty: the project's own
+  std::string only;            ///< empty: all
+};
+
+core::Expected<void> run(const SpeedOptions& options) {
+  const auto asks_for = [&](const char* part) { return options.only.empty() || options.only == part; };
   pin_to_core();
-  if (auto done = measure_evaluations(output); !done) return done;
-  return measure_steps(output);
+  if (asks_for("evaluations")) {
+    if (auto done = measure_evaluations(options.output); !done) return done;
+  }
+  if (asks_for("steps")) {
+    if (auto done = measure_steps(options.output); !done) return done;
+  }
+  if (asks_for("maps")) return measure_maps(options.maps, options.output);
+  return {};
 }
 
 }  // namespace
 
 void add_speed(CLI::App& app, Job& job) {
-  CLI::App* command =
-      app.add_subcommand("speed", "Evaluations and steps beside GSL, ALGLIB and the document's.");
-  const auto output = std::make_shared<Output>();
-  add_output_options(*command, *output);
+  CLI::App* command = app.add_subcommand(
+      "speed", "Evaluations and steps beside GSL, ALGLIB and the document's; every map's tick.");
+  const auto options = std::make_shared<SpeedOptions>();
+  add_output_options(*command, options->output);
+  command->add_option("--maps", options->maps, "folder of maps; the project's own when left out")
+      ->check(CLI::ExistingDirectory);
+  command->add_option("--only", options->only, "evaluations, steps or maps; all of them when left out")
+      ->check(CLI::IsMember({"evaluations", "steps", "maps"}));
   command->footer(
-      "Writes lab-speed-evaluations.csv and lab-speed-steps.csv; prints the ratios.\n"
+      "Writes lab-speed-evaluations.csv, lab-speed-steps.csv and lab-speed-maps.csv; prints the ratios.\n"
       "Example:\n  woodlouse-lab speed --quick");
-  command->callback([output, &job] { job = [output] { return run(*output); }; });
+  command->callback([options, &job] { job = [options] { return run(*options); }; });
 }
 
 }  // namespace woodlouse::lab

@@ -1,11 +1,11 @@
 // Many lice at once: the step's common case in AVX-512 (8 lanes), AVX2 (4) or plain doubles (1), chosen at
 // run time.
 //
-// The common case is a louse that moves, away from walls and seams, whose sub-steps stay above the cap and
-// that does not halt: Nystrom-4 steps. Whoever meets anything else is left where it was then, for the scalar
-// step (stepper.h). The lanes run the very templates of the scalar step (surface_motion.h, nystrom.h,
-// sub_step_rules.h, terrain's evaluate_cell) in its order, so that the bits are the same whichever way a
-// louse was stepped.
+// The common case is a louse that moves whose sub-steps stay above the cap and that does not halt: Nystrom-4
+// steps on the ground, be it sliding along a wall, and pieces of flight. Whoever meets anything else (a wall,
+// a seam, a corner, a stop, take-off and landing) is left where it was then, for the scalar step (stepper.h).
+// The lanes run the very templates of the scalar step (surface_motion.h, nystrom.h, sub_step_rules.h,
+// terrain's evaluate_cell) in its order, so that the bits are the same whichever way a louse was stepped.
 #pragma once
 
 #include <cstddef>
@@ -40,17 +40,23 @@ struct LouseTick {
 /// Room for the lists of a batched step, kept from step to step.
 struct BatchLists {
   std::vector<LouseTick> left;  ///< the result: whom the lanes can't step, or no further
-  std::vector<LouseTick> now, again;
+  std::vector<LouseTick> now, again, at_wall, in_air;
 };
 
 /// What a batch reads besides its lice.
 struct BatchContext {
+  /// See terrain::PlaneSurface.
+  struct Plane {
+    double height = 0.0;
+    core::Vec2 corner, slope;
+  };
   terrain::BicubicSpline::View spline;  ///< on BatchGround::kBicubicSpline
-  core::Vec2 slope;                     ///< on BatchGround::kPlane
+  Plane plane;                          ///< on BatchGround::kPlane
   state::Parameters parameters;
   terrain::Rectangle interior;  ///< who leaves it meets a wall or a seam
   double tick = 0.0;            ///< [s]
   SubStepRules rules;
+  double cell = 0.0;  ///< the side of the ground's smallest [m]; infinite where it has none
 };
 
 /// Steps lice[i] for each i of `moving`, none of them resting, through a tick, where the common case holds;
@@ -69,6 +75,7 @@ struct BatchForces {
   bool drag = false;
   bool friction = false;
   bool thrust = false;
+  bool central = false;  ///< then the others are compiled in too
 };
 
 /// The batched step of an instruction set for a map's ground and forces; REQUIRES is_available(set).

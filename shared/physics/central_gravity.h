@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cassert>
+#include <type_traits>
 
 #include "shared/core/lanes.h"
 #include "shared/core/vec2.h"
@@ -22,23 +23,43 @@ namespace woodlouse::physics {
 /// The pull per distance in the middle of a core of radius 1 at k = 1.
 inline constexpr double kCorePull = 35.0 / 8.0;
 
-/// -F / r at a point [1/s^2]; REQUIRES core_radius > 0.
-inline double central_pull(core::Vec2 x, const state::Parameters& p) {
-  const double r2 = dot(x, x);
+/// outside(r2) where r2 >= R^2, inside(q) in the core: lanes have both and choose, a double has the one.
+template <typename T, typename Outside, typename Inside>
+[[gnu::always_inline]] inline T outside_or_in_core(core::Pair<T> x, const state::Parameters& p,
+                                                   const Outside& outside, const Inside& inside) {
+  const T r2 = dot(x, x);
+  const T core2 = T(p.core_radius * p.core_radius);
+  if constexpr (std::is_same_v<T, double>) {
+    return r2 >= core2 ? outside(r2) : inside(r2 / core2);
+  } else {
+    const auto is_outside = r2 >= core2;
+    if (!core::any(~is_outside)) return outside(r2);
+    return core::select(is_outside, outside(r2), inside(r2 / core2));
+  }
+}
+
+/// -F / r at a point [1/s^2]; REQUIRES core_radius > 0. T: double, or several at once (core/lanes.h).
+template <typename T>
+[[gnu::always_inline]] inline T central_pull(core::Pair<T> x, const state::Parameters& p) {
+  const double k = p.central_gravity;
   const double core2 = p.core_radius * p.core_radius;
-  if (r2 >= core2) return p.central_gravity / (r2 * core::square_root(r2));
-  const double q = r2 / core2;
-  return p.central_gravity / (core2 * p.core_radius) * (kCorePull - (21.0 / 4.0 - 15.0 / 8.0 * q) * q);
+  return outside_or_in_core(
+      x, p, [&](T r2) __attribute__((always_inline)) { return T(k) / (r2 * core::square_root(r2)); },
+      [&](T q) __attribute__((always_inline)) {
+        return T(k / (core2 * p.core_radius)) * (T(kCorePull) - (T(21.0 / 4.0) - T(15.0 / 8.0) * q) * q);
+      });
 }
 
 /// Its potential per unit mass [m^2/s^2], 0 at infinity; REQUIRES core_radius > 0.
-inline double central_potential(core::Vec2 x, const state::Parameters& p) {
-  const double r2 = dot(x, x);
-  const double core2 = p.core_radius * p.core_radius;
-  if (r2 >= core2) return -p.central_gravity / core::square_root(r2);
-  const double q = r2 / core2;
-  const double part = ((5.0 / 8.0 * q - 21.0 / 8.0) * q + kCorePull) * q - 19.0 / 8.0;
-  return -p.central_gravity / p.core_radius + 0.5 * p.central_gravity / p.core_radius * part;
+template <typename T>
+[[gnu::always_inline]] inline T central_potential(core::Pair<T> x, const state::Parameters& p) {
+  const double k = p.central_gravity;
+  return outside_or_in_core(
+      x, p, [&](T r2) __attribute__((always_inline)) { return T(-k) / core::square_root(r2); },
+      [&](T q) __attribute__((always_inline)) {
+        const T part = ((T(5.0 / 8.0) * q - T(21.0 / 8.0)) * q + T(kCorePull)) * q - T(19.0 / 8.0);
+        return T(-k / p.core_radius) + T(0.5 * k / p.core_radius) * part;
+      });
 }
 
 /// The smallest core that sub-steps resolve at a rate of ticks, [1/s] and up.

@@ -35,6 +35,7 @@ class CompiledSteps final : public GroundSteps {
     if constexpr (kHasLanes) {
       if (batch.width > 0) return advance_batched(stepper, lice, moving, batch, lists, counters);
     }
+    counters.left += moving.size();
     for (const std::uint32_t index : moving) stepper.advance(lice[index], counters);
   }
 
@@ -55,14 +56,16 @@ class CompiledSteps final : public GroundSteps {
                        StepCounters& counters) const {
     // Whoever leaves the interior takes the scalar step, which knows of walls and seams.
     const terrain::Rectangle interior = Rim(rules_.walls, rules_.parameters.edges).interior();
-    BatchContext context{{}, {}, rules_.parameters, interior, rules_.tick, stepper.rules()};
+    BatchContext context{{}, {}, rules_.parameters, interior, rules_.tick, stepper.rules(), ground_.cell()};
     if constexpr (std::is_same_v<S, terrain::PlaneSurface>) {
-      context.slope = ground_.slope();
+      const terrain::Rectangle domain = ground_.domain();
+      context.plane = {ground_.height(), {domain.x_min, domain.y_min}, ground_.slope()};
     } else {
       context.spline = ground_.view();
     }
     counters.louse_steps += moving.size();
     batch.advance(context, lice.data(), moving, lists, counters);
+    counters.left += lists.left.size();
     for (const LouseTick& tick : lists.left) {
       stepper.finish(lice[tick.index], tick.remaining, static_cast<int>(tick.pieces), counters);
     }

@@ -166,8 +166,6 @@ class Ground {
   }
 
  private:
-  using Frictionless = Forces<F::drag, false, F::thrust, F::central, F::any_drag>;
-
   /// The drive with the site's pull in it.
   [[nodiscard, gnu::always_inline]] static inline decltype(auto) drive_at(const Site& s, const Drive& drive) {
     if constexpr (F::central) {
@@ -181,7 +179,7 @@ class Ground {
 
   [[nodiscard, gnu::noinline]] core::Vec2 frictionless(const Site& s, core::Vec2 v,
                                                        const Drive& drive) const {
-    return E::template acceleration<Frictionless>(s, v, drive_at(s, drive), parameters_);
+    return E::template acceleration<WithoutFriction<F>>(s, v, drive_at(s, drive), parameters_);
   }
 
   /// Friction is of what the walls leave of the load.

@@ -7,6 +7,7 @@ namespace woodlouse::physics {
 
 struct StepCounters {
   std::uint64_t louse_steps = 0;  ///< lice stepped, summed over ticks
+  std::uint64_t left = 0;         ///< of those, whom the lanes left to the scalar step (batch.h)
   std::uint64_t sub_steps = 0;    ///< Nystrom steps taken for them
   std::uint64_t capped = 0;       ///< sub-steps that wanted to be shorter than the caps allow
   std::uint64_t samples = 0;      ///< of the surface with the acceleration there, searches included

@@ -80,7 +80,10 @@ class SubStepRules {
   }
 
   /// Whether central gravity asks for less than h; pull: k / r^3 [1/s^2].
-  [[nodiscard]] static bool swings_too_far(double pull, double h) { return h * h * pull > kOrbit * kOrbit; }
+  template <typename T>
+  [[gnu::always_inline, nodiscard]] static inline auto swings_too_far(T pull, T h) {
+    return h * h * pull > T(kOrbit * kOrbit);
+  }
 
   /// Whether v may turn too far within h; only where some force turns with v. acceleration2: with
   /// stiffness2() in it.

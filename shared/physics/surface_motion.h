@@ -44,6 +44,10 @@ struct Forces {
   static constexpr bool singular = kFriction || kThrust;
 };
 
+/// The same forces but for friction.
+template <typename F>
+using WithoutFriction = Forces<F::drag, false, F::thrust, F::central, F::any_drag>;
+
 /// A louse's thrust made ready for the equations, once per tick.
 template <typename T>
 struct BasicDrive {

@@ -25,12 +25,10 @@ List list_of(const state::Louse& louse) {
   return louse.thrust_ticks != 0 && louse.thrust_ticks != state::kHeld ? List::kWaiting : List::kNone;
 }
 
-/// The lanes' ground for a map, if they can step it: flight, central gravity and the other methods are not in
-/// them.
+/// The lanes' ground for a map, if they can step it: the other methods are not in them.
 std::optional<BatchGround> batch_ground(const terrain::Terrain& terrain, const state::Parameters& p) {
   if (p.equations != state::Equations::kExact) return std::nullopt;
-  if (p.central_gravity > 0.0 || p.method == state::Method::kCheap) return std::nullopt;
-  if (p.contact == state::SurfaceContact::kUnilateral) return std::nullopt;
+  if (p.method == state::Method::kCheap) return std::nullopt;
   if (std::holds_alternative<terrain::PlaneSurface>(terrain.surface()))
     return BatchGround::kPlane;  // nothing to split
   return p.method == state::Method::kStandard &&
@@ -83,7 +81,8 @@ World::World(std::shared_ptr<const terrain::Terrain> terrain, const state::Param
 void World::use(InstructionSet set) {
   assert(is_available(set));
   const std::optional<BatchGround> ground = batch_ground(*terrain_, parameters_);
-  const BatchForces forces{parameters_.drag > 0.0, parameters_.friction > 0.0, parameters_.thrust_max > 0.0};
+  const BatchForces forces{parameters_.drag > 0.0, parameters_.friction > 0.0, parameters_.thrust_max > 0.0,
+                           parameters_.central_gravity > 0.0};
   batch_ = ground ? find_batch_step(set, *ground, forces) : BatchStep{};
 }
 

@@ -43,11 +43,12 @@ bool same_bits(const std::vector<state::Louse>& a, const std::vector<state::Lous
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(state::Louse)) == 0;
 }
 
-/// Walls, stops, brakes, pulses, rests, sub-steps, caps and plain rolling, all in one world; each tick of it
-/// against the same tick made louse by louse.
+/// Walls, stops, brakes, pulses, rests, sub-steps, caps and plain rolling, all in one world, and some who are
+/// pressed against a wall; each tick of it against the same tick made louse by louse. The share of the lice
+/// that the lanes left to that.
 template <typename Ground>
-void check_every_tick(InstructionSet set, const Ground& ground, const state::Parameters& parameters,
-                      double rate, double fastest, int ticks) {
+double check_every_tick(InstructionSet set, const Ground& ground, const state::Parameters& parameters,
+                        double rate, double fastest, int ticks) {
   const auto terrain = std::make_shared<const Terrain>(ground);
   World world(terrain, parameters, 1.0 / rate);
   world.use(set);
@@ -60,7 +61,15 @@ void check_every_tick(InstructionSet set, const Ground& ground, const state::Par
     louse.id = id;
     louse.position = {20 * symmetric(), 20 * symmetric()};
     louse.velocity = {fastest * symmetric(), fastest * symmetric()};
+    if (id % 4 == 0) {
+      louse.position = id % 8 == 0 ? core::Vec2{20, louse.position.y} : core::Vec2{louse.position.x, -20};
+      louse.velocity = id % 8 == 0 ? core::Vec2{0, louse.velocity.y} : core::Vec2{louse.velocity.x, 0};
+    }
     world.insert(louse);
+    if (id % 4 == 0)
+      world.set_thrust(
+          id, {state::ThrustKind::kMapVector, id % 8 == 0 ? core::Vec2{0.9, 0.2} : core::Vec2{-0.2, -0.9}},
+          state::kHeld);
   }
   StepCounters counters;
   BatchLists lists;
@@ -105,39 +114,77 @@ void check_every_tick(InstructionSet set, const Ground& ground, const state::Par
   CHECK(world.counters().capped == counters.capped);
   CHECK(world.counters().bounces == counters.bounces);
   CHECK(world.counters().stops == counters.stops);
+  CHECK(world.counters().flights == counters.flights);
+  CHECK(world.counters().samples == counters.samples);
+  return static_cast<double>(world.counters().left) / static_cast<double>(world.counters().louse_steps);
 }
 
-}  // namespace
-
-/// The same with every instruction set, over forces, rates and speeds.
+/// The same with every instruction set, over forces, rates and speeds. The lanes are to do nearly all of it.
 template <typename Ground>
-void check_on(const Ground& ground) {
+void check_on(const Ground& ground, const state::Parameters& physics) {
   for (unsigned forces = 0; forces < 8; ++forces) {
     for (const double rate : {20.0, 60.0}) {
-      const state::Parameters p{.gravity = 9.81,
-                                .drag = forces & 4u ? 0.2 : 0.0,
-                                .friction = forces & 2u ? 0.15 : 0.0,
-                                .thrust_max = forces & 1u ? 4.0 : 0.0};
+      state::Parameters p = physics;
+      p.drag = forces & 4u ? 0.2 : 0.0;
+      p.friction = forces & 2u ? 0.15 : 0.0;
+      p.thrust_max = forces & 1u ? 4.0 : 0.0;
       for (const InstructionSet set : available_sets()) {
         for (const double fastest : {6.0, 3000.0}) {
           INFO(to_text(set) << ", forces " << forces << ", " << rate << " Hz, " << fastest << " m/s");
-          check_every_tick(set, ground, p, rate, fastest, fastest > 100 ? 5 : 100);
+          const double left = check_every_tick(set, ground, p, rate, fastest, fastest > 100 ? 5 : 100);
+          if (fastest < 100) CHECK(left < 0.15);
         }
       }
     }
   }
 }
 
+BicubicSpline spline_of(FunctionName name) { return BicubicSpline(terrain::sample_function(name, 20.0, 10)); }
+
+}  // namespace
+
 TEST_CASE("every instruction set gives the bits of the scalar step on the splines of all functions") {
   for (const FunctionName name : terrain::kFunctionNames) {
     INFO(terrain::to_text(name));
-    check_on(BicubicSpline(terrain::sample_function(name, 20.0, 10)));
+    check_on(spline_of(name), {});
   }
 }
 
 TEST_CASE("every instruction set gives the bits of the scalar step on planes, level and inclined") {
   for (const core::Vec2 slope : {core::Vec2{}, core::Vec2{0.12, -0.3}}) {
-    check_on(terrain::PlaneSurface({-20, -20, 20, 20}, 1.0, slope));
+    check_on(terrain::PlaneSurface({-20, -20, 20, 20}, 1.0, slope), {});
+  }
+}
+
+TEST_CASE("every instruction set gives the bits of the scalar step where lice take off, fly and land") {
+  for (const double gravity : {2.0, 9.81}) {
+    state::Parameters p;
+    p.gravity = gravity;
+    p.contact = SurfaceContact::kUnilateral;
+    check_on(spline_of(FunctionName::kHills), p);
+    p.edges = Edges::kWrap;
+    check_on(spline_of(FunctionName::kWaves), p);
+  }
+}
+
+TEST_CASE("every instruction set gives the bits of the scalar step over seams") {
+  state::Parameters p;
+  p.edges = Edges::kWrap;
+  check_on(spline_of(FunctionName::kWaves), p);
+}
+
+TEST_CASE(
+    "every instruction set gives the bits of the scalar step under central gravity, its core included") {
+  for (const double core_radius : {0.25, 9.0}) {
+    for (const SurfaceContact contact : {SurfaceContact::kBilateral, SurfaceContact::kUnilateral}) {
+      state::Parameters p;
+      p.gravity = contact == SurfaceContact::kBilateral ? 0.0 : 3.0;
+      p.contact = contact;
+      p.central_gravity = 100.0;
+      p.core_radius = core_radius;
+      check_on(terrain::PlaneSurface({-20, -20, 20, 20}, 1.0, {0.1, -0.05}), p);
+      check_on(spline_of(FunctionName::kVolcano), p);
+    }
   }
 }
 

@@ -58,17 +58,18 @@ TEST_CASE("the core's pull is its potential's slope, and meets the point's with 
   for (const double r : {0.01, 0.1, 0.2, 0.29, 0.31, 1.0, 7.0}) {
     constexpr double kStep = 1e-5;
     const double slope =
-        (central_potential({r + kStep, 0}, p) - central_potential({r - kStep, 0}, p)) / (2 * kStep);
-    CHECK(slope == Approx(central_pull({r, 0}, p) * r).epsilon(1e-6));
+        (central_potential(core::Vec2{r + kStep, 0}, p) - central_potential(core::Vec2{r - kStep, 0}, p)) /
+        (2 * kStep);
+    CHECK(slope == Approx(central_pull(core::Vec2{r, 0}, p) * r).epsilon(1e-6));
   }
   const auto point = [](double r) { return kPull / (r * r * r); };
   const auto bend = [](const auto& f, double r, double d) {
     return (f(r + d) - 2 * f(r) + f(r - d)) / (d * d);
   };
-  const auto core = [&](double r) { return central_pull({r, 0}, p); };
+  const auto core = [&](double r) { return central_pull(core::Vec2{r, 0}, p); };
   CHECK(core(0.3 * (1 - 1e-9)) == Approx(point(0.3)).epsilon(1e-7));
   CHECK(bend(core, 0.3, 1e-4) == Approx(bend(point, 0.3, 1e-4)).epsilon(1e-2));
-  CHECK(central_potential({0.3, 0}, p) == Approx(-kPull / 0.3).epsilon(1e-12));
+  CHECK(central_potential(core::Vec2{0.3, 0}, p) == Approx(-kPull / 0.3).epsilon(1e-12));
 }
 
 TEST_CASE("the default core is the one that 15 ticks a second resolve") {

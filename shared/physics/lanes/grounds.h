@@ -51,21 +51,25 @@ class SplineLanes {
   const terrain::BicubicSpline::View& spline_;
 };
 
-/// The slope is the same everywhere; the height moves nobody.
+/// The slope is the same everywhere.
 template <typename L>
 class PlaneLanes {
  public:
   using Sample = BasicSlopeSample<L>;
-  struct Place {};
+  using Place = Pair<L>;
 
-  explicit PlaneLanes(const BatchContext& context)
-      : sample_{L(0.0), L(context.slope.x), L(context.slope.y)} {}
+  explicit PlaneLanes(const BatchContext& context) : plane_(context.plane) {}
 
-  [[gnu::always_inline]] inline void locate(Pair<L>, Place&) const {}
-  [[gnu::always_inline]] inline Sample sample(Place) const { return sample_; }
+  [[gnu::always_inline]] inline void locate(Pair<L> x, Place& place) const { place = x; }
+  /// As PlaneSurface::sample().
+  [[gnu::always_inline]] inline Sample sample(const Place& x) const {
+    const auto [height, corner, slope] = plane_;
+    return {L(height) + L(slope.x) * (x.x - L(corner.x)) + L(slope.y) * (x.y - L(corner.y)), L(slope.x),
+            L(slope.y)};
+  }
 
  private:
-  Sample sample_;
+  BatchContext::Plane plane_;
 };
 
 }  // namespace woodlouse::physics

@@ -18,11 +18,14 @@
 #include <cstdint>
 
 #include "shared/physics/batch.h"
-#include "shared/physics/energy_projection.h"
 #include "shared/physics/integrators.h"
-#include "shared/physics/lanes/drives.h"
+#include "shared/physics/lanes/batch.h"
+#include "shared/physics/lanes/energy.h"
 #include "shared/physics/lanes/fields.h"
+#include "shared/physics/lanes/flight.h"
 #include "shared/physics/lanes/grounds.h"
+#include "shared/physics/lanes/sub_step.h"
+#include "shared/physics/lanes/walls.h"
 #include "shared/physics/nystrom.h"
 
 namespace woodlouse::physics {
@@ -34,20 +37,56 @@ class LaneStepper {
   explicit LaneStepper(const BatchContext& context)
       : context_(context),
         ground_(context),
-        shortest_(context.rules.shortest()),
-        keeps_energy_(kMayKeepEnergy && conserves_energy(context.parameters)) {}
+        keeps_energy_(kMayKeepEnergy && conserves_energy(context.parameters)),
+        has_walls_(context.parameters.edges == state::Edges::kWalls),
+        unilateral_(kCurved && context.parameters.contact == state::SurfaceContact::kUnilateral) {}
 
   /// See BatchStep.
   void advance(state::Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists,
                StepCounters& counters) {
     lists.left.clear();
     lists.again.clear();
+    lists.at_wall.clear();
+    if (unilateral_) {
+      fly_and_slide(lice, moving, lists, counters);
+    } else {
+      const auto whole = [&](std::size_t i) { return LouseTick{moving[i], 0, context_.tick}; };
+      run(lice, moving.size(), whole, lists, counters);
+    }
+    run_again(lice, lists, counters);
+    if (lists.at_wall.empty()) return;
+    at_wall_ = true;
+    lists.again.swap(lists.at_wall);
+    run_again(lice, lists, counters);
+  }
+
+ private:
+  using Batch = LaneBatch<L, F, G>;
+
+  static constexpr std::size_t kCount = L::kCount;
+  static constexpr std::size_t kBlock = 32;
+  static constexpr std::size_t kBatches = kBlock / kCount;
+  static constexpr auto kMaxPieces = static_cast<std::uint32_t>(kMaxSubSteps);
+  static constexpr std::size_t kSamples = Nystrom4::kSamples + 1;  // with the start's
+  static constexpr bool kCurved = terrain::Curved<typename G::Sample>;
+  static constexpr bool kMayKeepEnergy = Batch::kMayKeepEnergy;
+
+  /// Who flies does so in lanes of his own.
+  void fly_and_slide(state::Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists,
+                     StepCounters& counters) {
+    lists.now.clear();
+    lists.in_air.clear();
+    for (const std::uint32_t index : moving) {
+      auto& list = lice[index].phase == state::Phase::kFlying ? lists.in_air : lists.now;
+      list.push_back({index, 0, context_.tick});
+    }
+    LaneFlyer<L, F, G>(context_, ground_).advance(lice, lists, counters);
     run(
-        lice, moving.size(),
-        [&](std::size_t i) {
-          return LouseTick{moving[i], 0, context_.tick};
-        },
-        lists, counters);
+        lice, lists.now.size(), [&](std::size_t i) { return lists.now[i]; }, lists, counters);
+  }
+
+  /// Those of lists.again, until they are through the tick or left.
+  void run_again(state::Louse* lice, BatchLists& lists, StepCounters& counters) {
     while (!lists.again.empty()) {
       lists.now.swap(lists.again);
       lists.again.clear();
@@ -55,33 +94,6 @@ class LaneStepper {
           lice, lists.now.size(), [&](std::size_t i) { return lists.now[i]; }, lists, counters);
     }
   }
-
- private:
-  static constexpr std::size_t kCount = L::kCount;
-  static constexpr std::size_t kBlock = 32;
-  static constexpr std::size_t kBatches = kBlock / kCount;
-  static constexpr auto kMaxPieces = static_cast<std::uint32_t>(kMaxSubSteps);
-  static constexpr std::size_t kSamples = Nystrom4::kSamples + 1;  // with the start's
-  static constexpr bool kMayKeepEnergy =
-      !F::friction && (!F::drag || F::any_drag) && terrain::Curved<typename G::Sample>;
-
-  /// What a batch hands from stage to stage.
-  struct Batch {
-    BasicMotion<L> start;
-    LaneDrive<L> drive;
-    typename G::Place place;
-    typename G::Sample s;
-    Pair<L> w;  ///< velocity of the stage
-    Pair<L> a1, a2, a3, a4, thrust;
-    L h, way, remaining;
-    L energy;  ///< at the start; only where it is kept
-    BasicMotion<L> end;
-    unsigned active;  ///< lanes that hold a louse
-    unsigned special;
-    unsigned finished;
-    state::Louse* lice[kCount];
-    alignas(64) double after[kCount];
-  };
 
   /// One sub-step for each of `count` lice; tick_of(i): who and how far.
   template <typename TickOf>
@@ -110,7 +122,8 @@ class LaneStepper {
           const auto l = static_cast<std::size_t>(__builtin_ctz(open));
           LouseTick tick = tick_of(from + b * kCount + l);
           if ((batch.special >> l & 1u) != 0) {
-            lists.left.push_back(tick);
+            const bool leans = has_walls_ && !at_wall_ && (batch.at_rim >> l & 1u) != 0;
+            (leans ? lists.at_wall : lists.left).push_back(tick);
             --counters.sub_steps;
             counters.samples -= kSamples;
           } else {
@@ -130,7 +143,11 @@ class LaneStepper {
       batch.s = ground_.sample(batch.place);
     };
     const auto accelerate = [this](Batch & batch, Pair<L> & a) __attribute__((always_inline)) {
-      a = acceleration<F>(batch.s, batch.w, batch.drive.force, context_.parameters);
+      if (at_wall_) {
+        lean(batch, a);
+      } else {
+        a = acceleration<F>(batch.s, batch.w, batch.drive.force, context_.parameters);
+      }
     };
     all([this](Batch & batch) __attribute__((always_inline)) { load(batch); });
     all(sample);
@@ -149,7 +166,7 @@ class LaneStepper {
       const L h = batch.h;
       if constexpr (F::thrust) batch.drive.turn(batch.drive.r3, batch.w, h);
       batch.w = batch.start.velocity + h * batch.a3;
-      ground_.locate(nystrom_last(batch.start, batch.a3, h), batch.place);
+      batch.move_to(ground_, context_.parameters, nystrom_last(batch.start, batch.a3, h));
     });
     all(sample);
     all([&](Batch & batch) __attribute__((always_inline)) {
@@ -157,10 +174,18 @@ class LaneStepper {
       arrive(batch);
     });
     if constexpr (kMayKeepEnergy) {
-      if (keeps_energy_) {
+      if (brings_to_energy()) {
         all(sample);
-        all([this](Batch & batch) __attribute__((always_inline)) { keep_energy(batch); });
+        all([this](Batch & batch)
+                __attribute__((always_inline)) { keep_energy(batch, context_.parameters); });
       }
+    }
+    if (unilateral_) {
+      all([this](Batch & batch) __attribute__((always_inline)) {
+        batch.move_to(ground_, context_.parameters, batch.end.position);
+      });
+      all(sample);
+      all([this](Batch & batch) __attribute__((always_inline)) { hold_down(batch); });
     }
     all([this](Batch & batch) __attribute__((always_inline)) { write_back(batch); });
   }
@@ -174,70 +199,44 @@ class LaneStepper {
     batch.thrust = {fields.field[6], fields.field[7]};
     batch.w = batch.start.velocity;
     if constexpr (F::thrust) batch.drive.load(batch.lice, batch.thrust, context_.parameters.thrust_max);
-    ground_.locate(batch.start.position, batch.place);
+    if (at_wall_) {
+      batch.sliding =
+          slides_along_wall(context_.interior, batch.start.position, batch.w, batch.walls).lanes();
+    }
+    batch.move_to(ground_, context_.parameters, batch.start.position);
+  }
+
+  /// Whether the ends of who has no thrust are brought to the energy of the start; at walls they are not.
+  [[nodiscard, gnu::always_inline]] inline bool brings_to_energy() const {
+    return keeps_energy_ && !at_wall_;
+  }
+
+  /// The acceleration of who slides along a wall.
+  [[gnu::noinline]] void lean(Batch& batch, Pair<L>& a) const {
+    a = accelerate_at_wall<F>(batch.s, batch.w, batch.drive.force, batch.walls, context_.parameters);
   }
 
   [[gnu::always_inline]] inline void depart(Batch& batch) {
-    using core::any, core::select, core::square_root;
-    const auto s = batch.s;
     const Pair<L> x = batch.start.position;
     const Pair<L> v = batch.start.velocity;
-    const Pair<L> a1 = batch.a1;
-    const L speed2 = squared_length_in_space(s, v);
+    const L speed2 = squared_length_in_space(batch.s, v);
     const terrain::Rectangle& interior = context_.interior;
-    auto special = ~(speed2 > L(kStandstill2)) | ~((x.x > L(interior.x_min)) & (x.x < L(interior.x_max)) &
-                                                   (x.y > L(interior.y_min)) & (x.y < L(interior.y_max)));
-    L h = batch.remaining;
-    const auto asks_for_less = [&]() __attribute__((always_inline)) {
-      auto less = context_.rules.too_long(s, speed2, h);
-      if constexpr (F::thrust) {
-        if (batch.drive.turning != 0) less = less | (batch.drive.turns() & heading_turns_too_far(v, a1, h));
-      }
-      return less;
-    };
-    auto too_long = asks_for_less();
-    for (auto cut = too_long & (h > L(shortest_)); any(cut); cut = too_long & (h > L(shortest_))) {
-      h = select(cut, context_.rules.halved(h), h);
-      too_long = asks_for_less();
-    }
-    special = special | too_long;  // at the cap
-    if constexpr (F::singular) {
-      L a2 = squared_length_in_space(s, a1) + context_.rules.stiffness2(batch.drive.force.along);
-      auto turns = SubStepRules::turns_too_far(a2, speed2, h);
-      if constexpr (!F::friction) turns = turns & (batch.drive.force.along < L(0.0));
-      turns = turns & ~special;
-      if (any(turns)) {
-        const L speed = square_root(speed2);
-        const L vz = s.zx * v.x + s.zy * v.y;
-        const L rate = (dot(v, a1) + vz * (s.zx * a1.x + s.zy * a1.y + curvature_along(s, v))) / speed;
-        a2 = select(rate > L(0.0), a2 - rate * rate, a2);
-        const auto stops = [&]() __attribute__((always_inline)) { return ~(speed + h * rate > L(0.0)); };
-        const auto unresolved = [&]() __attribute__((always_inline)) {
-          auto strict = stops();
-          if constexpr (F::thrust) {
-            strict =
-                strict | ~(batch.drive.force.push > L(0.0)) | context_.rules.strays_too_far(a2, speed2, h);
-          } else {
-            strict = strict | ~strict;
-          }
-          return SubStepRules::turns_too_far(a2, speed2, h) & strict;
-        };
-        const auto turning = turns;
-        turns = turns & unresolved() & (h > L(shortest_));
-        while (any(turns)) {
-          h = select(turns, context_.rules.halved(h), h);
-          turns = turns & unresolved() & (h > L(shortest_));
-        }
-        special = special | (turning & (unresolved() | stops()));
-      }
-    }
-    batch.special = special.lanes();
-    if constexpr (kMayKeepEnergy) batch.energy = energy(s, v, context_.parameters.gravity);
+    const auto free = (x.x > L(interior.x_min)) & (x.x < L(interior.x_max)) & (x.y > L(interior.y_min)) &
+                      (x.y < L(interior.y_max));
+    batch.at_rim = (~free).lanes();
+    L pull(0.0);
+    if constexpr (F::central) pull = central_pull(x, context_.parameters);
+    batch.special = (~(speed2 > L(kStandstill2))).lanes() | (at_wall_ ? ~batch.sliding : batch.at_rim);
+    const auto [h, left] =
+        choose_sub_step<F>(context_.rules, batch.start, batch.s, speed2, batch.a1, batch.drive, pull,
+                           batch.remaining, L::Mask::of(~batch.special));
+    batch.special |= left.lanes();
+    if constexpr (kMayKeepEnergy) batch.energy = energy(batch.s, v, context_.parameters.gravity);
     batch.h = h;
     const L half = L(0.5) * h;
     if constexpr (F::thrust) batch.drive.turn(batch.drive.r1, v, half);
-    batch.w = v + half * a1;
-    ground_.locate(nystrom_middle(batch.start, a1, h), batch.place);
+    batch.w = v + half * batch.a1;
+    batch.move_to(ground_, context_.parameters, nystrom_middle(batch.start, batch.a1, h));
   }
 
   [[gnu::always_inline]] inline typename L::Mask inside(Pair<L> x) const {
@@ -248,58 +247,27 @@ class LaneStepper {
 
   [[gnu::always_inline]] inline void arrive(Batch& batch) {
     batch.end = nystrom_end(batch.start, batch.a1, batch.a2, batch.a3, batch.a4, batch.h);
-    if (!kMayKeepEnergy || F::thrust || !keeps_energy_) {
+    if (!kMayKeepEnergy || F::thrust || !brings_to_energy()) {
       auto rough = ~nystrom_is_smooth(batch.a1, batch.a2, batch.a3, batch.a4, batch.w, batch.h);
       if constexpr (F::thrust && kMayKeepEnergy) {
-        if (keeps_energy_) rough = rough & ~idle(batch);  // keep_energy() sees to those
+        if (brings_to_energy()) rough = rough & ~batch.idle();  // keep_energy() sees to those
       }
-      if (core::any(rough)) batch.special |= (rough & gains_too_much(batch)).lanes();
+      if (core::any(rough)) batch.special |= (rough & gains_too_much(batch, ground_, context_)).lanes();
     }
     if constexpr (F::thrust) batch.drive.finish(batch.w, batch.h);
     if constexpr (kMayKeepEnergy) {
       batch.special |= (~inside(batch.end.position)).lanes();
-      ground_.locate(batch.end.position, batch.place);
+      batch.move_to(ground_, context_.parameters, batch.end.position);
     }
   }
 
-  /// For the rare step that asks for heights: the others go without.
-  [[nodiscard]] typename G::Sample sample_anew(Pair<L> x) const {
-    typename G::Place place;
-    ground_.locate(x, place);
-    return ground_.sample(place);
-  }
-
-  /// Who may have gained energy.
-  [[gnu::noinline]] typename L::Mask gains_too_much(const Batch& batch) const {
-    const L h = batch.h;
-    const Pair<L> x = batch.start.position, last = nystrom_last(batch.start, batch.a3, h);
-    const auto s = sample_anew(x);
-    L push = L(0.0);
-    if constexpr (F::thrust) push = batch.drive.force.push;
-    const auto gain = energy_gain(s.z, squared_length_in_space(s, batch.start.velocity),
-                                  batch.end.position - x, sample_anew(last), batch.end.position - last,
-                                  batch.end.velocity, h, context_.parameters.gravity, push, L(0.0));
-    return ~(gain.energy <= context_.rules.bearable_gain(h) * gain.kinetic);
-  }
-
-  /// Who has no thrust.
-  [[gnu::always_inline]] inline typename L::Mask idle(const Batch& batch) const {
-    return ~((batch.drive.force.push > L(0.0)) | (batch.drive.force.along < L(0.0)));
-  }
-
-  [[gnu::always_inline]] inline void keep_energy(Batch& batch) {
-    const auto kept = with_energy(batch.energy, batch.s, batch.end, batch.h, context_.parameters.gravity);
-    if constexpr (F::thrust) {  // who has a thrust does not
-      const auto is_idle = idle(batch);
-      const auto choose = [&](Pair<L> a, Pair<L> b) __attribute__((always_inline)) {
-        return Pair<L>{core::select(is_idle, a.x, b.x), core::select(is_idle, a.y, b.y)};
-      };
-      batch.end = {choose(kept.end.position, batch.end.position),
-                   choose(kept.end.velocity, batch.end.velocity)};
-      batch.special |= (is_idle & ~kept.near).lanes();
-    } else {
-      batch.end = kept.end;
-      batch.special |= (~kept.near).lanes();
+  /// Whom the ground no longer carries at the step's end.
+  [[gnu::always_inline]] inline void hold_down(Batch& batch) const {
+    const LaneWalls<L>* walls = at_wall_ ? &batch.walls : nullptr;
+    const L load = normal_load<F>(batch.s, batch.end.velocity, batch.drive.force, walls, context_.parameters);
+    batch.special |= (load < L(0.0)).lanes();
+    if constexpr (F::thrust) {
+      if (at_wall_) batch.special |= batch.drive.turning;  // a wall's load is of the heading at the start
     }
   }
 
@@ -342,8 +310,10 @@ class LaneStepper {
 
   const BatchContext& context_;
   G ground_;
-  double shortest_;
   bool keeps_energy_;
+  bool has_walls_;
+  bool unilateral_;
+  bool at_wall_ = false;  ///< those that slide along a wall are stepped
   Batch batches_[kBatches];
 };
 

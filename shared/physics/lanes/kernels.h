@@ -19,6 +19,7 @@ void advance_lanes(const BatchContext& context, state::Louse* lice, std::span<co
 template <typename L, typename G>
 BatchStep choose_kernel(const BatchForces& forces) {
   const auto kernel = []<typename F>(F) { return BatchStep{L::kCount, advance_lanes<L, F, G>}; };
+  if (forces.central) return kernel(Forces<true, true, true, true>{});
   if (forces.friction)
     return forces.thrust ? kernel(ForcesWithAnyDrag<true, true>{}) : kernel(ForcesWithAnyDrag<true, false>{});
   if (forces.thrust) return kernel(ForcesWithAnyDrag<false, true>{});

@@ -1,0 +1,14 @@
+// A tick of the shipped maps, each with its own forces, walls and contact: what a server pays for a crowd.
+#pragma once
+
+#include <filesystem>
+
+#include "bench/lab/report/output.h"
+
+namespace woodlouse::lab {
+
+/// The maps of `folder` (empty: the project's own), by name: every instruction set this machine has, thrusts held and new each tick,
+/// with the state hash and without; then from one louse to a million. Writes lab-speed-maps.csv.
+core::Expected<void> measure_maps(const std::filesystem::path& folder, const Output& output);
+
+}  // namespace woodlouse::lab
