@@ -2,6 +2,7 @@
 // are compiled: steps_on_*.cpp, and beside them document/steps.cpp and the lab's own methods.
 #pragma once
 
+#include <cassert>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -29,14 +30,15 @@ class CompiledSteps final : public GroundSteps {
   CompiledSteps(const S& ground, const StepRules& rules) : ground_(ground), rules_(rules) {}
 
   void advance(std::span<state::Louse> lice, std::span<const std::uint32_t> moving, const BatchStep& batch,
-               BatchLists& lists, StepCounters& counters) const override {
+               BatchLists& lists, StepCounters& counters, std::span<StepEvents> events) const override {
+    assert(events.size() == lice.size());
     const auto& surface = surface_of(ground_);
     const OneStepper stepper(surface, rules_.parameters, rules_.walls, rules_.tick);
     if constexpr (kHasLanes) {
-      if (batch.width > 0) return advance_batched(stepper, lice, moving, batch, lists, counters);
+      if (batch.width > 0) return advance_batched(stepper, lice, moving, batch, lists, counters, events);
     }
     counters.left += moving.size();
-    for (const std::uint32_t index : moving) stepper.advance(lice[index], counters);
+    for (const std::uint32_t index : moving) stepper.advance(lice[index], counters, events[index]);
   }
 
   [[nodiscard]] bool holds(const state::Louse& louse) const override {
@@ -53,7 +55,7 @@ class CompiledSteps final : public GroundSteps {
 
   void advance_batched(const OneStepper& stepper, std::span<state::Louse> lice,
                        std::span<const std::uint32_t> moving, const BatchStep& batch, BatchLists& lists,
-                       StepCounters& counters) const {
+                       StepCounters& counters, std::span<StepEvents> events) const {
     // Whoever leaves the interior takes the scalar step, which knows of walls and seams.
     const terrain::Rectangle interior = Rim(rules_.walls, rules_.parameters.edges).interior();
     BatchContext context{{}, {}, rules_.parameters, interior, rules_.tick, stepper.rules(), ground_.cell()};
@@ -67,7 +69,8 @@ class CompiledSteps final : public GroundSteps {
     batch.advance(context, lice.data(), moving, lists, counters);
     counters.left += lists.left.size();
     for (const LouseTick& tick : lists.left) {
-      stepper.finish(lice[tick.index], tick.remaining, static_cast<int>(tick.pieces), counters);
+      stepper.finish(lice[tick.index], tick.remaining, static_cast<int>(tick.pieces), counters,
+                     events[tick.index]);
     }
   }
 

@@ -9,14 +9,17 @@
 // restitution.
 //
 // The landing is looked for in pieces of at most a quarter cell of way (a 32nd of the tick where there are no
-// cells) and located to rounding by bisection: a ridge thinner than a piece can be flown through.
+// cells) and located to rounding: a ridge thinner than a piece can be flown through.
 #pragma once
 
+#include <cassert>
 #include <cmath>
 
 #include "shared/physics/nystrom.h"
 #include "shared/physics/rim.h"
+#include "shared/physics/root.h"
 #include "shared/physics/step_counters.h"
+#include "shared/physics/step_events.h"
 #include "shared/physics/surface_motion.h"
 #include "shared/state/louse.h"
 #include "shared/state/parameters.h"
@@ -31,24 +34,22 @@ struct Flight {
   double climb = 0.0;   ///< dz/dt [m/s]
 };
 
-/// Where in a step of h the normal force ends, that is there no more at the step's end: again(t) is the step
-/// over t, load(Motion) the force's sign. The last result that was asked for; h becomes its length. Where it
-/// is due at the start, there, with that heading.
+/// Where in a step over h from `start` to `end` the normal force ends, which `at_end` is there no more: the
+/// root of load(Motion) on the step's cubic. again(t): the step over t, the result where that is; h becomes
+/// t. Where it is due at the start, there, with that heading.
 template <typename Load, typename Again>
-StepResult last_contact(const Motion& start, double& h, core::Vec2 heading, const Load& load,
-                        const Again& again) {
-  if (!(load(start) > 0.0)) {
+StepResult last_contact(const Motion& start, const Motion& end, double at_end, double& h, core::Vec2 heading,
+                        const Load& load, const Again& again) {
+  assert(at_end < 0.0 && h > 0.0);
+  const double at_start = load(start);
+  if (!(at_start > 0.0)) {
     h = 0.0;
     return {start, 0.0, 0.0, heading};
   }
-  double low = 0.0;
-  double high = h;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = 0.5 * (low + high);
-    (load(again(middle).end) < 0.0 ? high : low) = middle;
-  }
-  h = high;
-  return again(high);
+  const double whole = h;
+  h = end_of_positive(0.0, at_start, whole, at_end,
+                      [&](double t) { return load(on_cubic(start, end, whole, t)); });
+  return again(h);
 }
 
 /// The flight that begins where a motion on the surface ends.
@@ -96,20 +97,18 @@ class Flyer {
 
     Flight end = after(flight, time);
     Piece piece{time, false, false};
-    if (clearance(end) <= 0.0) {
+    if (const double below = clearance(end); below <= 0.0) {
       double low = 0.0;
       double high = time;
       // Who has just taken off is at the ground: a moment at which it was above it, before this hop's end.
-      bool above = clearance(flight) > 0.0;
-      for (int i = 0; i < 20 && !above; ++i) {
+      double above = clearance(flight);
+      for (int i = 0; i < 20 && !(above > 0.0); ++i) {
         low = 0.5 * (i == 0 ? time : low);
-        above = clearance(after(flight, low)) > 0.0;
+        above = clearance(after(flight, low));
       }
-      if (above) {  // else it never rose: it touches where the piece ends
-        for (int i = 0; i < 60; ++i) {
-          const double middle = 0.5 * (low + high);
-          (clearance(after(flight, middle)) > 0.0 ? low : high) = middle;
-        }
+      if (above > 0.0) {  // else it never rose: it touches where the piece ends
+        high =
+            end_of_positive(low, above, high, below, [&](double t) { return clearance(after(flight, t)); });
       }
       flight = after(flight, high);
       return {high, true, false};
@@ -182,29 +181,34 @@ class Flyer {
 /// A louse leaves the ground at `end`.
 template <terrain::Surface S>
 [[gnu::always_inline]] inline void begin_flight(const S& surface, const Rim& rim, const Motion& end,
-                                                state::Louse& louse, StepCounters& counters) {
+                                                state::Louse& louse, StepCounters& counters,
+                                                StepEvents& happened) {
   const core::Vec2 place = rim.inside(end.position);
   const Flight flight = taken_off(surface.sample(place.x, place.y), end);
   louse.phase = state::Phase::kFlying;
   louse.flight_z = flight.height;
   louse.flight_vz = flight.climb;
   ++counters.flights;
+  happened |= kTookOff;
 }
 
 /// One piece of a louse's flight, landing or seam included; at: its motion over the map.
 template <terrain::Surface S>
 [[gnu::always_inline]] inline typename Flyer<S>::Piece fly_on(const Flyer<S>& flyer, state::Louse& louse,
                                                               Motion& at, double remaining,
-                                                              StepCounters& counters) {
+                                                              StepCounters& counters, StepEvents& happened) {
   Flight flight{at, louse.flight_z, louse.flight_vz};
   const Flight start = flight;
   auto piece = flyer.fly(flight, remaining);
   if (!(piece.time < remaining)) piece.time = remaining;
   ++counters.sub_steps;
-  if (piece.bounced) ++counters.bounces;
+  if (piece.bounced) {
+    ++counters.bounces;
+    happened |= kMetWall;
+  }
   louse.distance += flyer.way(start, piece.time);
   at = flight.over;
-  if (flyer.rim().wraps()) flyer.rim().carry_home(at.position);
+  if (flyer.rim().wraps() && flyer.rim().carry_home(at.position).any()) happened |= kCrossedSeam;
   louse.flight_z = flight.height;
   louse.flight_vz = flight.climb;
   if (piece.landed) {
@@ -212,14 +216,15 @@ template <terrain::Surface S>
              .over;
     louse.phase = state::Phase::kMoving;
     louse.flight_z = louse.flight_vz = 0.0;
+    happened |= kLanded;
   }
   return piece;
 }
 
 /// What is left of a tick in one piece (Flyer::rest_of).
 template <terrain::Surface S>
-void fly_out(const Flyer<S>& flyer, state::Louse& louse, Motion& at, double remaining,
-             StepCounters& counters) {
+void fly_out(const Flyer<S>& flyer, state::Louse& louse, Motion& at, double remaining, StepCounters& counters,
+             StepEvents& happened) {
   const Flight start{at, louse.flight_z, louse.flight_vz};
   bool landed = false;
   const Flight end = flyer.rest_of(start, remaining, landed);
@@ -228,7 +233,23 @@ void fly_out(const Flyer<S>& flyer, state::Louse& louse, Motion& at, double rema
   at = end.over;
   louse.flight_z = landed ? 0.0 : end.height;
   louse.flight_vz = landed ? 0.0 : end.climb;
-  if (landed) louse.phase = state::Phase::kMoving;
+  if (!landed) return;
+  louse.phase = state::Phase::kMoving;
+  happened |= kLanded;
+}
+
+/// Whether the ground no longer carries a louse at the end of a sub-step; h and result then are those of that
+/// moment. Ground, Field: ground.h; again(t): the sub-step over t.
+template <typename Ground, typename Field, typename Again>
+bool takes_off(const Ground& ground, const Field& field, double& h, StepResult& result, const Again& again) {
+  const auto& start = field.start;
+  const auto load = [&](const Motion& m) {
+    return ground.load(ground.site(m.position), m.velocity, field.drive, start.contact);
+  };
+  const double at_end = load(result.end);
+  if (!(at_end < 0.0)) return false;
+  result = last_contact(start.at, result.end, at_end, h, field.drive.direction, load, again);
+  return true;
 }
 
 }  // namespace woodlouse::physics

@@ -9,6 +9,7 @@
 
 #include "shared/physics/batch.h"
 #include "shared/physics/step_counters.h"
+#include "shared/physics/step_events.h"
 #include "shared/state/louse.h"
 #include "shared/state/parameters.h"
 #include "shared/terrain/terrain.h"
@@ -25,9 +26,10 @@ class GroundSteps {
 
   /// Moves lice[moving[0]], lice[moving[1]], ..., none of them resting, through one tick. batch: for as many
   /// at once as it can; width 0: none, and so REQUIRED but of the default method on the bicubic spline and on
-  /// the plane. lists: room for it.
+  /// the plane. lists: room for it. events: one a louse of `lice`, what happened to it is added.
   virtual void advance(std::span<state::Louse> lice, std::span<const std::uint32_t> moving,
-                       const BatchStep& batch, BatchLists& lists, StepCounters& counters) const = 0;
+                       const BatchStep& batch, BatchLists& lists, StepCounters& counters,
+                       std::span<StepEvents> events) const = 0;
   /// Whether friction, brake and walls hold this louse where it is.
   [[nodiscard]] virtual bool holds(const state::Louse& louse) const = 0;
 };

@@ -50,6 +50,17 @@ template <typename T>
           start.velocity + sixth * (a1 + T(2.0) * (a2 + a3) + a4)};
 }
 
+/// The cubic in time through both ends of a step over h: where it is after t, within h^4 of the motion.
+inline Motion on_cubic(const Motion& start, const Motion& end, double h, double t) {
+  const core::Vec2 moved = end.position - start.position;
+  const core::Vec2 v0 = h * start.velocity;
+  const core::Vec2 v1 = h * end.velocity;
+  const core::Vec2 c = 3.0 * moved - 2.0 * v0 - v1;
+  const core::Vec2 d = v0 + v1 - 2.0 * moved;
+  const double s = t / h;
+  return {start.position + s * (v0 + s * (c + s * d)), (1.0 / h) * (v0 + s * (2.0 * c + (3.0 * s) * d))};
+}
+
 /// What a step has of energy beyond what it may have, per unit mass [m^2/s^2].
 template <typename T>
 struct BasicGain {

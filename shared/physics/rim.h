@@ -13,6 +13,7 @@
 
 #include "shared/core/vec2.h"
 #include "shared/physics/nystrom.h"
+#include "shared/physics/root.h"
 #include "shared/physics/walls.h"
 #include "shared/state/parameters.h"
 #include "shared/terrain/surface.h"
@@ -23,6 +24,7 @@ namespace woodlouse::physics {
 struct Turns {
   long long x = 0;
   long long y = 0;
+  [[nodiscard]] constexpr bool any() const { return x != 0 || y != 0; }
 };
 
 class Rim {
@@ -79,15 +81,17 @@ class Rim {
   [[nodiscard]] core::Vec2 stopped(core::Vec2 p) const { return wraps() ? inside(p) : onto(p); }
 
   /// The time after which a motion that is at `end` after h, beyond a wall, meets it on its way out; `end`
-  /// becomes the state there. again(t) is the motion after t instead: Newton's method inside a bracket
-  /// repeats the sub-step, so that the state is the integrator's own. A wall that the louse slides along, or
-  /// has just bounced off, is none that it meets, near as it is.
+  /// becomes the state there. again(t) is the motion after t instead: from where the cubic through both ends
+  /// meets the wall, Newton's method inside a bracket repeats the sub-step, so that the state is the
+  /// integrator's own. A wall that the louse slides along, or has just bounced off, is none that it meets,
+  /// near as it is.
   template <typename Again>
-  double reach(double h, Motion& end, const Again& again) const {
+  double reach(const Motion& start, double h, Motion& end, const Again& again) const {
     const Contact met = passed(end.position);
     double low = 0.0;
     double high = h;
-    double t = h;
+    double t = time_on_cubic(start, end, h, met);
+    if (t < h) end = again(t);
     for (int i = 0; i < 60; ++i) {
       const auto [distance, leaving] = beyond(end, met);
       if (distance >= -tolerance_ && distance <= tolerance_ && leaving > 0.0) break;
@@ -165,6 +169,19 @@ class Rim {
     look(met.y < 0, walls_.y_min - s.position.y, -s.velocity.y);
     look(met.y > 0, s.position.y - walls_.y_max, s.velocity.y);
     return most;
+  }
+
+  /// When the cubic through both ends of a step over h meets the walls that `end` lies beyond; h where it
+  /// does not tell.
+  [[nodiscard]] double time_on_cubic(const Motion& start, const Motion& end, double h, Contact met) const {
+    const auto inside = [&](double t) { return -beyond(on_cubic(start, end, h, t), met).distance; };
+    const Beyond first = beyond(start, met);
+    const double at_end = -beyond(end, met).distance;
+    if (!(at_end < 0.0)) return h;
+    if (first.distance < 0.0) return end_of_positive(0.0, -first.distance, h, at_end, inside);
+    // It has just been thrown back by the wall: what is looked for is the second root.
+    if (!(first.leaving < 0.0)) return h;
+    return end_of_positive(0.0, -first.leaving, h, at_end / h, [&](double t) { return inside(t) / t; });
   }
 
   /// p, put onto the wall that it lies at but for rounding, or beyond.

@@ -44,15 +44,17 @@ class Stepper {
 
   [[nodiscard]] const SubStepRules& rules() const { return rules_; }
 
-  /// Moves the louse through one tick. Its thrust is not counted down here.
-  [[gnu::always_inline]] inline void advance(state::Louse& louse, StepCounters& counters) const {
+  /// Moves the louse through one tick; adds what happened to it. Its thrust is not counted down here.
+  [[gnu::always_inline]] inline void advance(state::Louse& louse, StepCounters& counters,
+                                             StepEvents& happened) const {
     ++counters.louse_steps;
-    run(louse, tick_, 0, counters);
+    run(louse, tick_, 0, counters, happened);
   }
 
   /// The rest of a tick: `remaining` [s] after `pieces` sub-steps in lanes (batch.h).
-  void finish(state::Louse& louse, double remaining, int pieces, StepCounters& counters) const {
-    run(louse, remaining, pieces, counters);
+  void finish(state::Louse& louse, double remaining, int pieces, StepCounters& counters,
+              StepEvents& happened) const {
+    run(louse, remaining, pieces, counters, happened);
   }
 
   /// Whether friction, brake and walls hold this louse where it is. False while it moves, and of bare steps.
@@ -75,11 +77,11 @@ class Stepper {
   static constexpr int kMaxBounces = 8;
   static constexpr int kMaxEvents = 64;
 
-  /// A louse on its way through what is left of the tick: the locals of run(), which so can stay in
-  /// registers.
+  /// A louse on its way through the rest of a tick: the locals of run(), which so can stay in registers.
   struct Way {
     state::Louse& louse;
     StepCounters& counters;
+    StepEvents& happened;
     Drive& drive;
     Motion& at;
     double& remaining;  ///< [s]
@@ -89,15 +91,15 @@ class Stepper {
     I& integrator;
   };
 
-  /// See finish(). Inlined where lice are stepped one after the other.
+  /// Inlined where lice are stepped one after the other.
   [[gnu::always_inline]] inline void run(state::Louse& louse, double remaining, int pieces,
-                                         StepCounters& counters) const {
+                                         StepCounters& counters, StepEvents& happened) const {
     Drive drive = drive_of(louse);
     Motion at{louse.position, louse.velocity};
     int bounces = 0, events = 0;
     double longest = tick_;
     I integrator;
-    const Way way{louse, counters, drive, at, remaining, bounces, events, longest, integrator};
+    const Way way{louse, counters, happened, drive, at, remaining, bounces, events, longest, integrator};
     for (int piece = pieces; remaining > 0.0; ++piece) {
       if (piece >= static_cast<int>(kMaxSubSteps) || events >= kMaxEvents) {
         run_out(way);
@@ -105,9 +107,8 @@ class Stepper {
       }
       if (louse.phase == state::Phase::kFlying) {
         fly(way);
-      } else if (!slide(way)) {
+      } else if (!slide(way))
         break;
-      }
     }
     louse.position = at.position;
     louse.velocity = at.velocity;
@@ -121,7 +122,7 @@ class Stepper {
   /// One piece in the air, where a heading is the velocity's.
   void fly(const Way& way) const {
     const Flyer<S> flyer(surface_, parameters_, rim_, tick_);
-    const auto piece = fly_on(flyer, way.louse, way.at, way.remaining, way.counters);
+    const auto piece = fly_on(flyer, way.louse, way.at, way.remaining, way.counters, way.happened);
     way.remaining -= piece.time;
     if (piece.landed || piece.bounced) ++way.events;
     follow(way);
@@ -131,7 +132,8 @@ class Stepper {
   [[gnu::noinline]] void run_out(const Way& way) const {
     ++way.counters.capped;
     if (way.louse.phase == state::Phase::kFlying) {
-      fly_out(Flyer<S>(surface_, parameters_, rim_, tick_), way.louse, way.at, way.remaining, way.counters);
+      const Flyer<S> flyer(surface_, parameters_, rim_, tick_);
+      fly_out(flyer, way.louse, way.at, way.remaining, way.counters, way.happened);
     } else {
       const Start start = begin(way);
       const StepResult result = I{}.step(start, Field{ground_, start, way.drive}, way.remaining);
@@ -139,6 +141,7 @@ class Stepper {
       way.counters.samples += I::kSamples;
       way.louse.distance += way.remaining * std::sqrt(start.speed2);
       way.at = bounded(start, way.drive, {way.remaining, 0.0, true}, result.end);
+      if (rim_.wraps()) carry_home(way);
       way.at.position = rim_.inside(way.at.position);
     }
     follow(way);
@@ -156,7 +159,7 @@ class Stepper {
     Start start = begin(way);
     way.at = start.at;
     if (kRules && start.speed2 == 0.0 && !set_off(ground_, start, way.drive)) {
-      way.louse.phase = state::Phase::kResting;
+      rest(way);
       return false;
     }
     SubStep step = choose(start, way.drive, way.remaining < way.longest ? way.remaining : way.longest);
@@ -194,9 +197,14 @@ class Stepper {
     way.counters.samples += 2;
     // It may have stopped where it is not held, unlike where this step began.
     if (halt == Halt::kTurnsBack || !holds_at(ground_, rim_, way.at.position, way.drive)) return true;
-    way.louse.phase = state::Phase::kResting;
+    rest(way);
     ++way.counters.stops;
     return false;
+  }
+
+  static void rest(const Way& way) {
+    way.louse.phase = state::Phase::kResting;
+    way.happened |= kStopped;
   }
 
   /// The integrator's step, up to where it meets a wall or takes off. One that makes energy is not taken, but
@@ -209,20 +217,22 @@ class Stepper {
     if (verdict == Verdict::kRefused) return;
     const bool hits = meets_wall(field, way, step, result);
     bool flies = false;
-    if constexpr (E::kExact) flies = unilateral_ && takes_off(field, way, step.h, result);
+    if constexpr (E::kExact) {
+      flies = unilateral_ &&
+              takes_off(ground_, field, step.h, result, [&](double t) { return take_step(field, way, t); });
+    }
     if (verdict == Verdict::kDoubtful || (kRules && (hits || flies)))
       result.end = bounded(field.start, way.drive, step, result.end);
-    if (flies) begin_flight(surface_, rim_, result.end, way.louse, way.counters);
+    if (flies) begin_flight(surface_, rim_, result.end, way.louse, way.counters, way.happened);
     if (hits || flies) ++way.events;
-    if constexpr (requires { way.integrator.accept(hits); }) {
+    if constexpr (requires { way.integrator.accept(hits); })
       way.integrator.accept(hits || step.capped || flies);
-    }
     way.louse.distance += result.way;
     way.remaining = step.h == way.remaining ? 0.0 : way.remaining - step.h;
     way.at = result.end;
     if (way.drive.turns) point(way.drive, result.heading);
     if (step.capped) follow(way);
-    if (rim_.wraps()) carry_home(way.at, way.integrator);
+    if (rim_.wraps()) carry_home(way);
   }
 
   [[gnu::always_inline]] inline StepResult take_step(const Field& field, const Way& way, double h) const {
@@ -265,7 +275,7 @@ class Stepper {
   [[gnu::always_inline]] inline bool meets_wall(const Field& field, const Way& way, SubStep& step,
                                                 StepResult& result) const {
     if (rim_.lets_pass(result.end.position)) return false;
-    step.h = rim_.reach(step.h, result.end, [&](double t) {
+    step.h = rim_.reach(field.start.at, step.h, result.end, [&](double t) {
       result = take_step(field, way, t);
       return result.end;
     });
@@ -273,9 +283,11 @@ class Stepper {
   }
 
   /// Over a seam, a louse goes on at the opposite rim.
-  void carry_home(Motion& at, I& integrator) const {
-    const Turns turns = rim_.carry_home(at.position);
-    if constexpr (requires { integrator.carried(surface_, turns); }) integrator.carried(surface_, turns);
+  void carry_home(const Way& way) const {
+    const Turns turns = rim_.carry_home(way.at.position);
+    if (turns.any()) way.happened |= kCrossedSeam;
+    if constexpr (requires { way.integrator.carried(surface_, turns); })
+      way.integrator.carried(surface_, turns);
   }
 
   [[nodiscard]] Drive drive_of(const state::Louse& louse) const {
@@ -290,6 +302,7 @@ class Stepper {
     if (bounces) {
       ++way.bounces;
       ++way.counters.bounces;
+      way.happened |= kMetWall;
     }
     ++way.counters.samples;
     return start;
@@ -301,18 +314,6 @@ class Stepper {
     }
     if (kTurns && drive.turns && heading_turns_too_far(start.at.velocity, start.acceleration, h)) return true;
     return rules_.too_long(start.sample, start.speed2, h);
-  }
-
-  /// Whether the normal force ends within the sub-step; h and result then are those of that moment.
-  bool takes_off(const Field& field, const Way& way, double& h, StepResult& result) const {
-    const Start& start = field.start;
-    const auto load = [&](const Motion& m) {
-      return ground_.load(ground_.site(m.position), m.velocity, way.drive, start.contact);
-    };
-    if (!(load(result.end) < 0.0)) return false;
-    const auto again = [&](double t) { return take_step(field, way, t); };
-    result = last_contact(start.at, h, way.drive.direction, load, again);
-    return true;
   }
 
   /// Whether a louse with that drive keeps its energy.

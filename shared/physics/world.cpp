@@ -104,6 +104,7 @@ void World::settle(state::Louse& louse) const {
 
 void World::restore(std::span<const state::Louse> lice) {
   lice_.assign(lice.begin(), lice.end());
+  events_.assign(lice.size(), 0);
   lists_are_stale_ = true;
   note_changes_from(0);
 }
@@ -123,6 +124,7 @@ void World::insert(const state::Louse& louse) {
   assert(find(louse.id) == nullptr);
   const auto at = std::lower_bound(lice_.begin(), lice_.end(), louse.id,
                                    [](const state::Louse& a, state::LouseId id) { return a.id < id; });
+  events_.insert(events_.begin() + (at - lice_.begin()), StepEvents{0});
   state::Louse& placed = *lice_.insert(at, louse);
   if (const Rim rim(walls_, parameters_.edges); rim.wraps()) {
     rim.carry_home(placed.position);
@@ -139,6 +141,7 @@ bool World::erase(state::LouseId id) {
   const std::size_t index = index_of(id);
   if (index == lice_.size()) return false;
   lice_.erase(lice_.begin() + static_cast<std::ptrdiff_t>(index));
+  events_.erase(events_.begin() + static_cast<std::ptrdiff_t>(index));
   lists_are_stale_ = true;
   note_changes_from(index);
   return true;
@@ -171,9 +174,10 @@ void World::collect() {
 }
 
 void World::step() {
+  std::fill(events_.begin(), events_.end(), StepEvents{0});
   if (lists_are_stale_) collect();
   if (moving_.empty() && waiting_.empty()) return;
-  ground_steps_->advance(lice_, moving_, batch_, batch_lists_, counters_);
+  ground_steps_->advance(lice_, moving_, batch_, batch_lists_, counters_, events_);
   for (const auto* list : {&moving_, &waiting_}) {
     for (const std::uint32_t index : *list) {
       state::Louse& louse = lice_[index];

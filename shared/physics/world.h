@@ -18,6 +18,7 @@
 #include "shared/core/vec2.h"
 #include "shared/physics/batch.h"
 #include "shared/physics/step_counters.h"
+#include "shared/physics/step_events.h"
 #include "shared/state/louse.h"
 #include "shared/state/parameters.h"
 #include "shared/state/state_hash.h"
@@ -65,6 +66,8 @@ class World {
   /// where none did (state_hash.h).
   [[nodiscard]] std::span<const std::uint8_t> changed_blocks() const { return changed_blocks_; }
   void forget_changes();
+  /// What happened to each louse of lice() in the last step (step_events.h); 0 of who has joined since.
+  [[nodiscard]] std::span<const StepEvents> events() const { return events_; }
   /// The louse of that id, or null; valid until the next change.
   [[nodiscard]] const state::Louse* find(state::LouseId id) const;
   [[nodiscard]] const terrain::Terrain& terrain() const { return *terrain_; }
@@ -89,6 +92,7 @@ class World {
   std::vector<std::uint32_t> waiting_;               ///< of those at rest whose thrust is to be counted down
   bool lists_are_stale_ = false;  ///< lice_ or who is in which list changed since they were made
   std::vector<std::uint8_t> changed_blocks_;
+  std::vector<StepEvents> events_;
   BatchStep batch_;
   BatchLists batch_lists_;
   StepCounters counters_;

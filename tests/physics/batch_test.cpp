@@ -99,8 +99,10 @@ double check_every_tick(InstructionSet set, const Ground& ground, const state::P
     for (std::uint32_t i = 0; i < kLice; ++i) {
       if (expected[i].phase != state::Phase::kResting) moving.push_back(i);
     }
-    louse_by_louse->advance(expected, moving, {}, lists, counters);
+    std::vector<StepEvents> events(expected.size());
+    louse_by_louse->advance(expected, moving, {}, lists, counters, events);
     world.step();
+    REQUIRE(std::equal(events.begin(), events.end(), world.events().begin(), world.events().end()));
     // A pulse that ends may wake a louse after its step.
     std::vector<state::Louse> stepped = without_thrusts(world.lice());
     std::vector<state::Louse> wanted = without_thrusts(expected);

@@ -44,7 +44,8 @@ TEST_CASE("pushed below the threshold at each of a million ticks, a louse moves 
     louse.thrust = {tx, ty};
     louse.thrust_kind = state::ThrustKind::kMapVector;
     louse.phase = state::Phase::kMoving;  // so that sleeping can't hide it
-    stepper.advance(louse, counters);
+    StepEvents happened = 0;
+    stepper.advance(louse, counters, happened);
     if (louse.phase != state::Phase::kResting) break;
   }
   CHECK(counters.louse_steps == 1'000'000);

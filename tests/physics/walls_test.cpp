@@ -163,7 +163,8 @@ TEST_CASE("lice that push into walls and corners cost few sub-steps, and none st
             const state::Louse before = louse;
             StepCounters counters;
             const std::uint32_t index = 0;
-            steps->advance({&louse, 1}, {&index, 1}, {}, lists, counters);
+            StepEvents happened = 0;
+            steps->advance({&louse, 1}, {&index, 1}, {}, lists, counters, {&happened, 1});
             INFO(terrain::to_text(name)
                  << ", restitution " << restitution << ", louse " << i << ", tick " << tick);
             REQUIRE(counters.sub_steps < 600);

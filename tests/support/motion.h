@@ -15,7 +15,8 @@ struct Run {
 template <typename S, typename F>
 [[gnu::noinline]] void advance(const physics::Stepper<S, F>& stepper, state::Louse& louse,
                                physics::StepCounters& counters) {
-  stepper.advance(louse, counters);
+  physics::StepEvents happened = 0;
+  stepper.advance(louse, counters, happened);
 }
 
 /// A louse moved `ticks` ticks of 1/rate seconds without walls, unless `walls` says where they stand. After

@@ -74,7 +74,8 @@ void LaboratoryStepper::advance(std::span<state::Louse> lice, physics::StepCount
   for (std::size_t i = 0; i < lice.size(); ++i) {
     if (lice[i].phase != state::Phase::kResting) moving_.push_back(static_cast<std::uint32_t>(i));
   }
-  steps_->advance(lice, moving_, {}, lists_, counters);
+  events_.assign(lice.size(), 0);
+  steps_->advance(lice, moving_, {}, lists_, counters, events_);
 }
 
 core::Expected<std::unique_ptr<LaboratoryStepper>> make_stepper(const document::AnySurface& surface,
