@@ -60,7 +60,7 @@ void RowTable::append(std::string& out, const state::Louse& louse, const terrain
       ground.attitude = physics::attitude(louse.heading, {ground.sample.zx, ground.sample.zy});
   }
   constexpr std::size_t kSeparator = 1;
-  char row[protocol::kColumnCount * (kSeparator + protocol::kMaxValueChars) + kSeparator];
+  char row[protocol::kColumnCount * (kSeparator + protocol::kValueRoom) + kSeparator];
   char* end = row;
   for (std::size_t k = 0; k < layout_.fields.size(); ++k) {
     const Column column = layout_.fields[k];

@@ -111,10 +111,10 @@ class ObjectText {
   }
 
  private:
-  /// Comma, name and colon, then what write(to) writes, kMaxNumberChars at most: appended at once.
+  /// Comma, name and colon, then what write(to) writes, for which there is kNumberRoom: appended at once.
   template <typename Write>
   ObjectText& short_member(std::string_view name, const Write& write) {
-    char text[kMaxNameBytes + 4 + kMaxNumberChars];
+    char text[kMaxNameBytes + 4 + kNumberRoom];
     out_.append(text, write(write_key(text, name)));
     return *this;
   }

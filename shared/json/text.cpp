@@ -8,6 +8,7 @@
 #include "shared/core/printable.h"
 #include "shared/core/stable_hash.h"
 #include "shared/core/utf8.h"
+#include "shared/json/decimal.h"
 #include "shared/json/digits.h"
 
 namespace woodlouse::json {
@@ -44,17 +45,17 @@ void append_escaped(std::string& out, char c) {
 }  // namespace
 
 void append_integer(std::string& out, long long value) {
-  char buffer[kMaxNumberChars];
+  char buffer[kNumberRoom];
   out.append(buffer, write_integer(buffer, value));
 }
 
 void append_integer(std::string& out, unsigned long long value) {
-  char buffer[kMaxNumberChars];
+  char buffer[kNumberRoom];
   out.append(buffer, write_integer(buffer, value));
 }
 
 void append_double(std::string& out, double value) {
-  char buffer[kMaxNumberChars];
+  char buffer[kNumberRoom];
   out.append(buffer, write_double(buffer, value));
 }
 
@@ -68,27 +69,28 @@ char* write_integer(char* to, long long value) {
   // Without a branch on the sign either.
   const auto sign = static_cast<unsigned long long>(value >> 63);  // all bits or none
   const unsigned long long size = (static_cast<unsigned long long>(value) ^ sign) - sign;
-  if (size >= kDigitsBelow) return std::to_chars(to, to + kMaxNumberChars, value).ptr;
+  if (size >= kDigitsBelow) return std::to_chars(to, to + kNumberRoom, value).ptr;
   *to = '-';
   return write_digits(to + (sign & 1), static_cast<std::uint32_t>(size));
 }
 
 char* write_integer(char* to, unsigned long long value) {
   if (value < kDigitsBelow) return write_digits(to, static_cast<std::uint32_t>(value));
-  return std::to_chars(to, to + kMaxNumberChars, value).ptr;
+  return std::to_chars(to, to + kNumberRoom, value).ptr;
 }
 
 char* write_double(char* to, double value) {
   assert(std::isfinite(value));
+  *to = '-';
+  if (has_decimal(value)) return write_decimal(to + (std::signbit(value) ? 1 : 0), shortest_decimal(value));
+  if (value == 0.0) return std::signbit(value) ? std::copy_n("-0.0", 4, to) : std::fill_n(to, 1, '0');
   // Past it an exponent may be shorter.
   constexpr double kWholeBelow = 100000.0;
   if (value > -kWholeBelow && value < kWholeBelow) {
     const auto whole = static_cast<long long>(value);
-    if (whole != 0 && static_cast<double>(whole) == value) return write_integer(to, whole);
+    if (static_cast<double>(whole) == value) return write_integer(to, whole);
   }
-  char* const end = std::to_chars(to, to + kMaxNumberChars, value).ptr;
-  const bool minus_zero = value == 0.0 && std::signbit(value);
-  return minus_zero ? std::copy_n("-0.0", 4, to) : end;
+  return std::to_chars(to, to + kNumberRoom, value).ptr;
 }
 
 void append_hash(std::string& out, std::uint64_t value) {

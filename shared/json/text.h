@@ -1,4 +1,4 @@
-// Writes JSON, the same bytes everywhere: numbers by std::to_chars, strings escaped.
+// Writes JSON, the same bytes everywhere: numbers as std::to_chars does, strings escaped.
 #pragma once
 
 #include <concepts>
@@ -10,8 +10,9 @@
 
 namespace woodlouse::json {
 
-/// "-2.2250738585072014e-308" is the longest double, "-9223372036854775808" the longest integer.
-inline constexpr std::size_t kMaxNumberChars = 24;
+/// The longest are "-2.2250738585072014e-308" and "-9223372036854775808"; where there is room for more,
+/// digits are written by eights.
+inline constexpr std::size_t kNumberRoom = 40;
 
 void append_integer(std::string& out, long long value);
 void append_integer(std::string& out, unsigned long long value);
@@ -36,7 +37,7 @@ void append_pair(std::string& out, double x, double y);
 /// [[row],[row],..] of values that stand row by row. REQUIRES columns >= 1 and whole rows, at least one.
 void append_rows(std::string& out, std::span<const double> values, std::size_t columns);
 
-/// These write at `to`, which has room for kMaxNumberChars, and return the end.
+/// These write at `to`, which has room for kNumberRoom, and return the end; past it they may leave anything.
 char* write_integer(char* to, long long value);
 char* write_integer(char* to, unsigned long long value);
 template <std::unsigned_integral T>

@@ -34,9 +34,9 @@ std::string encode(const ClientMessage& message);
 /// REQUIRES no Frame: those are written once for all who see them (server/room/frame_encoder.h).
 std::string encode(const ServerMessage& message);
 
-inline constexpr std::size_t kMaxValueChars = 24;
+inline constexpr std::size_t kValueRoom = 40;
 /// A column's value of a row, given in units (m, m/s, rad), as text at `to`, which has room for
-/// kMaxValueChars: the nearest multiple of its quantum, as that integer (of two as near, the even one), or
+/// kValueRoom: the nearest multiple of its quantum, as that integer (of two as near, the even one), or
 /// the shortest double that reads back the same. Returns the end. REQUIRES a finite value, below 2^53 quanta.
 char* write_value(char* to, double value, Column column, Format format);
 

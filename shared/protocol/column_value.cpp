@@ -7,7 +7,7 @@
 
 namespace woodlouse::protocol {
 
-static_assert(kMaxValueChars == json::kMaxNumberChars);
+static_assert(kValueRoom == json::kNumberRoom);
 
 namespace {
 

@@ -98,7 +98,7 @@ std::string frame_text(const Frame& frame, const std::vector<Column>& fields, Fo
       return {};
     }
     out += k == 0 ? "[" : column == 0 ? "],[" : ",";
-    char number[kMaxValueChars];
+    char number[kValueRoom];
     const char* const end =
         write_value(number, value, fields[column], is_integer ? Format::kQuantized : format);
     out.append(number, static_cast<std::size_t>(end - number));

@@ -38,7 +38,7 @@ void append_rows(std::string& out, const std::vector<double>& values, const std:
     const std::size_t column = i % columns.size();
     if (column == 0) out += i == 0 ? "[" : ",[";
     if (column > 0) out += ',';
-    char text[kMaxValueChars];
+    char text[kValueRoom];
     out.append(text, write_value(text, values[i], columns[column], format));
     if (column + 1 == columns.size()) out += ']';
   }
@@ -123,7 +123,7 @@ TEST_CASE("quantized values are off by at most half a quantum, and their multipl
 
 TEST_CASE("of two multiples of the quantum as near, the even one is written") {
   const auto written = [](double steps) {
-    char text[kMaxValueChars];
+    char text[kValueRoom];
     return std::string(text, write_value(text, steps * quantum(Column::kX), Column::kX, Format::kQuantized));
   };
   CHECK(written(0.5) == "0");

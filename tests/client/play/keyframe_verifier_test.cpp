@@ -40,7 +40,7 @@ std::string key_line(const match::Match& match) {
     line += line.back() == '[' ? "[" : ",[";
     const std::vector<double> row = row_of(louse);
     for (std::size_t i = 0; i < row.size(); ++i) {
-      char text[protocol::kMaxValueChars];
+      char text[protocol::kValueRoom];
       if (i > 0) line += ',';
       line.append(text,
                   protocol::write_value(text, row[i], protocol::all_columns()[i], protocol::Format::kExact));
