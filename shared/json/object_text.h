@@ -26,18 +26,14 @@ void append_array(std::string& out, const Elements& elements, const Write& write
   out += ']';
 }
 
-/// The object is open until end() or line(). REQUIRES names of at most kMaxNameBytes that stand in JSON as
-/// they are.
+/// The object is open until end() or end_line(). REQUIRES names of at most kMaxNameBytes that stand in JSON
+/// as they are.
 class ObjectText {
  public:
   /// Appends to `out`, which must outlive it.
   explicit ObjectText(std::string& out) : out_(out) { out_ += '{'; }
-  /// A text of its own: a message of the wire, whose first member is its type.
-  explicit ObjectText(std::string_view type) : out_(own_) {
-    out_.reserve(kMessageBytes);
-    out_ += '{';
-    text("type", type);
-  }
+  /// A message of the wire, whose first member is its type.
+  ObjectText(std::string& out, std::string_view type) : ObjectText(out) { text("type", type); }
   ObjectText(const ObjectText&) = delete;
   ObjectText& operator=(const ObjectText&) = delete;
 
@@ -103,12 +99,8 @@ class ObjectText {
 
   /// Closes the object, which is complete now. Once.
   void end() { out_ += '}'; }
-  /// Closes it and gives its line. REQUIRES a text of its own.
-  [[nodiscard]] std::string line() {
-    assert(&out_ == &own_);
-    end();
-    return std::move(own_ += '\n');
-  }
+  /// Closes it, and its line.
+  void end_line() { out_ += "}\n"; }
 
  private:
   /// Comma, name and colon, then what write(to) writes, for which there is kNumberRoom: appended at once.
@@ -133,9 +125,7 @@ class ObjectText {
   }
 
   static constexpr std::size_t kMaxNameBytes = 32;
-  static constexpr std::size_t kMessageBytes = 512;  ///< most fit
 
-  std::string own_;
   std::string& out_;
   bool begins_ = true;  ///< no member yet: the first needs no comma
 };

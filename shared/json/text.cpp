@@ -9,7 +9,6 @@
 #include "shared/core/stable_hash.h"
 #include "shared/core/utf8.h"
 #include "shared/json/decimal.h"
-#include "shared/json/digits.h"
 
 namespace woodlouse::json {
 namespace {
@@ -65,17 +64,7 @@ std::string double_text(double value) {
   return text;
 }
 
-char* write_integer(char* to, long long value) {
-  // Without a branch on the sign either.
-  const auto sign = static_cast<unsigned long long>(value >> 63);  // all bits or none
-  const unsigned long long size = (static_cast<unsigned long long>(value) ^ sign) - sign;
-  if (size >= kDigitsBelow) return std::to_chars(to, to + kNumberRoom, value).ptr;
-  *to = '-';
-  return write_digits(to + (sign & 1), static_cast<std::uint32_t>(size));
-}
-
-char* write_integer(char* to, unsigned long long value) {
-  if (value < kDigitsBelow) return write_digits(to, static_cast<std::uint32_t>(value));
+char* write_long_integer(char* to, unsigned long long value) {
   return std::to_chars(to, to + kNumberRoom, value).ptr;
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "shared/json/digits.h"
+
 namespace woodlouse::json {
 
 /// The longest are "-2.2250738585072014e-308" and "-9223372036854775808"; where there is room for more,
@@ -37,9 +39,21 @@ void append_pair(std::string& out, double x, double y);
 /// [[row],[row],..] of values that stand row by row. REQUIRES columns >= 1 and whole rows, at least one.
 void append_rows(std::string& out, std::span<const double> values, std::size_t columns);
 
+/// As write_integer().
+char* write_long_integer(char* to, unsigned long long value);
+
 /// These write at `to`, which has room for kNumberRoom, and return the end; past it they may leave anything.
-char* write_integer(char* to, long long value);
-char* write_integer(char* to, unsigned long long value);
+inline char* write_integer(char* to, unsigned long long value) {
+  if (value < kDigitsBelow) return write_digits(to, static_cast<std::uint32_t>(value));
+  return write_long_integer(to, value);
+}
+inline char* write_integer(char* to, long long value) {
+  // Without a branch on the sign either.
+  const auto sign = static_cast<unsigned long long>(value >> 63);  // all bits or none
+  const unsigned long long size = (static_cast<unsigned long long>(value) ^ sign) - sign;
+  *to = '-';
+  return write_integer(to + (sign & 1), size);
+}
 template <std::unsigned_integral T>
 char* write_integer(char* to, T value) {
   return write_integer(to, static_cast<unsigned long long>(value));

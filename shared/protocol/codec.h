@@ -6,11 +6,14 @@
 // characters. Thread safe: no state.
 #pragma once
 
+#include <cassert>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <string_view>
 
 #include "shared/core/error.h"
+#include "shared/json/text.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::protocol {
@@ -33,11 +36,19 @@ tl::expected<ServerMessage, DecodeError> decode_server(std::string_view line,
 std::string encode(const ClientMessage& message);
 /// REQUIRES no Frame: those are written once for all who see them (server/room/frame_encoder.h).
 std::string encode(const ServerMessage& message);
+/// As encode(), onto `out`. An ack allocates nothing where it has room.
+void append(std::string& out, const ServerMessage& message);
 
 inline constexpr std::size_t kValueRoom = 40;
 /// A column's value of a row, given in units (m, m/s, rad), as text at `to`, which has room for
 /// kValueRoom: the nearest multiple of its quantum, as that integer (of two as near, the even one), or
 /// the shortest double that reads back the same. Returns the end. REQUIRES a finite value, below 2^53 quanta.
 char* write_value(char* to, double value, Column column, Format format);
+/// The same of a quantized row. per_quantum: 1 / quantum(column), exact.
+inline char* write_quantized(char* to, double value, double per_quantum) {
+  const double steps = value * per_quantum;
+  assert(std::abs(steps) <= static_cast<double>(kMaxInteger));
+  return json::write_integer(to, std::llrint(steps));  // one instruction where there is one
+}
 
 }  // namespace woodlouse::protocol

@@ -6,18 +6,18 @@ namespace {
 
 void append_name(std::string& out, Column column) { json::append_string(out, to_text(column)); }
 
-std::string line_of(const Join& join) {
-  json::ObjectText text("join");
+void append_line(std::string& out, const Join& join) {
+  json::ObjectText text(out, "join");
   text.integer("protocol", join.protocol).text("role", to_text(join.role)).text("name", join.name);
   if (!join.room.empty()) text.text("room", join.room);
   if (!join.fields.empty()) text.array("fields", join.fields, append_name);
   text.text("format", to_text(join.format));
   if (join.state_hz) text.integer("state_hz", *join.state_hz);
-  return text.line();
+  text.end_line();
 }
 
-std::string line_of(const Input& input) {
-  json::ObjectText text("input");
+void append_line(std::string& out, const Input& input) {
+  json::ObjectText text(out, "input");
   text.integer("seq", input.seq);
   if (input.thrust.kind == state::ThrustKind::kMapVector) {
     text.pair("thrust", input.thrust.value);
@@ -26,22 +26,30 @@ std::string line_of(const Input& input) {
   }
   if (input.ticks) text.integer("ticks", *input.ticks);
   if (input.tick) text.integer("tick", *input.tick);
-  return text.line();
+  text.end_line();
 }
 
-std::string line_of(const Chat& chat) { return json::ObjectText("chat").text("text", chat.text).line(); }
-std::string line_of(const List&) { return json::ObjectText("list").line(); }
-std::string line_of(const GetMap&) { return json::ObjectText("get_map").line(); }
-std::string line_of(const Resync&) { return json::ObjectText("resync").line(); }
-std::string line_of(const Respawn&) { return json::ObjectText("respawn").line(); }
-std::string line_of(const Leave&) { return json::ObjectText("leave").line(); }
-std::string line_of(const Ping& ping) { return json::ObjectText("ping").integer("t", ping.t).line(); }
-std::string line_of(const Pong& pong) { return json::ObjectText("pong").integer("t", pong.t).line(); }
+void append_line(std::string& out, const Chat& chat) {
+  json::ObjectText(out, "chat").text("text", chat.text).end_line();
+}
+void append_line(std::string& out, const List&) { json::ObjectText(out, "list").end_line(); }
+void append_line(std::string& out, const GetMap&) { json::ObjectText(out, "get_map").end_line(); }
+void append_line(std::string& out, const Resync&) { json::ObjectText(out, "resync").end_line(); }
+void append_line(std::string& out, const Respawn&) { json::ObjectText(out, "respawn").end_line(); }
+void append_line(std::string& out, const Leave&) { json::ObjectText(out, "leave").end_line(); }
+void append_line(std::string& out, const Ping& ping) {
+  json::ObjectText(out, "ping").integer("t", ping.t).end_line();
+}
+void append_line(std::string& out, const Pong& pong) {
+  json::ObjectText(out, "pong").integer("t", pong.t).end_line();
+}
 
 }  // namespace
 
 std::string encode(const ClientMessage& message) {
-  return std::visit([](const auto& alternative) { return line_of(alternative); }, message);
+  std::string line;
+  std::visit([&line](const auto& alternative) { append_line(line, alternative); }, message);
+  return line;
 }
 
 }  // namespace woodlouse::protocol

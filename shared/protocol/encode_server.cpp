@@ -1,13 +1,14 @@
 #include <cassert>
 
 #include "shared/json/object_text.h"
+#include "shared/protocol/ack_line.h"
 #include "shared/protocol/codec.h"
 
 namespace woodlouse::protocol {
 namespace {
 
-std::string line_of(const Hello& hello) {
-  json::ObjectText text("hello");
+void append_line(std::string& out, const Hello& hello) {
+  json::ObjectText text(out, "hello");
   text.integer("protocol", hello.protocol).integer("behavior", hello.behavior);
   text.text("server", hello.server).text("session", hello.session);
   text.array("rooms", hello.rooms, json::append_string)
@@ -20,19 +21,19 @@ std::string line_of(const Hello& hello) {
     limits.integer("idle_s", hello.limits.idle_s).integer("per_address", hello.limits.per_address);
     limits.integer("per_room", hello.limits.per_room);
   });
-  return text.line();
+  text.end_line();
 }
 
-std::string line_of(const Welcome& welcome) {
-  json::ObjectText text("welcome");
+void append_line(std::string& out, const Welcome& welcome) {
+  json::ObjectText text(out, "welcome");
   text.integer("id", welcome.id).text("resume_token", welcome.resume_token).text("room", welcome.room);
   text.integer("tick", welcome.tick)
       .integer("tick_hz", welcome.tick_hz)
       .integer("state_hz", welcome.state_hz);
   text.array("fields", welcome.fields,
-             [](std::string& out, Column column) { json::append_string(out, to_text(column)); });
-  text.array("quantum", welcome.fields, [&](std::string& out, Column column) {
-    json::append_double(out, welcome.format == Format::kExact ? 1.0 : quantum(column));
+             [](std::string& names, Column column) { json::append_string(names, to_text(column)); });
+  text.array("quantum", welcome.fields, [&](std::string& quanta, Column column) {
+    json::append_double(quanta, welcome.format == Format::kExact ? 1.0 : quantum(column));
   });
   text.text("format", to_text(welcome.format));
   text.object("map", [&](json::ObjectText& map) {
@@ -54,93 +55,81 @@ std::string line_of(const Welcome& welcome) {
   text.objects("players", welcome.players, [](json::ObjectText& entry, const PlayerEntry& player) {
     entry.integer("id", player.id).text("name", player.name).text("role", to_text(player.role));
   });
-  return text.line();
+  text.end_line();
 }
 
-std::string line_of(const Frame&) {
+void append_line(std::string&, const Frame&) {
   assert(false && "frames are encoded once per room, not per message");
-  return {};
 }
 
-/// Every field of the louse; pairs where the frames' columns are single.
-void append_exact(json::ObjectText& you, const ExactState& exact) {
-  const state::Louse& louse = exact.louse;
-  you.integer("tick", exact.tick).integer("id", louse.id);
-  you.number("x", louse.position.x).number("y", louse.position.y);
-  you.number("vx", louse.velocity.x).number("vy", louse.velocity.y);
-  you.pair("heading", louse.heading).pair("thrust", louse.thrust);
-  you.integer("thrust_kind", static_cast<std::uint32_t>(louse.thrust_kind));
-  you.integer("thrust_ticks", louse.thrust_ticks).integer("phase", static_cast<std::uint32_t>(louse.phase));
-  you.number("flight_z", louse.flight_z).number("flight_vz", louse.flight_vz);
-  you.number("distance", louse.distance);
-}
+void append_line(std::string& out, const Ack& ack) { append_ack(out, ack); }
 
-std::string line_of(const Ack& ack) {
-  json::ObjectText text("ack");
-  text.integer("seq", ack.seq).integer("tick", ack.tick).integer("margin_us", ack.margin_us);
-  text.boolean("late", ack.late).boolean("dropped", ack.dropped).boolean("clamped", ack.clamped);
-  if (ack.you) {
-    text.object("you", [&](json::ObjectText& you) { append_exact(you, *ack.you); });
-  }
-  return text.line();
-}
-
-std::string line_of(const Event& event) {
-  json::ObjectText text("event");
+void append_line(std::string& out, const Event& event) {
+  json::ObjectText text(out, "event");
   text.integer("n", event.n).integer("tick", event.tick).text("kind", to_text(event.kind));
   text.integer("id", event.id).text("name", event.name);
   if (event.kind == EventKind::kJoined) text.text("role", to_text(event.role));
   if (event.kind == EventKind::kChat) text.text("text", event.text);
-  return text.line();
+  text.end_line();
 }
 
-std::string line_of(const Notice& notice) {
-  return json::ObjectText("notice").text("code", notice.code).text("text", notice.text).line();
+void append_line(std::string& out, const Notice& notice) {
+  json::ObjectText(out, "notice").text("code", notice.code).text("text", notice.text).end_line();
 }
 
-std::string line_of(const ErrorMessage& error) {
-  json::ObjectText text("error");
+void append_line(std::string& out, const ErrorMessage& error) {
+  json::ObjectText text(out, "error");
   text.text("code", error.code).text("text", error.text).boolean("fatal", error.fatal);
   if (error.retry_after_ms) text.integer("retry_after_ms", *error.retry_after_ms);
-  return text.line();
+  text.end_line();
 }
 
-std::string line_of(const Bye& bye) {
-  json::ObjectText text("bye");
+void append_line(std::string& out, const Bye& bye) {
+  json::ObjectText text(out, "bye");
   text.text("code", bye.code).text("text", bye.text).boolean("resumable", bye.resumable);
-  return text.line();
+  text.end_line();
 }
 
-std::string line_of(const Rooms& rooms) {
-  json::ObjectText text("rooms");
+void append_line(std::string& out, const Rooms& rooms) {
+  json::ObjectText text(out, "rooms");
   text.objects("rooms", rooms.rooms, [](json::ObjectText& entry, const RoomEntry& room) {
     entry.text("name", room.name).text("map", room.map);
     entry.integer("players", room.players).integer("bots", room.bots).integer("spectators", room.spectators);
   });
-  return text.line();
+  text.end_line();
 }
 
 /// {origin, spacing, columns, rows, heights: row by row from the south, each from west to east}
 void append_knots(json::ObjectText& knots, const terrain::HeightGrid& grid) {
   knots.pair("origin", {grid.x_origin, grid.y_origin}).pair("spacing", {grid.dx, grid.dy});
   knots.integer("columns", grid.columns).integer("rows", grid.rows);
-  knots.value("heights", [&](std::string& out) { json::append_rows(out, grid.heights, grid.columns); });
+  knots.value("heights", [&](std::string& rows) { json::append_rows(rows, grid.heights, grid.columns); });
 }
 
-std::string line_of(const MapMessage& map) {
-  json::ObjectText text("map");
+void append_line(std::string& out, const MapMessage& map) {
+  json::ObjectText text(out, "map");
   text.text("name", map.name).hash("hash", map.hash).json("definition", map.definition);
   if (map.is_overview) text.boolean("overview", true);
   if (map.knots) text.object("knots", [&](json::ObjectText& knots) { append_knots(knots, *map.knots); });
-  return text.line();
+  text.end_line();
 }
-std::string line_of(const Ping& ping) { return json::ObjectText("ping").integer("t", ping.t).line(); }
-std::string line_of(const Pong& pong) { return json::ObjectText("pong").integer("t", pong.t).line(); }
+void append_line(std::string& out, const Ping& ping) {
+  json::ObjectText(out, "ping").integer("t", ping.t).end_line();
+}
+void append_line(std::string& out, const Pong& pong) {
+  json::ObjectText(out, "pong").integer("t", pong.t).end_line();
+}
 
 }  // namespace
 
+void append(std::string& out, const ServerMessage& message) {
+  std::visit([&out](const auto& alternative) { append_line(out, alternative); }, message);
+}
+
 std::string encode(const ServerMessage& message) {
-  return std::visit([](const auto& alternative) { return line_of(alternative); }, message);
+  std::string line;
+  append(line, message);
+  return line;
 }
 
 }  // namespace woodlouse::protocol

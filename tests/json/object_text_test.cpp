@@ -29,10 +29,11 @@ TEST_CASE(
 }
 
 TEST_CASE("a message is a line of its own that begins with its type") {
-  CHECK(ObjectText("list").line() == "{\"type\":\"list\"}\n");
-  ObjectText chat("chat");
-  chat.text("text", "hi");
-  CHECK(chat.line() == "{\"type\":\"chat\",\"text\":\"hi\"}\n");
+  std::string line;
+  ObjectText(line, "list").end_line();
+  ObjectText chat(line, "chat");
+  chat.text("text", "hi").end_line();
+  CHECK(line == "{\"type\":\"list\"}\n{\"type\":\"chat\",\"text\":\"hi\"}\n");
 }
 
 TEST_CASE("rows of numbers stand as arrays of their length") {

@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -51,6 +53,50 @@ Welcome some_welcome(Format format) {
 }
 
 }  // namespace
+
+TEST_CASE("an ack's bytes, with a state and without, onto what is there") {
+  Ack ack{4294967295, 1234567890123, -250, true, false, true, std::nullopt};
+  std::string text = "before ";
+  append(text, ack);
+  CHECK(text == R"(before {"type":"ack","seq":4294967295,"tick":1234567890123,"margin_us":-250,"late":true,)"
+                R"("dropped":false,"clamped":true})"
+                "\n");
+
+  ack = {7, 77, 8123, false, true, false, ExactState{78, {}}};
+  state::Louse& louse = ack.you->louse;
+  louse.id = 17;
+  louse.phase = state::Phase::kFlying;
+  louse.position = {1.2345678901234567, -9.876543210987654};
+  louse.velocity = {1e-300, -0.0};
+  louse.heading = {0.6, -0.8};
+  louse.thrust = {0.5, -0.2421875};
+  louse.thrust_kind = state::ThrustKind::kMapVector;
+  louse.thrust_ticks = state::kHeld;
+  louse.flight_z = -1e22;
+  louse.flight_vz = 3;
+  louse.distance = 123456.7890625;
+  CHECK(encode(ack) ==
+        R"({"type":"ack","seq":7,"tick":77,"margin_us":8123,"late":false,"dropped":true,"clamped":false,)"
+        R"("you":{"tick":78,"id":17,"x":1.2345678901234567,"y":-9.876543210987654,"vx":1e-300,"vy":-0.0,)"
+        R"("heading":[0.6,-0.8],"thrust":[0.5,-0.2421875],"thrust_kind":2,"thrust_ticks":4294967295,)"
+        R"("phase":2,"flight_z":-1e+22,"flight_vz":3,"distance":123456.7890625}})"
+        "\n");
+}
+
+TEST_CASE("the longest ack there can be") {
+  constexpr double kLongest = -2.2250738585072014e-308;
+  constexpr auto kMost = std::numeric_limits<std::uint64_t>::max();
+  Ack ack{4294967295,           kMost, std::numeric_limits<std::int64_t>::min(), false, false, false,
+          ExactState{kMost, {}}};
+  state::Louse& louse = ack.you->louse;
+  louse.id = louse.thrust_ticks = 4294967295;
+  for (core::Vec2* pair : {&louse.position, &louse.velocity, &louse.heading, &louse.thrust})
+    *pair = {kLongest, kLongest};
+  louse.flight_z = louse.flight_vz = louse.distance = kLongest;
+  const std::string line = encode(ack);
+  CHECK(std::count(line.begin(), line.end(), 'e') > 11);
+  CHECK(line.ends_with("\"distance\":-2.2250738585072014e-308}}\n"));
+}
 
 TEST_CASE("an ack carries every field of the louse, bit for bit") {
   for (std::size_t k = 0; k < state::kLouseFields.size(); ++k) {
