@@ -1,7 +1,7 @@
 // Writes a louse's row as frames carry it: [id,x,y,...] in a layout's columns and format.
 //
-// Columns nobody asks for are not computed: height and attitude cost a sample of the terrain. A row is built
-// on the stack and appended once.
+// Columns nobody asks for are not computed, nor what they are computed from: a height costs a sample of the
+// terrain, an angle an arc tangent. A row is built on the stack and appended once.
 #pragma once
 
 #include <string>
@@ -29,10 +29,23 @@ class RowTable {
   [[nodiscard]] const RowLayout& layout() const { return layout_; }
 
  private:
+  /// One column, as what writes it needs it.
+  struct Cell {
+    protocol::Column column;
+    const state::LouseField* own = nullptr;  ///< of the louse; null: computed
+    double per_quantum = 1.0;
+  };
+  /// When the ground under a louse is sampled.
+  enum class Ground { kNever, kUnlessFlying, kAlways };
+
+  template <typename Write>
+  void append_cells(std::string& out, const state::Louse& louse, const terrain::Terrain& terrain,
+                    const Write& write) const;
+
   RowLayout layout_;
-  std::vector<const state::LouseField*> own_fields_;  ///< of layout_.fields; null: computed
-  bool needs_ground_ = false;                         ///< a column is computed, from the terrain's sample
-  bool needs_attitude_ = false;                       ///< one of them is an angle: three arc tangents
+  std::vector<Cell> cells_;
+  Ground ground_ = Ground::kNever;
+  bool needs_pitch_ = false;
 };
 
 }  // namespace woodlouse::server

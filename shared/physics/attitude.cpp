@@ -4,12 +4,19 @@
 
 namespace woodlouse::physics {
 
+double yaw_of(core::Vec2 heading) { return std::atan2(heading.y, heading.x); }
+
+double pitch_of(core::Vec2 heading, core::Vec2 gradient) {
+  return std::atan(-gradient.x * heading.x - gradient.y * heading.y);
+}
+
+double roll_of(core::Vec2 heading, core::Vec2 gradient, double pitch) {
+  return std::atan((-gradient.x * heading.y + gradient.y * heading.x) * std::cos(pitch));
+}
+
 Attitude attitude(core::Vec2 heading, core::Vec2 gradient) {
-  Attitude a;
-  a.yaw = std::atan2(heading.y, heading.x);
-  a.pitch = std::atan(-gradient.x * heading.x - gradient.y * heading.y);
-  a.roll = std::atan((-gradient.x * heading.y + gradient.y * heading.x) * std::cos(a.pitch));
-  return a;
+  const double pitch = pitch_of(heading, gradient);
+  return {yaw_of(heading), pitch, roll_of(heading, gradient, pitch)};
 }
 
 }  // namespace woodlouse::physics

@@ -15,6 +15,9 @@ struct Attitude {
   double roll = 0.0;   ///< [rad]
 };
 
+double yaw_of(core::Vec2 heading);
+double pitch_of(core::Vec2 heading, core::Vec2 gradient);
+double roll_of(core::Vec2 heading, core::Vec2 gradient, double pitch);
 /// The angles of a louse that heads along `heading` (unit, map plane) on ground with this gradient.
 Attitude attitude(core::Vec2 heading, core::Vec2 gradient);
 

@@ -1,6 +1,4 @@
 #include <array>
-#include <cassert>
-#include <cmath>
 
 #include "shared/json/text.h"
 #include "shared/protocol/codec.h"
@@ -22,9 +20,7 @@ const std::array<double, kColumnCount> kPerQuantum = [] {
 
 char* write_value(char* to, double value, Column column, Format format) {
   if (format == Format::kExact) return json::write_double(to, value);
-  const double steps = value * kPerQuantum[static_cast<std::size_t>(column)];
-  assert(std::abs(steps) <= static_cast<double>(kMaxInteger));
-  return json::write_integer(to, std::llrint(steps));  // one instruction where there is one
+  return write_quantized(to, value, kPerQuantum[static_cast<std::size_t>(column)]);
 }
 
 }  // namespace woodlouse::protocol
