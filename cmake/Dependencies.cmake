@@ -28,7 +28,9 @@ endif()
 add_library(woodlouse_asio STATIC ${CMAKE_CURRENT_LIST_DIR}/asio.cpp)
 target_link_libraries(woodlouse_asio PUBLIC woodlouse_flags Boost::headers Threads::Threads)
 target_compile_definitions(woodlouse_asio PUBLIC
-  BOOST_ASIO_SEPARATE_COMPILATION BOOST_ASIO_NO_DEPRECATED BOOST_ASIO_DISABLE_BOOST_COROUTINE)
+  BOOST_ASIO_SEPARATE_COMPILATION BOOST_ASIO_NO_DEPRECATED BOOST_ASIO_DISABLE_BOOST_COROUTINE
+  # Blocks of memory that a thread keeps for handlers to come, of each kind: those of a broadcast's slice, and a few more.
+  BOOST_ASIO_RECYCLING_ALLOCATOR_CACHE_SIZE=80)
 if(WOODLOUSE_SANITIZE MATCHES "thread")
   # The thread sanitizer does not see stand-alone fences. Asio does without most of them; the one left guards
   # reference counts, whose own atomics the sanitizer sees.

@@ -30,17 +30,17 @@ FrameSlots::Outcome Outbox::offer(Frame frame) {
   return closed_ ? FrameSlots::Outcome::kStale : frames_.put(std::move(frame));
 }
 
-Outbox::Batch Outbox::take() {
-  Batch batch;
-  batch.lines.reserve(lines_.size() + 4);
-  for (Line& line : lines_) batch.lines.push_back(std::move(line));
-  lines_.clear();
-  if (map_) batch.lines.push_back(std::exchange(map_, nullptr));
+Outbox::Batch Outbox::take(Batch written) {
+  Batch batch = std::move(written);
+  batch.lines.clear();
+  batch.frames = 0;
+  std::swap(batch.lines, lines_);
+  if (map_) batch.lines.push_back(std::exchange(map_, {}));
   while (auto frame = frames_.take()) {
     batch.lines.push_back(std::move(frame->text));
     ++batch.frames;
   }
-  if (last_) batch.lines.push_back(std::exchange(last_, nullptr));
+  if (last_) batch.lines.push_back(std::exchange(last_, {}));
   flying_bytes_ = std::exchange(waiting_bytes_, 0);
   return batch;
 }

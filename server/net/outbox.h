@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
 #include <vector>
 
 #include "server/net/frame_slots.h"
@@ -38,8 +37,9 @@ class Outbox {
     std::size_t frames = 0;  ///< how many of them are keys and deltas
     [[nodiscard]] bool empty() const { return lines.empty(); }
   };
-  /// Everything that waits. REQUIRES that the batch before was written().
-  Batch take();
+  /// Everything that waits. REQUIRES that the batch before was written(); its memory is used again.
+  Batch take(Batch written);
+  Batch take() { return take(Batch()); }
   /// The batch taken last has left.
   void written();
 
@@ -47,7 +47,7 @@ class Outbox {
 
  private:
   std::size_t limit_;
-  std::deque<Line> lines_;
+  std::vector<Line> lines_;
   std::size_t waiting_bytes_ = 0;
   std::size_t flying_bytes_ = 0;
   Line map_;

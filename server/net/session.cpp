@@ -29,10 +29,6 @@ double cost_of(const protocol::ClientMessage& message) {
   return is_costly ? Session::kBroadcastCost : 1.0;
 }
 
-Line as_line(const protocol::ServerMessage& message) {
-  return std::make_shared<const std::string>(protocol::encode(message));
-}
-
 }  // namespace
 
 Session::Session(SessionId id, std::unique_ptr<Wire> wire, const SessionEnvironment& environment)
@@ -161,7 +157,9 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
 
 // ---- writing -------------------------------------------------------------------------------------------
 
-void Session::say(const protocol::ServerMessage& message) { push(as_line(message)); }
+void Session::say(const protocol::ServerMessage& message) {
+  push(answers_.line([&](std::string& text) { protocol::append(text, message); }));
+}
 
 void Session::push(Line line) {
   if (state_ != State::kOpen) return;
@@ -173,7 +171,7 @@ void Session::push(Line line) {
 
 void Session::write() {
   if (!writing_.empty() || state_ == State::kDraining || state_ == State::kClosed) return;
-  writing_ = outbox_.take();
+  writing_ = outbox_.take(std::move(writing_));
   if (writing_.empty()) {
     if (state_ != State::kSayingBye) return;
     state_ = State::kDraining;
@@ -181,12 +179,13 @@ void Session::write() {
     linger_until_ = std::min(linger_until_, now() + kLinger);
     return watch(linger_until_);
   }
-  wire_->write(writing_.lines,
-               [self = shared_from_this(), frames = writing_.frames](
-                   const error_code& error, std::size_t size) { self->on_written(error, size, frames); });
+  wire_->write(writing_.lines, [self = shared_from_this()](const error_code& error, std::size_t size) {
+    self->on_written(error, size);
+  });
 }
 
-void Session::on_written(const error_code& error, std::size_t size, std::size_t frames) {
+void Session::on_written(const error_code& error, std::size_t size) {
+  const std::size_t frames = writing_.frames;
   writing_.lines.clear();
   outbox_.written();
   if (state_ == State::kClosed) return;
@@ -301,7 +300,7 @@ void Session::say_bye(const std::optional<protocol::ErrorMessage>& error, const 
   leave_room();
   std::string text = error ? protocol::encode(*error) : std::string{};
   text += protocol::encode(bye);
-  outbox_.push_last(std::make_shared<const std::string>(std::move(text)), replaceable);
+  outbox_.push_last(Line(std::move(text)), replaceable);
   state_ = State::kSayingBye;
   write();
 }

@@ -94,7 +94,7 @@ class Session final : public Subscriber, public std::enable_shared_from_this<Ses
   void say(const protocol::ServerMessage& message);
   void push(Line line);
   void write();
-  void on_written(const boost::system::error_code& error, std::size_t size, std::size_t frames);
+  void on_written(const boost::system::error_code& error, std::size_t size);
   void tell_pace(SendRate::Change change);
 
   void fail(std::string_view code, std::string text);
@@ -122,6 +122,7 @@ class Session final : public Subscriber, public std::enable_shared_from_this<Ses
   bool input_ended_ = false;  ///< the client has shut its sending side: nothing is left to read
   RateLimiter limiter_;
 
+  LinePool answers_;
   Outbox outbox_;
   Outbox::Batch writing_;  ///< in flight; empty: none
   SendRate rate_;

@@ -1,13 +1,10 @@
 #include "server/net/tcp_wire.h"
 
-#include <boost/asio/buffer.hpp>
 #include <boost/asio/write.hpp>
 
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
-
-#include <vector>
 
 namespace woodlouse::server {
 namespace {
@@ -34,10 +31,9 @@ void TcpWire::read_some(std::span<char> into, Handler handler) {
 }
 
 void TcpWire::write(std::span<const Line> lines, Handler handler) {
-  std::vector<asio::const_buffer> buffers;
-  buffers.reserve(lines.size());
-  for (const Line& line : lines) buffers.push_back(asio::buffer(*line));
-  asio::async_write(socket_, std::move(buffers), std::move(handler));
+  buffers_.clear();
+  for (const Line& line : lines) buffers_.push_back(asio::buffer(*line));
+  asio::async_write(socket_, std::span<const asio::const_buffer>(buffers_), std::move(handler));
 }
 
 error_code TcpWire::shut_down_sending() {

@@ -1,9 +1,11 @@
 // A connection over TCP.
 #pragma once
 
+#include <boost/asio/buffer.hpp>
 #include <boost/asio/ip/tcp.hpp>
 
 #include <utility>
+#include <vector>
 
 #include "server/net/wire.h"
 
@@ -28,6 +30,7 @@ class TcpWire final : public Wire {
 
  private:
   Socket socket_;
+  std::vector<boost::asio::const_buffer> buffers_;  ///< of the write that runs
 };
 
 }  // namespace woodlouse::server

@@ -36,12 +36,12 @@ void Broadcaster::event(std::uint64_t number, Line line) {
 void Broadcaster::let_go(SessionId session) {
   backlog_.fetch_add(1, std::memory_order_relaxed);
   asio::post(strand_, [self = shared_from_this(), this, session] {
-    events_.push_back({0, nullptr, session});
+    events_.push_back({0, {}, session});
     wake();
   });
 }
 
-void Broadcaster::frames(FrameKind kind, std::vector<ChannelFrame> frames) {
+void Broadcaster::frames(FrameKind kind, ChannelFrames frames) {
   asio::post(strand_, [self = shared_from_this(), this, kind, job = std::move(frames)]() mutable {
     if (kind == FrameKind::kKey) {
       key_ = std::move(job);

@@ -43,17 +43,16 @@ class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
   void event(std::uint64_t number, Line line);
   /// Lets the member go when it has heard the events before this.
   void let_go(SessionId session);
-  void frames(FrameKind kind, std::vector<ChannelFrame> frames);
+  void frames(FrameKind kind, ChannelFrames frames);
   /// Events not yet handed out.
   [[nodiscard]] std::size_t backlog() const { return backlog_.load(std::memory_order_relaxed); }
 
  private:
   struct EventJob {
     std::uint64_t number = 0;
-    Line line;  ///< null: no event, the session is let go
+    Line line;  ///< none: no event, the session is let go
     SessionId session = 0;
   };
-  using FrameJob = std::vector<ChannelFrame>;
 
   void wake();
   void hand_out_slice();
@@ -66,10 +65,10 @@ class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
   // The strand's:
   std::vector<Member> members_;  ///< subscriber null: removed during a job
   std::deque<EventJob> events_;
-  std::optional<FrameJob> key_;
-  std::optional<FrameJob> delta_;
+  std::optional<ChannelFrames> key_;
+  std::optional<ChannelFrames> delta_;
   std::optional<EventJob> event_job_;  ///< the job being handed out, one of the two
-  std::optional<FrameJob> frame_job_;
+  std::optional<ChannelFrames> frame_job_;
   std::size_t next_member_ = 0;  ///< of that job
   bool awake_ = false;           ///< a slice is posted
 };

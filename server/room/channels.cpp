@@ -41,8 +41,8 @@ std::vector<Frame> Channels::newest(ChannelId id, const Scene& scene) {
   return frames;
 }
 
-std::vector<ChannelFrame> Channels::encode(const Scene& scene, FrameKind kind) {
-  std::vector<ChannelFrame> frames;
+ChannelFrames Channels::encode(const Scene& scene, FrameKind kind) {
+  ChannelFrames frames;
   frames.reserve(channels_.size());
   for (auto& [id, channel] : channels_) frames.push_back({id, encode(channel, scene, kind)});
   return frames;

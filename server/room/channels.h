@@ -2,6 +2,8 @@
 // it. Pure. The room's strand owns it.
 #pragma once
 
+#include <boost/container/small_vector.hpp>
+
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -18,6 +20,9 @@ struct ChannelFrame {
   Frame frame;
 };
 
+/// Of one tick. Few rooms have more layouts than find place without memory of their own.
+using ChannelFrames = boost::container::small_vector<ChannelFrame, 4>;
+
 class Channels {
  public:
   static constexpr std::size_t kMaxLayouts = 32;  ///< in a room at a time; bounds the encoding of a tick
@@ -31,7 +36,7 @@ class Channels {
   /// none.
   std::vector<Frame> newest(ChannelId channel, const Scene& scene);
   /// The frame of every layout for this scene; a layout without a key gets one.
-  std::vector<ChannelFrame> encode(const Scene& scene, FrameKind kind);
+  ChannelFrames encode(const Scene& scene, FrameKind kind);
 
   [[nodiscard]] bool empty() const { return channels_.empty(); }
   /// Frames encoded so far.

@@ -1,6 +1,5 @@
 #include "server/room/events.h"
 
-#include <memory>
 #include <utility>
 
 #include "shared/protocol/codec.h"
@@ -11,7 +10,7 @@ NumberedLine Events::make(std::uint64_t tick, protocol::EventKind kind, const Se
                           const std::string& text) {
   const std::uint64_t number = next_++;
   protocol::Event event{number, tick, kind, seat.louse, seat.name, seat.role, text};
-  return {number, std::make_shared<const std::string>(protocol::encode(std::move(event)))};
+  return {number, Line(protocol::encode(std::move(event)))};
 }
 
 }  // namespace woodlouse::server

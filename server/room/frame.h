@@ -2,13 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
-#include <string>
+
+#include "server/room/line.h"
 
 namespace woodlouse::server {
-
-/// One encoded line, newline included; immutable, shared between sessions.
-using Line = std::shared_ptr<const std::string>;
 
 enum class FrameKind : std::uint8_t {
   kKey,    ///< whole by itself

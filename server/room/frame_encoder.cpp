@@ -4,7 +4,6 @@
 #include <cstring>
 #include <utility>
 
-#include "shared/core/stable_hash.h"
 #include "shared/json/text.h"
 
 namespace woodlouse::server {
@@ -14,11 +13,12 @@ bool same_bytes(const state::Louse& a, const state::Louse& b) { return std::memc
 
 /// What besides the rows went into the hash.
 void append_proof(std::string& text, const state::HashLink& link) {
-  text += R"(,"previous":")" + core::to_hex(link.previous) + R"(","inputs":")" + core::to_hex(link.inputs);
-  text += R"(","roster":")" + core::to_hex(link.roster) + R"(","rules":")" + core::to_hex(link.rules);
-  text += R"(","link":)";
-  json::append_integer(text, link.tick);
-  text += R"(,"generator":")" + core::to_hex(link.generator) + '"';
+  json::append_hash(text += R"(,"previous":)", link.previous);
+  json::append_hash(text += R"(,"inputs":)", link.inputs);
+  json::append_hash(text += R"(,"roster":)", link.roster);
+  json::append_hash(text += R"(,"rules":)", link.rules);
+  json::append_integer(text += R"(,"link":)", link.tick);
+  json::append_hash(text += R"(,"generator":)", link.generator);
 }
 
 }  // namespace
@@ -29,8 +29,13 @@ FrameEncoder::FrameEncoder(RowLayout layout) : rows_(std::move(layout)) {
 }
 
 Frame FrameEncoder::key(const Scene& scene) {
-  std::string text = R"({"type":"key","tick":)";
-  json::append_integer(text, scene.tick);
+  key_tick_ = scene.tick;
+  key_text_ = lines_.line([&](std::string& text) { write_key(text, scene); });
+  return {FrameKind::kKey, scene.tick, scene.tick, scene.index, key_text_};
+}
+
+void FrameEncoder::write_key(std::string& text, const Scene& scene) {
+  json::append_integer(text += R"({"type":"key","tick":)", scene.tick);
   text += R"(,"louse":[)";
   key_rows_.clear();
   for (const state::Louse& louse : scene.lice) {
@@ -39,26 +44,26 @@ Frame FrameEncoder::key(const Scene& scene) {
     rows_.append(text, louse, scene.terrain);
     key_rows_.push_back({louse, begin, text.size()});
   }
-  text += R"(],"hash":")" + core::to_hex(scene.hash) + '"';
+  json::append_hash(text += R"(],"hash":)", scene.hash);
   if (proves_hash_) append_proof(text, scene.link);
   text += "}\n";
-  key_tick_ = scene.tick;
-  key_text_ = std::make_shared<const std::string>(std::move(text));
-  return {FrameKind::kKey, scene.tick, scene.tick, scene.index, key_text_};
 }
 
 Frame FrameEncoder::delta(const Scene& scene) {
   assert(key_text_);
-  std::string text = R"({"type":"delta","tick":)";
-  json::append_integer(text, scene.tick);
-  text += R"(,"base":)";
-  json::append_integer(text, key_tick_);
+  return {FrameKind::kDelta, scene.tick, key_tick_, scene.index,
+          lines_.line([&](std::string& text) { write_delta(text, scene); })};
+}
+
+void FrameEncoder::write_delta(std::string& text, const Scene& scene) {
+  json::append_integer(text += R"({"type":"delta","tick":)", scene.tick);
+  json::append_integer(text += R"(,"base":)", key_tick_);
   text += R"(,"louse":[)";
-  std::string gone;
+  gone_.clear();
   auto known = key_rows_.cbegin();
   const auto report_gone = [&] {
-    if (!gone.empty()) gone += ',';
-    json::append_integer(gone, known->louse.id);
+    if (!gone_.empty()) gone_ += ',';
+    json::append_integer(gone_, known->louse.id);
     ++known;
   };
   bool first = true;
@@ -69,19 +74,19 @@ Frame FrameEncoder::delta(const Scene& scene) {
       ++known;
       continue;
     }
-    scratch_.clear();
-    rows_.append(scratch_, louse, scene.terrain);
+    row_.clear();
+    rows_.append(row_, louse, scene.terrain);
     if (is_known) {
       const KeyRow& row = *known++;
-      if (std::string_view(*key_text_).substr(row.begin, row.end - row.begin) == scratch_) continue;
+      if (std::string_view(*key_text_).substr(row.begin, row.end - row.begin) == row_) continue;
     }
     if (!std::exchange(first, false)) text += ',';
-    text += scratch_;
+    text += row_;
   }
   while (known != key_rows_.cend()) report_gone();
-  text += R"(],"gone":[)" + gone + "]}\n";
-  return {FrameKind::kDelta, scene.tick, key_tick_, scene.index,
-          std::make_shared<const std::string>(std::move(text))};
+  text += R"(],"gone":[)";
+  text += gone_;
+  text += "]}\n";
 }
 
 }  // namespace woodlouse::server

@@ -41,6 +41,9 @@ class FrameEncoder {
   [[nodiscard]] const RowLayout& layout() const { return rows_.layout(); }
 
  private:
+  void write_key(std::string& text, const Scene& scene);
+  void write_delta(std::string& text, const Scene& scene);
+
   struct KeyRow {
     state::Louse louse;
     std::size_t begin = 0;  ///< of its text in key_text_
@@ -49,10 +52,12 @@ class FrameEncoder {
 
   RowTable rows_;
   bool proves_hash_ = false;  ///< exact and `all`: keys carry what else went into the hash
+  LinePool lines_;
   Line key_text_;
   std::uint64_t key_tick_ = 0;
   std::vector<KeyRow> key_rows_;
-  std::string scratch_;
+  std::string row_;   ///< being compared with the key's
+  std::string gone_;  ///< of the delta being written
 };
 
 }  // namespace woodlouse::server

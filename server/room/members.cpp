@@ -286,16 +286,15 @@ void Members::on_message(Seat& seat, SessionOccupant& occupant, const protocol::
 
 // ---- what they are shown -------------------------------------------------------------------------------
 
-std::vector<InputMargin> Members::margins(std::uint64_t tick, Time begun) {
-  due_ = acks_.take(tick);
-  std::vector<InputMargin> margins;
-  margins.reserve(due_.size());
+std::span<const InputMargin> Members::margins(std::uint64_t tick, Time begun) {
+  acks_.take(tick, due_);
+  margins_.clear();
   for (const PendingAck& ack : due_) {
     const auto late = static_cast<std::int64_t>(ack.ticks_late * 1'000'000 / game_.settings().tick_hz);
     const std::int64_t margin = duration_cast<microseconds>(begun - ack.arrived).count() - late;
-    margins.push_back({ack.player, ack.seq, margin});
+    margins_.push_back({ack.player, ack.seq, margin});
   }
-  return margins;
+  return margins_;
 }
 
 void Members::answer(std::uint64_t tick, Time begun) {

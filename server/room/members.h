@@ -56,7 +56,7 @@ class Members {
   void dismiss(const protocol::Bye& bye);
 
   /// How long before step `tick`, begun at `begun`, its inputs came; then answer() tells them.
-  std::vector<InputMargin> margins(std::uint64_t tick, Time begun);
+  std::span<const InputMargin> margins(std::uint64_t tick, Time begun);
   void answer(std::uint64_t tick, Time begun);
   /// The picture of every layout in use, where one is due.
   void send_frames();
@@ -95,7 +95,9 @@ class Members {
   std::atomic<std::uint32_t> players_{0}, bots_{0}, spectators_{0};
   Seats seats_;
   PendingAcks acks_;
-  std::vector<PendingAck> due_;  ///< of the step that margins() was asked for
+  // Of the step that margins() was asked for:
+  std::vector<PendingAck> due_;
+  std::vector<InputMargin> margins_;
   std::multimap<std::uint64_t, SessionId>
       leaving_;  ///< by the tick from which on all their inputs are acknowledged
   Channels channels_;

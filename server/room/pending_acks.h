@@ -25,16 +25,39 @@ struct PendingAck {
 
 class PendingAcks {
  public:
-  void add(std::uint64_t tick, const PendingAck& ack) { pending_[tick].push_back(ack); }
+  void add(std::uint64_t tick, const PendingAck& ack) {
+    auto at = pending_.lower_bound(tick);
+    if (at == pending_.end() || at->first != tick) at = pending_.insert(at, empty_list(tick));
+    at->second.push_back(ack);
+  }
 
-  /// Those whose step is `tick`.
-  std::vector<PendingAck> take(std::uint64_t tick) {
+  /// Moves those whose step is `tick` to `out` (cleared first).
+  void take(std::uint64_t tick, std::vector<PendingAck>& out) {
+    out.clear();
     auto node = pending_.extract(tick);
-    return node.empty() ? std::vector<PendingAck>{} : std::move(node.mapped());
+    if (node.empty()) return;
+    std::swap(out, node.mapped());
+    if (spare_.size() < kMostSpare) spare_.push_back(std::move(node));
   }
 
  private:
-  std::map<std::uint64_t, std::vector<PendingAck>> pending_;
+  static constexpr std::size_t kMostSpare = 16;
+  using Pending = std::map<std::uint64_t, std::vector<PendingAck>>;
+
+  Pending::node_type empty_list(std::uint64_t tick) {
+    if (spare_.empty()) {
+      Pending fresh;
+      fresh.emplace(tick, std::vector<PendingAck>());
+      return fresh.extract(tick);
+    }
+    auto node = std::move(spare_.back());
+    spare_.pop_back();
+    node.key() = tick;
+    return node;
+  }
+
+  Pending pending_;
+  std::vector<Pending::node_type> spare_;  ///< taken, for those to come
 };
 
 }  // namespace woodlouse::server

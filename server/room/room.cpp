@@ -198,7 +198,7 @@ void Room::tick(Time now) {
   const std::uint64_t number = game_->tick();
   members_.steer_house_bots();
   const match::StepRecord& step = game_->advance();
-  const std::vector<InputMargin> margins = members_.margins(number, now);
+  const std::span<const InputMargin> margins = members_.margins(number, now);
   for (const auto& watcher : watchers_) watcher->step(step, margins, *game_);
   members_.answer(number, now);
   members_.send_frames();

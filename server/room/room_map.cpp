@@ -1,6 +1,5 @@
 #include "server/room/room_map.h"
 
-#include <memory>
 #include <string>
 #include <utility>
 #include <variant>
@@ -21,7 +20,7 @@ Line encode_map_line(const map::Map& map) {
     message.is_overview = true;
     message.knots = tiled->overview;
   }
-  return std::make_shared<const std::string>(protocol::encode(protocol::ServerMessage(std::move(message))));
+  return Line(protocol::encode(protocol::ServerMessage(std::move(message))));
 }
 
 }  // namespace woodlouse::server

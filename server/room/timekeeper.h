@@ -2,8 +2,8 @@
 #pragma once
 
 #include <boost/asio/any_io_executor.hpp>
+#include <boost/function.hpp>
 
-#include <functional>
 #include <memory>
 
 #include "server/room/clock.h"
@@ -14,8 +14,9 @@ namespace woodlouse::server {
 class Alarm {
  public:
   /// Called on the alarm's executor, never within set() or cancel(). cancelled: by cancel(), another set() or
-  /// the alarm's end; a ring that was due by then may still come as one.
-  using Handler = std::function<void(bool cancelled)>;
+  /// the alarm's end; a ring that was due by then may still come as one. What captures 24 bytes at most costs
+  /// no memory.
+  using Handler = boost::function<void(bool cancelled)>;
 
   Alarm() = default;
   Alarm(const Alarm&) = delete;

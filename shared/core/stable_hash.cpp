@@ -12,10 +12,16 @@ struct StableHasher::State {
 std::uint64_t stable_hash(std::string_view bytes) { return XXH64(bytes.data(), bytes.size(), 0); }
 
 std::string to_hex(std::uint64_t hash) {
-  static constexpr char kDigits[] = "0123456789abcdef";
-  std::string text(16, '0');
-  for (std::size_t i = 16; i-- > 0; hash >>= 4) text[i] = kDigits[hash & 15];
+  std::string text;
+  append_hex(text, hash);
   return text;
+}
+
+void append_hex(std::string& out, std::uint64_t hash) {
+  static constexpr char kDigits[] = "0123456789abcdef";
+  char text[16];
+  for (std::size_t i = 16; i-- > 0; hash >>= 4) text[i] = kDigits[hash & 15];
+  out.append(text, sizeof text);
 }
 
 StableHasher::StableHasher() : state_(std::make_unique<State>()) { reset(); }

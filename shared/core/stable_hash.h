@@ -21,6 +21,7 @@ std::uint64_t stable_hash(std::string_view bytes);
 
 /// 16 lower-case hex digits.
 std::string to_hex(std::uint64_t hash);
+void append_hex(std::string& out, std::uint64_t hash);
 
 /// Streaming XXH64, seed 0.
 class StableHasher {

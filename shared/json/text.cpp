@@ -84,7 +84,7 @@ char* write_double(char* to, double value) {
 
 void append_hash(std::string& out, std::uint64_t value) {
   out += '"';
-  out += core::to_hex(value);
+  core::append_hex(out, value);
   out += '"';
 }
 

@@ -21,9 +21,7 @@ Filed InputQueue::file(const Input& input, std::uint64_t next_tick) {
   player.any = true;
   player.last_seq = input.seq;
   ++player.pending;
-  waiting_.emplace(
-      Key{tick, input.player, input.seq},
-      AppliedInput{input.player, input.seq, input.thrust.value, input.thrust.kind, input.ticks, tick});
+  wait({input.player, input.seq, input.thrust.value, input.thrust.kind, input.ticks, tick});
   return {Filed::Outcome::kFiled, tick, late};
 }
 
@@ -33,18 +31,30 @@ bool InputQueue::file_applied(const AppliedInput& input) {
   Player& player = found->second;
   player.last_seq = player.any ? std::max(player.last_seq, input.seq) : input.seq;
   player.any = true;
-  if (waiting_.emplace(Key{input.tick, input.player, input.seq}, input).second) ++player.pending;
+  if (wait(input)) ++player.pending;
   return true;
+}
+
+bool InputQueue::wait(const AppliedInput& input) {
+  const Key key{input.tick, input.player, input.seq};
+  if (spare_.empty()) return waiting_.emplace(key, input).second;
+  auto node = std::move(spare_.back());
+  spare_.pop_back();
+  node.key() = key;
+  node.mapped() = input;
+  auto inserted = waiting_.insert(std::move(node));
+  if (!inserted.inserted) spare_.push_back(std::move(inserted.node));
+  return inserted.inserted;
 }
 
 void InputQueue::take(std::uint64_t tick, std::vector<AppliedInput>& out) {
   out.clear();
-  auto at = waiting_.begin();
-  for (; at != waiting_.end() && at->first.tick <= tick; ++at) {
-    out.push_back(at->second);
-    --players_.at(at->first.player).pending;
+  while (!waiting_.empty() && waiting_.begin()->first.tick <= tick) {
+    auto node = waiting_.extract(waiting_.begin());
+    out.push_back(node.mapped());
+    --players_.at(node.key().player).pending;
+    if (spare_.size() < kMostSpare) spare_.push_back(std::move(node));
   }
-  waiting_.erase(waiting_.begin(), at);
 }
 
 std::vector<PlayerSeq> InputQueue::players() const {
@@ -70,7 +80,7 @@ void InputQueue::restore(std::span<const PlayerSeq> players, std::span<const App
     players_[entry.player] = Player{entry.last_seq.value_or(0), entry.last_seq.has_value(), 0};
   }
   for (const AppliedInput& input : waiting) {
-    waiting_.emplace(Key{input.tick, input.player, input.seq}, input);
+    wait(input);
     ++players_.at(input.player).pending;
   }
 }

@@ -78,6 +78,9 @@ class InputQueue {
   void restore(std::span<const PlayerSeq> players, std::span<const AppliedInput> waiting);
 
  private:
+  /// False: there is one of that tick, player and seq already.
+  bool wait(const AppliedInput& input);
+
   struct Player {
     std::uint32_t last_seq = 0;
     bool any = false;
@@ -93,6 +96,9 @@ class InputQueue {
   std::uint64_t horizon_;
   std::map<state::LouseId, Player> players_;
   std::map<Key, AppliedInput> waiting_;
+  static constexpr std::size_t kMostSpare = 4096;
+  /// Those that were taken, for as many to come: a game that goes on at its pace allocates nothing.
+  std::vector<std::map<Key, AppliedInput>::node_type> spare_;
 };
 
 }  // namespace woodlouse::match

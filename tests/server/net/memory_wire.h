@@ -53,7 +53,7 @@ class FarEnd : public std::enable_shared_from_this<FarEnd> {
     holds_writes = false;
     finish_write();
   }
-  [[nodiscard]] bool is_writing() const { return write_ != nullptr; }
+  [[nodiscard]] bool is_writing() const { return !write_.empty(); }
 
  private:
   friend class MemoryWire;
@@ -63,8 +63,7 @@ class FarEnd : public std::enable_shared_from_this<FarEnd> {
     return faulty == calls++;
   }
   void answer(Wire::Handler& handler, error_code error, std::size_t size) {
-    boost::asio::post(executor_,
-                      [done = std::exchange(handler, nullptr), error, size] { done(error, size); });
+    boost::asio::post(executor_, [done = std::exchange(handler, {}), error, size] { done(error, size); });
   }
   void feed() {
     if (!read_) return;
@@ -100,7 +99,7 @@ class MemoryWire final : public Wire {
   [[nodiscard]] boost::asio::any_io_executor executor() override { return far_->executor_; }
 
   void read_some(std::span<char> into, Handler handler) override {
-    CHECK(far_->read_ == nullptr);
+    CHECK(far_->read_.empty());
     const bool fails = far_->begin_call();
     far_->into_ = into;
     far_->read_ = std::move(handler);
@@ -109,7 +108,7 @@ class MemoryWire final : public Wire {
   }
 
   void write(std::span<const Line> lines, Handler handler) override {
-    CHECK(far_->write_ == nullptr);
+    CHECK(far_->write_.empty());
     CHECK_FALSE(far_->is_shut);
     CHECK_FALSE(lines.empty());
     ++far_->writes;

@@ -11,7 +11,7 @@ using Outcome = FrameSlots::Outcome;
 
 namespace {
 
-Line line(const std::string& text) { return std::make_shared<const std::string>(text); }
+Line line(const std::string& text) { return Line(text); }
 Frame key(std::uint64_t tick) {
   return {FrameKind::kKey, tick, tick, tick, line("k" + std::to_string(tick))};
 }

@@ -26,7 +26,7 @@ std::vector<Seen> play(double seconds_long, const std::function<bool(Pace, doubl
   std::vector<Seen> changes;
   for (std::uint64_t index = 0; static_cast<double>(index) < 20.0 * seconds_long; ++index) {
     const FrameKind kind = index % 20 == 0 ? FrameKind::kKey : FrameKind::kDelta;
-    if (!rate.wants({kind, 3 * index, 0, index, nullptr}, 1)) continue;
+    if (!rate.wants({kind, 3 * index, 0, index, {}}, 1)) continue;
     const double second = static_cast<double>(index) / 20.0;
     const Time now = kStart + std::chrono::milliseconds(50 * index);
     const Change change = rate.on_frame(now, replaced(rate.pace(), second));
@@ -84,7 +84,7 @@ TEST_CASE("a client that fails again after each restoring is tried ever less oft
 
 TEST_CASE("half rate is every other of the client's own frames, keys come at every pace") {
   SendRate rate(kStart);
-  const auto delta = [](std::uint64_t index) { return Frame{FrameKind::kDelta, 0, 0, index, nullptr}; };
+  const auto delta = [](std::uint64_t index) { return Frame{FrameKind::kDelta, 0, 0, index, {}}; };
   CHECK(rate.wants(delta(2), 2));
   CHECK_FALSE(rate.wants(delta(3), 2));
   Time now = kStart;
@@ -93,5 +93,5 @@ TEST_CASE("half rate is every other of the client's own frames, keys come at eve
   CHECK(rate.wants(delta(4), 2));
   while (rate.pace() == Pace::kHalf) rate.on_frame(now += seconds(1), true);
   CHECK_FALSE(rate.wants(delta(4), 2));
-  CHECK(rate.wants({FrameKind::kKey, 0, 0, 20, nullptr}, 2));
+  CHECK(rate.wants({FrameKind::kKey, 0, 0, 20, {}}, 2));
 }

@@ -162,7 +162,7 @@ struct Stage {
   }
 };
 
-inline Line as_line(std::string_view text) { return std::make_shared<const std::string>(text); }
+inline Line as_line(std::string_view text) { return Line(std::string(text)); }
 inline std::string text_of(const protocol::ServerMessage& message) { return protocol::encode(message); }
 
 }  // namespace woodlouse::server

@@ -46,7 +46,7 @@ struct Outcome {
   }
 };
 
-Line line(const std::string& text) { return std::make_shared<const std::string>(text); }
+Line line(const std::string& text) { return Line(text); }
 
 }  // namespace
 

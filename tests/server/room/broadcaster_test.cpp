@@ -27,9 +27,9 @@ class Listener final : public Subscriber {
 
 using Heard = std::vector<std::string>;
 
-Line line(const std::string& text) { return std::make_shared<const std::string>(text); }
+Line line(const std::string& text) { return Line(text); }
 
-std::vector<ChannelFrame> frames(FrameKind kind, std::uint64_t tick, const std::string& text) {
+ChannelFrames frames(FrameKind kind, std::uint64_t tick, const std::string& text) {
   return {{1, {kind, tick, 0, tick, line("1:" + text)}}, {2, {kind, tick, 0, tick, line("2:" + text)}}};
 }
 

@@ -17,7 +17,7 @@ class ManualTimekeeper final : public Timekeeper {
  public:
   [[nodiscard]] Time now() const override { return *now_; }
   [[nodiscard]] std::unique_ptr<Alarm> make_alarm(boost::asio::any_io_executor executor) override {
-    auto clockwork = std::make_shared<Clockwork>(Clockwork{std::move(executor), {}, nullptr});
+    auto clockwork = std::make_shared<Clockwork>(Clockwork{std::move(executor), {}, {}});
     alarms_.push_back(clockwork);
     return std::make_unique<ManualAlarm>(std::move(clockwork), now_);
   }
@@ -31,7 +31,7 @@ class ManualTimekeeper final : public Timekeeper {
   [[nodiscard]] std::size_t pending() const {
     return static_cast<std::size_t>(std::count_if(alarms_.begin(), alarms_.end(), [](const auto& alarm) {
       const auto clockwork = alarm.lock();
-      return clockwork && clockwork->handler;
+      return clockwork && !clockwork->handler.empty();
     }));
   }
 
@@ -39,11 +39,11 @@ class ManualTimekeeper final : public Timekeeper {
   struct Clockwork {
     boost::asio::any_io_executor executor;
     Time until;
-    Alarm::Handler handler;  ///< null: not set
+    Alarm::Handler handler;  ///< empty: not set
 
     void end(bool cancelled) {
-      if (!handler) return;
-      boost::asio::post(executor, [ring = std::exchange(handler, nullptr), cancelled] { ring(cancelled); });
+      if (handler.empty()) return;
+      boost::asio::post(executor, [ring = std::exchange(handler, {}), cancelled] { ring(cancelled); });
     }
   };
 
