@@ -122,7 +122,8 @@ constexpr std::array<std::pair<std::string_view, Read>, 10> kTypes = {{
 }  // namespace
 
 Decoded decode_client(std::string_view line) {
-  if (const std::optional<Input> input = scan_input(line)) return ClientMessage(*input);
+  if (const std::optional<Input> input = scan_input(line))
+    return Decoded(tl::in_place, std::in_place_type<Input>, *input);
   const auto document = parse_object(line);
   if (!document) return tl::unexpected(document.error());
   const auto type = read_type(*document, kTypes);
