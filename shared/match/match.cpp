@@ -115,7 +115,7 @@ void Match::apply_inputs() {
 
 /// A step that applied nothing and changed no byte makes no link: its hash is the one before.
 void Match::link_up() {
-  const bool lice_changed = lice_hashes_.update(world_.lice(), world_.changed_blocks());
+  const bool lice_changed = lice_hashes_.update(world_.lice(), world_.changed_blocks(), team_.get());
   world_.forget_changes();
   if (!lice_changed && record_.roster.empty() && record_.inputs.empty()) {
     assert(random_.state() == link_.generator);

@@ -17,6 +17,7 @@
 
 #include "shared/core/random.h"
 #include "shared/core/stable_hash.h"
+#include "shared/core/team.h"
 #include "shared/map/map_definition.h"
 #include "shared/match/input_queue.h"
 #include "shared/match/match_state.h"
@@ -58,6 +59,11 @@ class Match {
 
   /// Chooses how many lice are stepped at once; every choice gives the same bits (physics/world.h).
   void use(physics::InstructionSet set) { world_.use(set); }
+  /// Has steps and hashes of many lice made by a team; every team gives the same bits (physics/world.h).
+  void use(const std::shared_ptr<core::Team>& team) {
+    team_ = team;
+    world_.use(team);
+  }
 
   /// Queues a new louse for the next step; its id is fresh and known at once. REQUIRES a role that plays.
   PlayerId join(PlayerLabel label = {});
@@ -98,6 +104,7 @@ class Match {
 
   std::shared_ptr<const map::Map> map_;
   MatchSettings settings_;
+  std::shared_ptr<core::Team> team_;
   physics::World world_;
   core::Random random_;
   InputQueue inputs_;

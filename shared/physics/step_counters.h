@@ -14,6 +14,18 @@ struct StepCounters {
   std::uint64_t bounces = 0;      ///< impacts on a wall
   std::uint64_t flights = 0;      ///< take-offs
   std::uint64_t stops = 0;        ///< lice brought to rest by friction
+
+  StepCounters& operator+=(const StepCounters& other) {
+    louse_steps += other.louse_steps;
+    left += other.left;
+    sub_steps += other.sub_steps;
+    capped += other.capped;
+    samples += other.samples;
+    bounces += other.bounces;
+    flights += other.flights;
+    stops += other.stops;
+    return *this;
+  }
 };
 
 }  // namespace woodlouse::physics

@@ -86,6 +86,11 @@ void World::use(InstructionSet set) {
   batch_ = ground ? find_batch_step(set, *ground, forces) : BatchStep{};
 }
 
+void World::use(std::shared_ptr<core::Team> team) {
+  team_ = std::move(team);
+  lists_are_stale_ = true;
+}
+
 std::size_t World::index_of(state::LouseId id) const {
   const auto at =
       std::lower_bound(lice_.begin(), lice_.end(), id,
@@ -170,25 +175,68 @@ void World::collect() {
     if (list == List::kMoving) moving_.push_back(static_cast<std::uint32_t>(i));
     if (list == List::kWaiting) waiting_.push_back(static_cast<std::uint32_t>(i));
   }
+  cut();
   lists_are_stale_ = false;
+}
+
+/// Into parts of as many moving lice each as blocks allow.
+void World::cut() {
+  parts_.resize(core::parts_for(team_.get(), moving_.size(), kPartLice));
+  std::size_t moving = 0, waiting = 0;
+  const auto place_of = [](const std::vector<std::uint32_t>& list, std::size_t index) {
+    return static_cast<std::size_t>(std::lower_bound(list.begin(), list.end(), index) - list.begin());
+  };
+  for (std::size_t k = 0; k < parts_.size(); ++k) {
+    Part& part = parts_[k];
+    part.moving_begin = moving;
+    part.waiting_begin = waiting;
+    if (k + 1 == parts_.size()) {
+      moving = moving_.size();
+      waiting = waiting_.size();
+    } else {
+      const std::size_t next = moving_[(k + 1) * moving_.size() / parts_.size()];
+      const std::size_t border = next / state::kBlockLice * state::kBlockLice;
+      moving = place_of(moving_, border);
+      waiting = place_of(waiting_, border);
+    }
+    part.moving_end = moving;
+    part.waiting_end = waiting;
+  }
 }
 
 void World::step() {
   std::fill(events_.begin(), events_.end(), StepEvents{0});
   if (lists_are_stale_) collect();
   if (moving_.empty() && waiting_.empty()) return;
-  ground_steps_->advance(lice_, moving_, batch_, batch_lists_, counters_, events_);
-  for (const auto* list : {&moving_, &waiting_}) {
-    for (const std::uint32_t index : *list) {
+  // Shared by the threads: the lists, the ground, its steps and the batch, which nobody writes but a big
+  // map's tiles (tile_store.h), and lice_, events_ and changed_blocks_, of which each writes what is its
+  // part's.
+  core::run_parts(team_.get(), parts_.size(), [this](std::size_t k) { step(parts_[k]); });
+  for (const Part& part : parts_) {
+    counters_ += part.counters;
+    lists_are_stale_ |= part.lists_are_stale;
+  }
+}
+
+void World::step(Part& part) {
+  part.counters = {};
+  part.lists_are_stale = false;
+  const auto moving = std::span(moving_).subspan(part.moving_begin, part.moving_end - part.moving_begin);
+  const auto waiting = std::span(waiting_).subspan(part.waiting_begin, part.waiting_end - part.waiting_begin);
+  if (!moving.empty()) ground_steps_->advance(lice_, moving, batch_, part.lists, part.counters, events_);
+  const auto count_down = [&](std::span<const std::uint32_t> list, List own) {
+    for (const std::uint32_t index : list) {
       state::Louse& louse = lice_[index];
       note_change(index);
       if (louse.thrust_ticks != 0 && louse.thrust_ticks != state::kHeld && --louse.thrust_ticks == 0) {
         clear_thrust(louse);
         if (louse.phase == state::Phase::kResting) settle(louse);
       }
-      lists_are_stale_ |= list_of(louse) != (list == &moving_ ? List::kMoving : List::kWaiting);
+      part.lists_are_stale |= list_of(louse) != own;
     }
-  }
+  };
+  count_down(moving, List::kMoving);
+  count_down(waiting, List::kWaiting);
 }
 
 }  // namespace woodlouse::physics

@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "shared/core/team.h"
 #include "shared/core/vec2.h"
 #include "shared/physics/batch.h"
 #include "shared/physics/step_counters.h"
@@ -30,6 +31,9 @@ class GroundSteps;
 
 class World {
  public:
+  /// Moving lice of a team's part, at least: fewer than twice as many are stepped by the caller alone.
+  static constexpr std::size_t kPartLice = 500;
+
   /// step: seconds per tick, > 0. Walls stand at the terrain's edge. REQUIRES the exact equations and a
   /// terrain that is no SharedSurface; a map's world: map/map_world.h.
   World(std::shared_ptr<const terrain::Terrain> terrain, const state::Parameters& parameters, double step);
@@ -44,6 +48,9 @@ class World {
   /// Chooses how many lice are stepped at once; every choice gives the same bits. REQUIRES is_available(set).
   /// The best one is chosen from the start.
   void use(InstructionSet set);
+  /// Has lice stepped by a team where they are many; every team gives the same bits, and so does none (null).
+  /// A copy of the world has the same team. A team that is at another world is not waited for.
+  void use(std::shared_ptr<core::Team> team);
 
   /// Adds a louse; its position is moved into the domain where it lies outside (by whole periods where the
   /// edges wrap). REQUIRES a fresh id and finite fields. A louse at rest that the terrain or its thrust would
@@ -76,10 +83,27 @@ class World {
   [[nodiscard]] const StepCounters& counters() const { return counters_; }
 
  private:
+  /// Some of those who move and of those who wait, and what one thread writes in a step but for its lice and
+  /// their blocks' flags. Parts meet where blocks do: no two threads write the same ones. On cache lines of
+  /// its own.
+  struct alignas(64) Part {
+    std::size_t moving_begin = 0, moving_end = 0;    ///< places in moving_
+    std::size_t waiting_begin = 0, waiting_end = 0;  ///< places in waiting_
+    BatchLists lists;
+    StepCounters counters;
+    bool lists_are_stale = false;
+  };
+
   [[nodiscard]] std::size_t index_of(state::LouseId id) const;
   void settle(state::Louse& louse) const;
   void collect();
-  void note_change(std::size_t index) { changed_blocks_[index / state::kBlockLice] = 1; }
+  void cut();
+  void step(Part& part);
+  /// Looks first: threads whose flags lie on one cache line would take it from each other at every louse.
+  void note_change(std::size_t index) {
+    std::uint8_t& flag = changed_blocks_[index / state::kBlockLice];
+    if (flag == 0) flag = 1;
+  }
   void note_changes_from(std::size_t index);
 
   std::shared_ptr<const terrain::Terrain> terrain_;
@@ -90,11 +114,12 @@ class World {
   std::vector<state::Louse> lice_;                   ///< ascending id
   std::vector<std::uint32_t> moving_;                ///< indices into lice_ of whom a step moves, ascending
   std::vector<std::uint32_t> waiting_;               ///< of those at rest whose thrust is to be counted down
+  std::vector<Part> parts_;                          ///< of both lists; all of them, by ascending place
   bool lists_are_stale_ = false;  ///< lice_ or who is in which list changed since they were made
   std::vector<std::uint8_t> changed_blocks_;
   std::vector<StepEvents> events_;
   BatchStep batch_;
-  BatchLists batch_lists_;
+  std::shared_ptr<core::Team> team_;
   StepCounters counters_;
 };
 

@@ -1,25 +1,41 @@
 #include "shared/state/state_hash.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <string_view>
 
 namespace woodlouse::state {
+namespace {
 
-bool BlockHashes::update(std::span<const Louse> lice, std::span<const std::uint8_t> changed) {
+/// Blocks that changed, of a part at least.
+constexpr std::size_t kPartBlocks = 16;
+
+}  // namespace
+
+bool BlockHashes::update(std::span<const Louse> lice, std::span<const std::uint8_t> changed,
+                         core::Team* team) {
   const std::size_t count = block_count(lice.size());
   assert(changed.size() == count);
-  bool is_another = values_.size() != count;
+  std::atomic<bool> is_another = values_.size() != count;
   values_.resize(count);
-  for (std::size_t block = 0; block < count; ++block) {
-    if (changed[block] == 0) continue;
-    const std::size_t first = block * kBlockLice;
-    const auto part = lice.subspan(first, std::min(kBlockLice, lice.size() - first));
-    const std::uint64_t hash =
-        core::stable_hash(std::string_view(reinterpret_cast<const char*>(part.data()), part.size_bytes()));
-    is_another |= hash != values_[block];
-    values_[block] = hash;
-  }
+  const auto hash_blocks = [&](std::size_t first, std::size_t end) {
+    for (std::size_t block = first; block < end; ++block) {
+      if (changed[block] == 0) continue;
+      const auto part =
+          lice.subspan(block * kBlockLice).first(std::min(kBlockLice, lice.size() - block * kBlockLice));
+      const std::uint64_t hash =
+          core::stable_hash(std::string_view(reinterpret_cast<const char*>(part.data()), part.size_bytes()));
+      if (hash != values_[block]) is_another.store(true, std::memory_order_relaxed);
+      values_[block] = hash;
+    }
+  };
+  const auto to_hash = count - static_cast<std::size_t>(std::count(changed.begin(), changed.end(), 0));
+  const std::size_t parts = core::parts_for(team, to_hash, kPartBlocks);
+  // Shared by the threads: the lice and flags, which nobody writes, is_another, and values_, of which each
+  // writes those of its blocks.
+  core::run_parts(team, parts,
+                  [&](std::size_t k) { hash_blocks(k * count / parts, (k + 1) * count / parts); });
   return is_another;
 }
 

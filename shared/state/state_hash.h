@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "shared/core/stable_hash.h"
+#include "shared/core/team.h"
 #include "shared/state/louse.h"
 
 namespace woodlouse::state {
@@ -47,7 +48,8 @@ class BlockHashes {
  public:
   /// Hashes those blocks anew whose flag is not 0; `changed`: a flag a block. True when a block has another
   /// hash, or there are more or fewer. REQUIRES that the blocks without a flag are those of the last call.
-  bool update(std::span<const Louse> lice, std::span<const std::uint8_t> changed);
+  /// A team helps where many have changed; none (null) gives the same.
+  bool update(std::span<const Louse> lice, std::span<const std::uint8_t> changed, core::Team* team = nullptr);
   [[nodiscard]] std::span<const std::uint64_t> values() const { return values_; }
 
  private:

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "shared/core/thread_team.h"
+
 using namespace woodlouse;
 using namespace woodlouse::state;
 
@@ -76,4 +78,31 @@ TEST_CASE("every byte of a louse and of the link shows in the state hash") {
   CHECK(hash({1, 2, 3, 0, 5, 6}, lice) != original);
   CHECK(hash({1, 2, 3, 4, 0, 6}, lice) != original);
   CHECK(hash({1, 2, 3, 4, 5, 0}, lice) != original);
+}
+
+TEST_CASE("a team gives the words and the verdict of one thread, whichever blocks changed") {
+  for (const std::size_t size : {1u, 2u, 3u, 5u}) {
+    core::ThreadTeam team(size, core::Cut::kFinest);
+    for (const std::size_t count : {0u, 1u, 63u, 64u, 65u, 640u, 1281u}) {
+      std::vector<state::Louse> lice = numbered(count);
+      const std::size_t blocks = block_count(count);
+      state::BlockHashes alone, together;
+      const auto update = [&](const std::vector<std::uint8_t>& changed) {
+        const bool is_another = alone.update(lice, changed);
+        REQUIRE(together.update(lice, changed, &team) == is_another);
+        REQUIRE(std::equal(alone.values().begin(), alone.values().end(), together.values().begin(),
+                           together.values().end()));
+        return is_another;
+      };
+      CHECK(update(std::vector<std::uint8_t>(blocks, 1)) == (count > 0));
+      CHECK_FALSE(update(std::vector<std::uint8_t>(blocks, 1)));
+      for (std::size_t block = 0; block < blocks; ++block) {
+        lice[block * kBlockLice].position.x += 1.0;
+        std::vector<std::uint8_t> changed(blocks, 0);
+        changed[block] = 1;
+        if (block + 1 < blocks) changed[block + 1] = 1;
+        CHECK(update(changed));
+      }
+    }
+  }
 }
