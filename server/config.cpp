@@ -10,6 +10,7 @@
 #include "server/config_file.h"
 #include "server/option_checks.h"
 #include "server/version.h"
+#include "shared/core/thread_team.h"
 
 namespace woodlouse::server {
 namespace {
@@ -93,6 +94,12 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
                  "What they do while nobody is there: play, or stand still with the room after 10 s")
       ->envname("WOODLOUSE_BOTS_ALONE")
       ->check(CLI::IsMember({"play", "stand"}))
+      ->capture_default_str();
+  app.add_option("--step-threads", serve.step_threads,
+                 "Threads that share a tick of a room with many lice, where the cores are free for them; the "
+                 "same bits. Rooms have them in turns")
+      ->envname("WOODLOUSE_STEP_THREADS")
+      ->check(whole_number(1, core::ThreadTeam::kMostThreads))
       ->capture_default_str();
   app.add_option("--log-format", typed.log_format, "On standard error")
       ->envname("WOODLOUSE_LOG_FORMAT")

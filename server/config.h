@@ -34,6 +34,7 @@ struct ServeConfig {
   std::optional<std::uint64_t> seed;   ///< empty: from the machine's entropy
   std::uint32_t bots = 0;              ///< of the house, in every room
   bool bots_alone_play = false;        ///< they keep a room awake in which nobody is
+  std::uint32_t step_threads = 1;      ///< 1..core::ThreadTeam::kMostThreads; of a big room's tick
   LogFormat log_format = LogFormat::kText;
 };
 

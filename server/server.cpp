@@ -23,6 +23,7 @@
 #include "shared/core/joined.h"
 #include "shared/core/printable.h"
 #include "shared/core/stable_hash.h"
+#include "shared/core/thread_team.h"
 #include "shared/map/map_file.h"
 #include "shared/map/map_search_file.h"
 #include "shared/protocol/codes.h"
@@ -111,6 +112,7 @@ core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config,
   const auto endpoint = server->acceptor_.open(config.listen);
   if (!endpoint) return tl::unexpected(endpoint.error());
   server->address_ = to_text(*endpoint);
+  if (config.step_threads > 1) server->step_team_ = std::make_shared<core::ThreadTeam>(config.step_threads);
   if (config.shadow) server->shadows_.emplace(tick_threads(std::max<std::size_t>(1, config.maps.size())));
   const auto opened = fork ? server->open_fork_room(config, std::move(*fork)) : server->open_rooms(config);
   if (!opened) return tl::unexpected(opened.error());
@@ -159,6 +161,7 @@ core::Expected<void> Server::open_room(const ServeConfig& config, const std::str
   auto watchers = make_watchers(config, name, start);
   if (!watchers) return tl::unexpected(watchers.error());
   log_opened(name, config, start);
+  start.match->use(step_team_);
   ++rooms_running_;
   const bool is_new = lobby_.open(
       Room::make(ticks_, io_, std::move(settings), std::move(start), std::move(*watchers), timekeeper_, log_),

@@ -3,7 +3,8 @@
 // Threads: rooms tick in a context of their own (one thread for each room, at most one a core), sockets and
 // broadcasts run in another (kIoThreads), recordings are written on one more, tiles of big maps are built
 // ahead of lice on another, shadows re-run games on as many as rooms tick on. A tick so never waits for a
-// socket, and for a disk only where a louse outruns the tiles.
+// socket, and for a disk only where a louse outruns the tiles. With --step-threads there is one team of
+// threads more, which a room with many lice has for its tick; a room that finds it taken goes without.
 #pragma once
 
 #include <spdlog/logger.h>
@@ -29,6 +30,7 @@
 #include "server/room/start.h"
 #include "server/room/steady_timekeeper.h"
 #include "shared/core/error.h"
+#include "shared/core/team.h"
 
 namespace woodlouse::server {
 
@@ -75,6 +77,7 @@ class Server {
   boost::asio::thread_pool disk_{1};
   std::optional<boost::asio::thread_pool> ground_;  ///< once a map is too big for the memory
   std::optional<boost::asio::thread_pool> shadows_;
+  std::shared_ptr<core::Team> step_team_;  ///< null: each tick on one thread
   boost::asio::io_context io_;
   boost::asio::io_context
       ticks_;  ///< ends before io_: what rooms posted holds them, and they hand out over io_

@@ -64,6 +64,7 @@ TEST_CASE("what is not asked for has its default") {
   CHECK(config.state_hz == 20);
   CHECK(config.bots == 0);
   CHECK_FALSE(config.bots_alone_play);
+  CHECK(config.step_threads == 1);
   CHECK_FALSE(config.seed);
   CHECK_FALSE(config.record);
   CHECK_FALSE(config.ticks);
@@ -89,6 +90,8 @@ TEST_CASE("flags are read, several maps make several rooms") {
                                     "3",
                                     "--bots-alone",
                                     "play",
+                                    "--step-threads",
+                                    "64",
                                     "--log-format",
                                     "json"});
   CHECK(config.maps == std::vector<std::filesystem::path>{"a.json", "b.json"});
@@ -100,6 +103,7 @@ TEST_CASE("flags are read, several maps make several rooms") {
   CHECK(config.seed == 18446744073709551615u);
   CHECK(config.bots == 3);
   CHECK(config.bots_alone_play);
+  CHECK(config.step_threads == 64);
   CHECK(config.log_format == LogFormat::kJson);
 }
 
@@ -135,6 +139,8 @@ TEST_CASE("a wrong option is refused by its name") {
       {{"--map", "a", "--bots-alone", "sleep"}, "--bots-alone"},
       {{"--map", "a", "--ticks", "0"}, "--ticks"},
       {{"--map", "a", "--seed", "1.5"}, "--seed"},
+      {{"--map", "a", "--step-threads", "0"}, "--step-threads"},
+      {{"--map", "a", "--step-threads", "65"}, "--step-threads"},
       {{"--map", "a", "--log-format", "xml"}, "--log-format"},
       {{"--map", "a", "--listen", "host:seven"}, "--listen"},
       {{"--map", "a", "--frobnicate"}, "--frobnicate"},

@@ -31,6 +31,19 @@ class Shadow(unittest.TestCase):
             self.assertEqual(sorted(os.listdir(folder)), ["game.hills.ndjson", "game.volcano.ndjson"])
             self.assertEqual(run("verify", os.path.join(folder, "game.volcano.ndjson"))[0], 0)
 
+    def test_ticks_that_threads_share_are_those_of_one(self):
+        with Server(
+            "--shadow", "--step-threads", "3", "--bots", "1000", "--ticks", "90", maps=("volcano", "hills")
+        ) as server, server.player("mara") as mara:
+            mara.until_end()
+            code, _, printed = server.finish()
+            self.assertEqual(code, 0, server.log())
+            self.assertNotIn("SHADOW", server.log())
+        for room in ("volcano", "hills"):
+            line = next(line for line in printed.splitlines() if line.startswith(room))
+            found = re.search(r", (\d+) ticks shadowed, 0 differences$", line)
+            self.assertTrue(found and 30 <= int(found[1]) <= 90, line)
+
 
 if __name__ == "__main__":
     unittest.main()
