@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bench/option_failure.h"
+#include "shared/core/thread_team.h"
 
 namespace woodlouse::scenario {
 
@@ -33,6 +34,10 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
       ->capture_default_str();
   run.add_option("--threads", options.threads, "that step the matches in turns")
       ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  run.add_option("--step-threads", options.step_threads,
+                 "that share the steps of each match, cut as finely as can be")
+      ->check(CLI::Range(std::size_t{1}, core::ThreadTeam::kMostThreads))
       ->capture_default_str();
   run.add_option("--maps", options.maps,
                  "folder of the maps named in the files; default: maps/ beside or above them");

@@ -22,6 +22,7 @@ struct Options {
   std::optional<physics::InstructionSet> instructions;  ///< nothing: every one there is
   std::size_t rooms = 1;                                ///< matches of each scenario
   std::size_t threads = 1;
+  std::size_t step_threads = 1;  ///< of a team that all matches share, in the finest parts
 };
 
 /// What to do, or the exit status when there is nothing to do.

@@ -7,9 +7,10 @@
 
 namespace woodlouse::scenario {
 
-Play::Play(const Scenario& scenario, physics::InstructionSet set)
+Play::Play(const Scenario& scenario, physics::InstructionSet set, const std::shared_ptr<core::Team>& team)
     : scenario_(&scenario), set_(set), match_(scenario.map, scenario.settings), seqs_(1, 0) {
   match_.use(set);
+  match_.use(team);
 }
 
 void Play::apply(const Event& event) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/scenario/scenario.h"
+#include "shared/core/team.h"
 #include "shared/match/match.h"
 #include "shared/physics/batch.h"
 
@@ -17,8 +18,9 @@ namespace woodlouse::scenario {
 /// One match of a scenario. Refers to it. Not thread safe.
 class Play {
  public:
-  /// REQUIRES is_available(set).
-  Play(const Scenario& scenario, physics::InstructionSet set);
+  /// team: who shares its steps; null: nobody. REQUIRES is_available(set).
+  Play(const Scenario& scenario, physics::InstructionSet set,
+       const std::shared_ptr<core::Team>& team = nullptr);
 
   [[nodiscard]] bool is_done() const { return match_.tick() == scenario_->last_tick(); }
   /// Performs the next steps, up to `count`.

@@ -8,6 +8,7 @@
 #include "bench/scenario/whole_write.h"
 #include "shared/core/joined.h"
 #include "shared/core/printable.h"
+#include "shared/core/thread_team.h"
 
 namespace woodlouse::scenario {
 
@@ -62,10 +63,13 @@ void Session::choose_instructions() {
 }
 
 void Session::play() {
+  std::shared_ptr<core::Team> team;
+  if (options_.step_threads > 1)
+    team = std::make_shared<core::ThreadTeam>(options_.step_threads, core::Cut::kFinest);
   for (const Scenario& scenario : scenarios_) {
     for (const physics::InstructionSet set : instructions_) {
       for (std::size_t room = 0; room < options_.rooms; ++room)
-        plays_.push_back(std::make_unique<Play>(scenario, set));
+        plays_.push_back(std::make_unique<Play>(scenario, set, team));
     }
   }
   play_all(plays_, options_.threads);

@@ -113,6 +113,8 @@ TEST_CASE("rooms and threads change no hash") {
   options.rooms = 9;
   options.threads = 4;
   CHECK(run(options, golden.file()).exit == Exit::kSame);
+  options.step_threads = 3;
+  CHECK(run(options, golden.file()).exit == Exit::kSame);
 }
 
 TEST_CASE("a missing file, an empty folder and a bad file are unusable, and every bad file is named") {
