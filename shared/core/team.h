@@ -9,34 +9,38 @@
 
 namespace woodlouse::core {
 
-/// How small a part may be.
+/// For how little work a member is asked.
 enum class Cut {
-  kWorthIt,  ///< as large as the work asks for
+  kWorthIt,  ///< as little as pays, which the work says
   kFinest,   ///< one item: for proofs that the cut does not show
 };
 
 class Team {
  public:
   using Work = std::function<void(std::size_t part)>;
-  /// Parts for each member: who is late leaves some to the others.
+  /// Parts for each member that is asked: who comes late leaves some to the others.
   static constexpr std::size_t kPartsEach = 4;
 
   /// size: how many work at once, the caller among them; >= 1.
-  explicit Team(std::size_t size, Cut cut) : size_(size), cut_(cut) { assert(size >= 1); }
+  Team(std::size_t size, Cut cut) : size_(size), cut_(cut) { assert(size >= 1); }
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
   virtual ~Team() = default;
 
   [[nodiscard]] std::size_t size() const { return size_; }
-  /// Into how many parts to cut so many items, of which a part has at least `least`, >= 1; from 1 on.
+  /// Into how many parts to cut so many items, where a member is worth asking for `least` of them, >= 1. One
+  /// part: it is not worth it.
   [[nodiscard]] std::size_t parts(std::size_t items, std::size_t least) const {
-    if (size_ == 1) return 1;
-    const std::size_t most = items / (cut_ == Cut::kFinest ? 1 : least);
-    return std::clamp<std::size_t>(most, 1, kPartsEach * size_);
+    const std::size_t members = std::min(size_, items / (cut_ == Cut::kFinest ? 1 : least));
+    return members < 2 ? 1 : std::min(items, kPartsEach * members);
+  }
+  /// How many members so many parts are work for.
+  [[nodiscard]] std::size_t members(std::size_t parts) const {
+    return std::min(size_, std::max(std::min<std::size_t>(parts, 2), parts / kPartsEach));
   }
   /// Any thread. Calls work(0) to work(parts - 1), once each, in any order and several at once; all are done
   /// when it returns. What was written before is seen in them, and what they wrote after. False, and nothing
-  /// is called, where the team is at another's work. REQUIRES work that does not throw.
+  /// is called, where the team is at another's work. REQUIRES work that neither throws nor runs this team.
   [[nodiscard]] virtual bool try_run(std::size_t parts, const Work& work) = 0;
 
  private:
@@ -44,7 +48,7 @@ class Team {
   Cut cut_;
 };
 
-/// Into how many parts to cut for a team; one for none.
+/// Into how many parts to cut for a team; one for none (null).
 inline std::size_t parts_for(const Team* team, std::size_t items, std::size_t least) {
   return team == nullptr ? 1 : team->parts(items, least);
 }

@@ -181,7 +181,7 @@ void World::collect() {
 
 /// Into parts of as many moving lice each as blocks allow.
 void World::cut() {
-  parts_.resize(core::parts_for(team_.get(), moving_.size(), kPartLice));
+  parts_.resize(core::parts_for(team_.get(), moving_.size(), kMemberLice));
   std::size_t moving = 0, waiting = 0;
   const auto place_of = [](const std::vector<std::uint32_t>& list, std::size_t index) {
     return static_cast<std::size_t>(std::lower_bound(list.begin(), list.end(), index) - list.begin());

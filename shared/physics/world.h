@@ -31,8 +31,12 @@ class GroundSteps;
 
 class World {
  public:
-  /// Moving lice of a team's part, at least: fewer than twice as many are stepped by the caller alone.
-  static constexpr std::size_t kPartLice = 500;
+  /// Moving lice that a member of a team is asked for, at least: fewer than twice as many are stepped by the
+  /// caller alone. Two threads that had slept, measured against one, each with the other's ticks in turns
+  /// (bench/results/step-threads.txt):
+  ///     lice            300   500   700   1000  1400  2000
+  ///     times as fast   0.79  0.91  0.98  1.13  1.14  1.30
+  static constexpr std::size_t kMemberLice = 600;
 
   /// step: seconds per tick, > 0. Walls stand at the terrain's edge. REQUIRES the exact equations and a
   /// terrain that is no SharedSurface; a map's world: map/map_world.h.

@@ -8,8 +8,8 @@
 namespace woodlouse::state {
 namespace {
 
-/// Blocks that changed, of a part at least.
-constexpr std::size_t kPartBlocks = 16;
+/// Blocks that changed, of which a team's member is asked for at least: 10 us.
+constexpr std::size_t kMemberBlocks = 16;
 
 }  // namespace
 
@@ -31,7 +31,7 @@ bool BlockHashes::update(std::span<const Louse> lice, std::span<const std::uint8
     }
   };
   const auto to_hash = count - static_cast<std::size_t>(std::count(changed.begin(), changed.end(), 0));
-  const std::size_t parts = core::parts_for(team, to_hash, kPartBlocks);
+  const std::size_t parts = core::parts_for(team, to_hash, kMemberBlocks);
   // Shared by the threads: the lice and flags, which nobody writes, is_another, and values_, of which each
   // writes those of its blocks.
   core::run_parts(team, parts,

@@ -18,7 +18,7 @@ TEST_CASE("a team does each part once and sees what was written before, job afte
     // Not atomic: a part that two did, or that was not done when the team was, is a race.
     std::vector<std::size_t> done(41, 0);
     std::size_t jobs = 0;
-    for (int round = 0; round < 40; ++round) {
+    for (int round = 0; round < 20; ++round) {
       for (std::size_t parts = 1; parts <= done.size(); ++parts) {
         ++jobs;
         REQUIRE(team.try_run(parts, [&](std::size_t part) { done[part] += jobs; }));
@@ -31,20 +31,26 @@ TEST_CASE("a team does each part once and sees what was written before, job afte
   }
 }
 
-TEST_CASE("the members of a team work at once") {
-  ThreadTeam team(3);
-  std::atomic<std::size_t> there{0};
-  std::mutex mutex;
-  std::set<std::thread::id> members;
-  // Each part waits until three are in one: no two of them can be done by the same thread.
-  REQUIRE(team.try_run(3, [&](std::size_t) {
-    ++there;
-    while (there < 3) std::this_thread::yield();
-    const std::lock_guard lock(mutex);
-    members.insert(std::this_thread::get_id());
-  }));
-  CHECK(members.size() == 3);
-  CHECK(members.count(std::this_thread::get_id()) == 1);
+TEST_CASE("the members of a team work at once, as many as there is work for") {
+  ThreadTeam team(5);
+  for (const std::size_t wanted : {2u, 3u, 5u}) {
+    const std::size_t parts = wanted == 2 ? 2 : Team::kPartsEach * wanted;
+    REQUIRE(team.members(parts) == wanted);
+    for (int round = 0; round < 20; ++round) {
+      std::atomic<std::size_t> there{0};
+      std::mutex mutex;
+      std::set<std::thread::id> members;
+      // The first parts wait until so many are in one, so that no thread does two of them.
+      REQUIRE(team.try_run(parts, [&](std::size_t) {
+        ++there;
+        while (there < wanted) std::this_thread::yield();
+        const std::lock_guard lock(mutex);
+        members.insert(std::this_thread::get_id());
+      }));
+      REQUIRE(members.size() == wanted);
+      REQUIRE(members.count(std::this_thread::get_id()) == 1);
+    }
+  }
 }
 
 TEST_CASE("a team that is at another's work is not waited for") {
@@ -85,15 +91,22 @@ TEST_CASE("several callers share a team, and each has all of its parts done") {
   CHECK(wrong == 0);
 }
 
-TEST_CASE("work is cut where each part is worth it, and no finer than the team has use of") {
-  const ThreadTeam alone(1, Cut::kFinest), team(2), finest(2, Cut::kFinest);
+TEST_CASE("work is cut where it is worth it, for as many members as have enough of it") {
+  const ThreadTeam alone(1, Cut::kFinest), team(3), finest(3, Cut::kFinest);
   CHECK(alone.parts(100000, 1) == 1);
   CHECK(team.parts(0, 500) == 1);
   CHECK(team.parts(999, 500) == 1);
-  CHECK(team.parts(1000, 500) == 2);
-  CHECK(team.parts(100000, 500) == 2 * Team::kPartsEach);
+  CHECK(team.parts(1000, 500) == 2 * Team::kPartsEach);
+  CHECK(team.parts(1499, 500) == 2 * Team::kPartsEach);
+  CHECK(team.parts(100000, 500) == 3 * Team::kPartsEach);
+  CHECK(team.parts(2, 1) == 2);
   CHECK(finest.parts(0, 500) == 1);
-  CHECK(finest.parts(3, 500) == 3);
-  CHECK(finest.parts(100000, 500) == 2 * Team::kPartsEach);
+  CHECK(finest.parts(1, 500) == 1);
+  CHECK(finest.parts(5, 500) == 5);
+  CHECK(finest.parts(100000, 500) == 3 * Team::kPartsEach);
+  CHECK(team.members(1) == 1);
+  CHECK(team.members(2) == 2);
+  CHECK(team.members(2 * Team::kPartsEach) == 2);
+  CHECK(team.members(100) == 3);
   CHECK(woodlouse::core::parts_for(nullptr, 100000, 1) == 1);
 }

@@ -150,7 +150,7 @@ TEST_CASE("1, 2, 3 and 5 threads give the same hash at every tick on every kind 
 TEST_CASE("a copy of a world shares its team, and few lice are not worth one") {
   const tests::BigMapFiles big("team_copy");
   const auto map = tests::maps_of_all_kinds(big).front();
-  for (const std::size_t lice : {2 * physics::World::kPartLice - 1, 2 * physics::World::kPartLice}) {
+  for (const std::size_t lice : {2 * physics::World::kMemberLice - 1, 2 * physics::World::kMemberLice}) {
     const auto team = std::make_shared<ReversedTeam>(core::Cut::kWorthIt);
     physics::World world(map->terrain, map->definition.physics, 1.0 / 60);
     world.use(std::shared_ptr<core::Team>(team));
@@ -166,7 +166,7 @@ TEST_CASE("a copy of a world shares its team, and few lice are not worth one") {
     physics::World alone = world;
     alone.use(std::shared_ptr<core::Team>());
     for (physics::World* each : {&world, &copy, &alone}) each->step();
-    const bool is_worth_it = lice == 2 * physics::World::kPartLice;
+    const bool is_worth_it = lice == 2 * physics::World::kMemberLice;
     CHECK(team->jobs == (is_worth_it ? 2 : 0));
     core::StableHasher hasher;
     CHECK(state::state_hash(hasher, {}, world.lice()) == state::state_hash(hasher, {}, alone.lice()));
