@@ -160,8 +160,8 @@ core::Expected<void> Server::open_room(const ServeConfig& config, const std::str
   settings.per_room = limits_.per_room;
   auto watchers = make_watchers(config, name, start);
   if (!watchers) return tl::unexpected(watchers.error());
-  log_opened(name, config, start);
   start.match->use(step_team_);
+  log_opened(name, config, start);
   ++rooms_running_;
   const bool is_new = lobby_.open(
       Room::make(ticks_, io_, std::move(settings), std::move(start), std::move(*watchers), timekeeper_, log_),
@@ -173,15 +173,17 @@ core::Expected<void> Server::open_room(const ServeConfig& config, const std::str
 
 void Server::log_opened(const std::string& room, const ServeConfig& config, const Start& start) const {
   const match::Match& match = *start.match;
+  const std::string threads =
+      match.step_threads() == 1 ? std::string() : fmt::format(", steps by {} threads", match.step_threads());
   if (start.parent)
     log_->info(
-        fmt::format("room {}: goes on from {}, tick {}, hash {}, with {} lice, {} ticks/s, {} frames/s{}",
+        fmt::format("room {}: goes on from {}, tick {}, hash {}, with {} lice, {} ticks/s, {} frames/s{}{}",
                     room, start.parent->file, match.tick(), core::to_hex(match.hash()),
-                    match.world().lice().size(), config.tick_hz, config.state_hz,
+                    match.world().lice().size(), config.tick_hz, config.state_hz, threads,
                     start.on_trust.empty() ? "" : core::joined({"; on trust: ", start.on_trust})));
   else
-    log_->info(fmt::format("room {}: map {}, {} ticks/s, {} frames/s, seed {}", room, start.map_file,
-                           config.tick_hz, config.state_hz, match.settings().seed));
+    log_->info(fmt::format("room {}: map {}, {} ticks/s, {} frames/s, seed {}{}", room, start.map_file,
+                           config.tick_hz, config.state_hz, match.settings().seed, threads));
 }
 
 core::Expected<Watchers> Server::make_watchers(const ServeConfig& config, const std::string& room,

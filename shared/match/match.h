@@ -64,6 +64,8 @@ class Match {
     team_ = team;
     world_.use(team);
   }
+  /// How many threads share a step of many lice.
+  [[nodiscard]] std::size_t step_threads() const { return team_ == nullptr ? 1 : team_->size(); }
 
   /// Queues a new louse for the next step; its id is fresh and known at once. REQUIRES a role that plays.
   PlayerId join(PlayerLabel label = {});
