@@ -70,26 +70,29 @@ void Members::give_louse(Seat& seat) {
 }
 
 void Members::add_house_bots() {
+  // Spread over a period, so that no tick pays for all of them.
+  bots_by_turn_.resize(std::max(1u, game_.settings().tick_hz / HouseBot::kDecisionsPerSecond));
   for (std::uint32_t number = 0; number < settings_.bots; ++number) {
     HouseBot bot(number, game_.settings().seed);
     Seat seat{0, bot.name(), protocol::Role::kBot, 0, BotOccupant{number, std::move(bot)}};
     give_louse(seat);
-    seats_.add(std::move(seat));
+    Seat& added = seats_.add(std::move(seat));
+    bots_by_turn_[added.louse % bots_by_turn_.size()].push_back(&added);
     count(protocol::Role::kBot, +1);
   }
 }
 
 void Members::steer_house_bots() {
-  const std::uint64_t period = std::max(1u, game_.settings().tick_hz / HouseBot::kDecisionsPerSecond);
-  seats_.for_each<BotOccupant>([&](Seat& seat, BotOccupant& occupant) {
-    // Spread over the period, so that no tick pays for all of them.
-    if ((game_.tick() + seat.louse) % period != 0) return;
-    const auto& world = game_.world();
-    const state::Louse* louse = world.find(seat.louse);
-    if (!louse) return;
-    const state::Thrust thrust = occupant.bot.decide({*louse, world.terrain(), world.parameters()});
-    game_.file({seat.louse, ++seat.first_seq, thrust, state::kHeld, 0});
-  });
+  const std::uint64_t period = bots_by_turn_.size();
+  assert(period != 0);
+  const auto& world = game_.world();
+  for (Seat* seat : bots_by_turn_[(period - game_.tick() % period) % period]) {
+    const state::Louse* louse = world.find(seat->louse);
+    if (!louse) continue;
+    HouseBot& bot = std::get<BotOccupant>(seat->occupant).bot;
+    const state::Thrust thrust = bot.decide({*louse, world.terrain(), world.parameters()});
+    game_.file({seat->louse, ++seat->first_seq, thrust, state::kHeld, 0});
+  }
 }
 
 std::optional<protocol::ErrorMessage> Members::why_not() const {

@@ -43,7 +43,7 @@ class Members {
   Members(boost::asio::io_context& io, const RoomSettings& settings, match::Match& game,
           const Watchers& watchers, std::vector<Seat> unclaimed, std::shared_ptr<spdlog::logger> log);
 
-  void add_house_bots();
+  void add_house_bots();  ///< once, before the first tick
   /// The house's bots look and push, each ten times a second.
   void steer_house_bots();
 
@@ -102,6 +102,7 @@ class Members {
       leaving_;  ///< by the tick from which on all their inputs are acknowledged
   Channels channels_;
   Events events_;
+  std::vector<std::vector<Seat*>> bots_by_turn_;  ///< the house's, by the tick of a period at which they look
 };
 
 }  // namespace woodlouse::server
