@@ -14,6 +14,10 @@ namespace woodlouse::server {
 
 namespace asio = boost::asio;
 
+/// Rooms tick from whole milliseconds on, so that of many some tick together: to wake for each of them alone
+/// costs the system as much as a small room's step.
+using Beat = std::chrono::milliseconds;
+
 /// Holds the room weakly: a session that has not heard of its closing keeps none of it.
 class Room::RoomDoor final : public Door {
  public:
@@ -71,7 +75,7 @@ void Room::start(std::function<void()> ended) {
     state_ = State::kRunning;
     begin_watching();
     members_.add_house_bots();
-    clock_.emplace(game_->settings().tick_hz, timekeeper_.now());
+    clock_.emplace(game_->settings().tick_hz, std::chrono::ceil<Beat>(timekeeper_.now()));
     await_tick();
   });
 }
@@ -190,7 +194,7 @@ void Room::wake() {
   deserted_ticks_ = 0;
   log_->info(fmt::format("room {}: goes on with tick {}", settings_.name, game_->tick()));
   for (const auto& watcher : watchers_) watcher->wake(*game_);
-  clock_->restart(timekeeper_.now());
+  clock_->restart(std::chrono::floor<Beat>(timekeeper_.now()));  // who has joined waits for none
   await_tick();
 }
 

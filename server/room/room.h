@@ -47,8 +47,9 @@ class Room : public std::enable_shared_from_this<Room> {
 
   // Any thread. Calls of one thread take effect in their order.
 
-  /// The first tick is due now. Before anybody joins a room that is watched: what a recording begins with has
-  /// nobody on the way. ended: called once, on the room's strand, when the tick limit is reached.
+  /// The first tick is due at the next whole millisecond. Before anybody joins a room that is watched: what a
+  /// recording begins with has nobody on the way. ended: called once, on the room's strand, when the tick
+  /// limit is reached.
   void start(std::function<void()> ended);
   /// Ends the ticks, says bye to the members, finishes the watchers' work; then calls `stopped`, on the
   /// room's strand. A room that has stopped takes nobody more; whoever stops it again only hears of its end.

@@ -44,6 +44,21 @@ TEST_CASE("ticks keep an absolute schedule: a little late is made up for, much i
   CHECK(figures->lateness.max() >= std::chrono::seconds(1));
 }
 
+TEST_CASE("a room's first tick is due at the next whole millisecond") {
+  using std::chrono::microseconds;
+  const auto [passed, ticks] = GENERATE(std::pair(microseconds(699), 0u), std::pair(microseconds(700), 1u));
+  House house(settings(8));
+  house.timekeeper.advance(microseconds(300));
+  house.room->start([] {});
+  house.settle();
+  house.timekeeper.advance(passed);
+  house.settle();
+  house.room->stop({"shutdown", "the server stops", false}, "test", [] {});
+  house.settle();
+  CHECK(house.room->figures()->ticks == ticks);
+  CHECK(house.room->figures()->lateness.max() == Duration::zero());
+}
+
 TEST_CASE("a room ends at its tick limit, once, and ticks no more") {
   RoomSettings limited = settings(8);
   limited.tick_limit = 3;
