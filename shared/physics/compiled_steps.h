@@ -30,7 +30,8 @@ class CompiledSteps final : public GroundSteps {
   CompiledSteps(const S& ground, const StepRules& rules) : ground_(ground), rules_(rules) {}
 
   void advance(std::span<state::Louse> lice, std::span<const std::uint32_t> moving, const BatchStep& batch,
-               BatchLists& lists, StepCounters& counters, std::span<StepEvents> events) const override {
+               BatchLists& lists, StepCounters& counters,
+               std::span<state::StepEvents> events) const override {
     assert(events.size() == lice.size());
     const auto& surface = surface_of(ground_);
     const OneStepper stepper(surface, rules_.parameters, rules_.walls, rules_.tick);
@@ -55,7 +56,7 @@ class CompiledSteps final : public GroundSteps {
 
   void advance_batched(const OneStepper& stepper, std::span<state::Louse> lice,
                        std::span<const std::uint32_t> moving, const BatchStep& batch, BatchLists& lists,
-                       StepCounters& counters, std::span<StepEvents> events) const {
+                       StepCounters& counters, std::span<state::StepEvents> events) const {
     // Whoever leaves the interior takes the scalar step, which knows of walls and seams.
     const terrain::Rectangle interior = Rim(rules_.walls, rules_.parameters.edges).interior();
     BatchContext context{{}, {}, rules_.parameters, interior, rules_.tick, stepper.rules(), ground_.cell()};

@@ -15,14 +15,14 @@
 #include <cassert>
 #include <cmath>
 
+#include "shared/core/root.h"
 #include "shared/physics/nystrom.h"
 #include "shared/physics/rim.h"
-#include "shared/physics/root.h"
 #include "shared/physics/step_counters.h"
-#include "shared/physics/step_events.h"
 #include "shared/physics/surface_motion.h"
 #include "shared/state/louse.h"
 #include "shared/state/parameters.h"
+#include "shared/state/step_events.h"
 #include "shared/terrain/surface.h"
 
 namespace woodlouse::physics {
@@ -35,8 +35,9 @@ struct Flight {
 };
 
 /// Where in a step over h from `start` to `end` the normal force ends, which `at_end` is there no more: the
-/// root of load(Motion) on the step's cubic. again(t): the step over t, the result where that is; h becomes
-/// t. Where it is due at the start, there, with that heading.
+/// root of load(Motion) on the step's cubic, put right by what the step itself has there, as a cubic's
+/// velocity is of order 3 alone. again(t): the step over t, the result where that is; h becomes t. Where it
+/// is due at the start, there, with that heading.
 template <typename Load, typename Again>
 StepResult last_contact(const Motion& start, const Motion& end, double at_end, double& h, core::Vec2 heading,
                         const Load& load, const Again& again) {
@@ -46,10 +47,18 @@ StepResult last_contact(const Motion& start, const Motion& end, double at_end, d
     h = 0.0;
     return {start, 0.0, 0.0, heading};
   }
+  constexpr int kSteps = 3;
   const double whole = h;
-  h = end_of_positive(0.0, at_start, whole, at_end,
-                      [&](double t) { return load(on_cubic(start, end, whole, t)); });
-  return again(h);
+  double missed = 0.0;  // by the cubic
+  StepResult result;
+  for (int i = 0; i < kSteps && at_start + missed > 0.0 && at_end + missed < 0.0; ++i) {
+    const auto on_step = [&](double t) { return load(on_cubic(start, end, whole, t)); };
+    h = core::end_of_positive(0.0, at_start + missed, whole, at_end + missed,
+                              [&](double t) { return on_step(t) + missed; });
+    result = again(h);
+    missed = load(result.end) - on_step(h);
+  }
+  return result;
 }
 
 /// The flight that begins where a motion on the surface ends.
@@ -107,8 +116,8 @@ class Flyer {
         above = clearance(after(flight, low));
       }
       if (above > 0.0) {  // else it never rose: it touches where the piece ends
-        high =
-            end_of_positive(low, above, high, below, [&](double t) { return clearance(after(flight, t)); });
+        high = core::end_of_positive(low, above, high, below,
+                                     [&](double t) { return clearance(after(flight, t)); });
       }
       flight = after(flight, high);
       return {high, true, false};
@@ -182,21 +191,22 @@ class Flyer {
 template <terrain::Surface S>
 [[gnu::always_inline]] inline void begin_flight(const S& surface, const Rim& rim, const Motion& end,
                                                 state::Louse& louse, StepCounters& counters,
-                                                StepEvents& happened) {
+                                                state::StepEvents& happened) {
   const core::Vec2 place = rim.inside(end.position);
   const Flight flight = taken_off(surface.sample(place.x, place.y), end);
   louse.phase = state::Phase::kFlying;
   louse.flight_z = flight.height;
   louse.flight_vz = flight.climb;
   ++counters.flights;
-  happened |= kTookOff;
+  happened |= state::kTookOff;
 }
 
 /// One piece of a louse's flight, landing or seam included; at: its motion over the map.
 template <terrain::Surface S>
 [[gnu::always_inline]] inline typename Flyer<S>::Piece fly_on(const Flyer<S>& flyer, state::Louse& louse,
                                                               Motion& at, double remaining,
-                                                              StepCounters& counters, StepEvents& happened) {
+                                                              StepCounters& counters,
+                                                              state::StepEvents& happened) {
   Flight flight{at, louse.flight_z, louse.flight_vz};
   const Flight start = flight;
   auto piece = flyer.fly(flight, remaining);
@@ -204,11 +214,11 @@ template <terrain::Surface S>
   ++counters.sub_steps;
   if (piece.bounced) {
     ++counters.bounces;
-    happened |= kMetWall;
+    happened |= state::kMetWall;
   }
   louse.distance += flyer.way(start, piece.time);
   at = flight.over;
-  if (flyer.rim().wraps() && flyer.rim().carry_home(at.position).any()) happened |= kCrossedSeam;
+  if (flyer.rim().wraps() && flyer.rim().carry_home(at.position).any()) happened |= state::kCrossedSeam;
   louse.flight_z = flight.height;
   louse.flight_vz = flight.climb;
   if (piece.landed) {
@@ -216,7 +226,7 @@ template <terrain::Surface S>
              .over;
     louse.phase = state::Phase::kMoving;
     louse.flight_z = louse.flight_vz = 0.0;
-    happened |= kLanded;
+    happened |= state::kLanded;
   }
   return piece;
 }
@@ -224,7 +234,7 @@ template <terrain::Surface S>
 /// What is left of a tick in one piece (Flyer::rest_of).
 template <terrain::Surface S>
 void fly_out(const Flyer<S>& flyer, state::Louse& louse, Motion& at, double remaining, StepCounters& counters,
-             StepEvents& happened) {
+             state::StepEvents& happened) {
   const Flight start{at, louse.flight_z, louse.flight_vz};
   bool landed = false;
   const Flight end = flyer.rest_of(start, remaining, landed);
@@ -235,7 +245,7 @@ void fly_out(const Flyer<S>& flyer, state::Louse& louse, Motion& at, double rema
   louse.flight_vz = landed ? 0.0 : end.climb;
   if (!landed) return;
   louse.phase = state::Phase::kMoving;
-  happened |= kLanded;
+  happened |= state::kLanded;
 }
 
 /// Whether the ground no longer carries a louse at the end of a sub-step; h and result then are those of that

@@ -9,9 +9,9 @@
 
 #include "shared/physics/batch.h"
 #include "shared/physics/step_counters.h"
-#include "shared/physics/step_events.h"
 #include "shared/state/louse.h"
 #include "shared/state/parameters.h"
+#include "shared/state/step_events.h"
 #include "shared/terrain/terrain.h"
 
 namespace woodlouse::physics {
@@ -29,7 +29,7 @@ class GroundSteps {
   /// the plane. lists: room for it. events: one a louse of `lice`, what happened to it is added.
   virtual void advance(std::span<state::Louse> lice, std::span<const std::uint32_t> moving,
                        const BatchStep& batch, BatchLists& lists, StepCounters& counters,
-                       std::span<StepEvents> events) const = 0;
+                       std::span<state::StepEvents> events) const = 0;
   /// Whether friction, brake and walls hold this louse where it is.
   [[nodiscard]] virtual bool holds(const state::Louse& louse) const = 0;
 };

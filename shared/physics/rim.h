@@ -11,9 +11,9 @@
 #include <cstdint>
 #include <limits>
 
+#include "shared/core/root.h"
 #include "shared/core/vec2.h"
 #include "shared/physics/nystrom.h"
-#include "shared/physics/root.h"
 #include "shared/physics/walls.h"
 #include "shared/state/parameters.h"
 #include "shared/terrain/surface.h"
@@ -178,10 +178,10 @@ class Rim {
     const Beyond first = beyond(start, met);
     const double at_end = -beyond(end, met).distance;
     if (!(at_end < 0.0)) return h;
-    if (first.distance < 0.0) return end_of_positive(0.0, -first.distance, h, at_end, inside);
+    if (first.distance < 0.0) return core::end_of_positive(0.0, -first.distance, h, at_end, inside);
     // It has just been thrown back by the wall: what is looked for is the second root.
     if (!(first.leaving < 0.0)) return h;
-    return end_of_positive(0.0, -first.leaving, h, at_end / h, [&](double t) { return inside(t) / t; });
+    return core::end_of_positive(0.0, -first.leaving, h, at_end / h, [&](double t) { return inside(t) / t; });
   }
 
   /// p, put onto the wall that it lies at but for rounding, or beyond.

@@ -46,14 +46,14 @@ class Stepper {
 
   /// Moves the louse through one tick; adds what happened to it. Its thrust is not counted down here.
   [[gnu::always_inline]] inline void advance(state::Louse& louse, StepCounters& counters,
-                                             StepEvents& happened) const {
+                                             state::StepEvents& happened) const {
     ++counters.louse_steps;
     run(louse, tick_, 0, counters, happened);
   }
 
   /// The rest of a tick: `remaining` [s] after `pieces` sub-steps in lanes (batch.h).
   void finish(state::Louse& louse, double remaining, int pieces, StepCounters& counters,
-              StepEvents& happened) const {
+              state::StepEvents& happened) const {
     run(louse, remaining, pieces, counters, happened);
   }
 
@@ -81,7 +81,7 @@ class Stepper {
   struct Way {
     state::Louse& louse;
     StepCounters& counters;
-    StepEvents& happened;
+    state::StepEvents& happened;
     Drive& drive;
     Motion& at;
     double& remaining;  ///< [s]
@@ -93,7 +93,7 @@ class Stepper {
 
   /// Inlined where lice are stepped one after the other.
   [[gnu::always_inline]] inline void run(state::Louse& louse, double remaining, int pieces,
-                                         StepCounters& counters, StepEvents& happened) const {
+                                         StepCounters& counters, state::StepEvents& happened) const {
     Drive drive = drive_of(louse);
     Motion at{louse.position, louse.velocity};
     int bounces = 0, events = 0;
@@ -204,7 +204,7 @@ class Stepper {
 
   static void rest(const Way& way) {
     way.louse.phase = state::Phase::kResting;
-    way.happened |= kStopped;
+    way.happened |= state::kStopped;
   }
 
   /// The integrator's step, up to where it meets a wall or takes off. One that makes energy is not taken, but
@@ -285,7 +285,7 @@ class Stepper {
   /// Over a seam, a louse goes on at the opposite rim.
   void carry_home(const Way& way) const {
     const Turns turns = rim_.carry_home(way.at.position);
-    if (turns.any()) way.happened |= kCrossedSeam;
+    if (turns.any()) way.happened |= state::kCrossedSeam;
     if constexpr (requires { way.integrator.carried(surface_, turns); })
       way.integrator.carried(surface_, turns);
   }
@@ -302,7 +302,7 @@ class Stepper {
     if (bounces) {
       ++way.bounces;
       ++way.counters.bounces;
-      way.happened |= kMetWall;
+      way.happened |= state::kMetWall;
     }
     ++way.counters.samples;
     return start;

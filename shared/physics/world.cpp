@@ -129,7 +129,7 @@ void World::insert(const state::Louse& louse) {
   assert(find(louse.id) == nullptr);
   const auto at = std::lower_bound(lice_.begin(), lice_.end(), louse.id,
                                    [](const state::Louse& a, state::LouseId id) { return a.id < id; });
-  events_.insert(events_.begin() + (at - lice_.begin()), StepEvents{0});
+  events_.insert(events_.begin() + (at - lice_.begin()), state::StepEvents{0});
   state::Louse& placed = *lice_.insert(at, louse);
   if (const Rim rim(walls_, parameters_.edges); rim.wraps()) {
     rim.carry_home(placed.position);
@@ -205,7 +205,7 @@ void World::cut() {
 }
 
 void World::step() {
-  std::fill(events_.begin(), events_.end(), StepEvents{0});
+  std::fill(events_.begin(), events_.end(), state::StepEvents{0});
   if (lists_are_stale_) collect();
   if (moving_.empty() && waiting_.empty()) return;
   // Shared by the threads: the lists, the ground, its steps and the batch, which nobody writes but a big

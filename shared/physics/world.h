@@ -19,10 +19,10 @@
 #include "shared/core/vec2.h"
 #include "shared/physics/batch.h"
 #include "shared/physics/step_counters.h"
-#include "shared/physics/step_events.h"
 #include "shared/state/louse.h"
 #include "shared/state/parameters.h"
 #include "shared/state/state_hash.h"
+#include "shared/state/step_events.h"
 #include "shared/terrain/terrain.h"
 
 namespace woodlouse::physics {
@@ -78,7 +78,7 @@ class World {
   [[nodiscard]] std::span<const std::uint8_t> changed_blocks() const { return changed_blocks_; }
   void forget_changes();
   /// What happened to each louse of lice() in the last step (step_events.h); 0 of who has joined since.
-  [[nodiscard]] std::span<const StepEvents> events() const { return events_; }
+  [[nodiscard]] std::span<const state::StepEvents> events() const { return events_; }
   /// The louse of that id, or null; valid until the next change.
   [[nodiscard]] const state::Louse* find(state::LouseId id) const;
   [[nodiscard]] const terrain::Terrain& terrain() const { return *terrain_; }
@@ -121,7 +121,7 @@ class World {
   std::vector<Part> parts_;                          ///< of both lists; all of them, by ascending place
   bool lists_are_stale_ = false;  ///< lice_ or who is in which list changed since they were made
   std::vector<std::uint8_t> changed_blocks_;
-  std::vector<StepEvents> events_;
+  std::vector<state::StepEvents> events_;
   BatchStep batch_;
   std::shared_ptr<core::Team> team_;
   StepCounters counters_;

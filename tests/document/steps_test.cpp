@@ -24,7 +24,8 @@ void advance(const physics::GroundSteps& steps, state::Louse& louse, long ticks)
   const std::array<std::uint32_t, 1> all = {0};
   physics::BatchLists lists;
   physics::StepCounters counters;
-  for (long i = 0; i < ticks; ++i) steps.advance({&louse, 1}, all, {}, lists, counters);
+  state::StepEvents happened = 0;
+  for (long i = 0; i < ticks; ++i) steps.advance({&louse, 1}, all, {}, lists, counters, {&happened, 1});
 }
 
 }  // namespace

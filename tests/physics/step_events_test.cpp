@@ -1,5 +1,5 @@
 // What a step says happened to a louse.
-#include "shared/physics/step_events.h"
+#include "shared/state/step_events.h"
 
 #include <catch2/catch.hpp>
 #include <memory>
@@ -9,6 +9,7 @@
 
 using namespace woodlouse;
 using namespace woodlouse::physics;
+using namespace woodlouse::state;
 
 namespace {
 

@@ -15,7 +15,7 @@ struct Run {
 template <typename S, typename F>
 [[gnu::noinline]] void advance(const physics::Stepper<S, F>& stepper, state::Louse& louse,
                                physics::StepCounters& counters) {
-  physics::StepEvents happened = 0;
+  state::StepEvents happened = 0;
   stepper.advance(louse, counters, happened);
 }
 

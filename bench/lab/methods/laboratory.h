@@ -58,7 +58,7 @@ class LaboratoryStepper {
   std::unique_ptr<const physics::GroundSteps> steps_;
   mutable std::vector<std::uint32_t> moving_;  ///< room for lists, kept from call to call
   mutable physics::BatchLists lists_;
-  mutable std::vector<physics::StepEvents> events_;
+  mutable std::vector<state::StepEvents> events_;
 };
 
 /// walls: where lice are kept, infinite: nowhere; tick: [s]. `surface` must outlive the stepper. Errors: the

@@ -154,7 +154,8 @@ TEST_CASE("on the planet eight bots' energies rise in ten minutes by the work of
       account.unpaid += now - account.last - work;
       account.last = now;
       account.least = std::fmin(account.least, account.unpaid);
-      worst = std::fmax(worst, (account.unpaid - account.least) / (now - physics::central_potential(core::Vec2{}, p)));
+      worst = std::fmax(
+          worst, (account.unpaid - account.least) / (now - physics::central_potential(core::Vec2{}, p)));
       highest = std::fmax(highest, now);
       lowest = std::fmin(lowest, now);
     }

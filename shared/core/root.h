@@ -4,7 +4,7 @@
 
 #include <cassert>
 
-namespace woodlouse::physics {
+namespace woodlouse::core {
 
 /// A time by which f, above 0 at `low`, is so no more: a root, or within 2^-48 of the interval behind one.
 /// at_low, at_high: f there; REQUIRES low < high, at_low > 0, and f not above 0 at `high`. The Illinois form
@@ -41,4 +41,4 @@ template <typename Function>
   return high;
 }
 
-}  // namespace woodlouse::physics
+}  // namespace woodlouse::core

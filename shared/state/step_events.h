@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace woodlouse::physics {
+namespace woodlouse::state {
 
 using StepEvents = std::uint8_t;
 
@@ -13,4 +13,4 @@ inline constexpr StepEvents kTookOff = 1u << 2;
 inline constexpr StepEvents kLanded = 1u << 3;
 inline constexpr StepEvents kStopped = 1u << 4;  ///< came to rest
 
-}  // namespace woodlouse::physics
+}  // namespace woodlouse::state

@@ -1,9 +1,9 @@
-#include "shared/physics/root.h"
+#include "shared/core/root.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-using namespace woodlouse::physics;
+using namespace woodlouse::core;
 
 namespace {
 
