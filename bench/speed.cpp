@@ -2,17 +2,22 @@
 // and what it printed where: bench/results/README.md.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "server/room/row_table.h"
 #include "shared/core/random.h"
 #include "shared/core/stable_hash.h"
+#include "shared/core/thread_team.h"
 #include "shared/physics/world.h"
 #include "shared/protocol/codec.h"
 #include "shared/state/state_hash.h"
@@ -59,8 +64,8 @@ void spline_evaluation(benchmark::State& state, Order order) {
 /// A world's hashes, made as a match makes them.
 class HashChain {
  public:
-  void add(physics::World& world, std::uint64_t tick) {
-    blocks_.update(world.lice(), world.changed_blocks());
+  void add(physics::World& world, std::uint64_t tick, core::Team* team = nullptr) {
+    blocks_.update(world.lice(), world.changed_blocks(), team);
     world.forget_changes();
     hash_ = state::state_hash(hasher_, {hash_, 0, 0, 0, tick, 0}, blocks_.values());
     benchmark::DoNotOptimize(hash_);
@@ -72,46 +77,105 @@ class HashChain {
   std::uint64_t hash_ = 0;
 };
 
-/// `count` lice all moving under thrust on the volcano: one iteration is one tick, its state hash included.
+/// Lice all moving under thrust on the volcano.
+class DrivenLice {
+ public:
+  DrivenLice(std::uint32_t count, std::size_t knots)
+      : count_(count), world_(std::make_shared<const terrain::Terrain>(volcano(knots)), {}, 1.0 / 60) {
+    std::vector<state::Louse> lice(count);
+    for (std::uint32_t id = 1; id <= count; ++id) {
+      lice[id - 1].id = id;
+      lice[id - 1].phase = state::Phase::kMoving;
+      lice[id - 1].position = {15 * symmetric(), 15 * symmetric()};
+      lice[id - 1].velocity = {2 * symmetric(), 2 * symmetric()};
+    }
+    world_.restore(lice);
+    steer();
+  }
+
+  void use(const std::shared_ptr<core::Team>& team) {
+    team_ = team;
+    world_.use(team);
+  }
+  /// A new direction every two seconds.
+  [[nodiscard]] bool is_to_steer() const { return tick_ % 120 == 119; }
+  void steer() {
+    for (std::uint32_t id = 1; id <= count_; ++id) {
+      const double angle = 3.14159 * symmetric();
+      world_.set_thrust(id, {state::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}},
+                        state::kHeld);
+    }
+  }
+  /// One tick, its state hash included.
+  void tick() {
+    world_.step();
+    hashes_.add(world_, ++tick_, team_.get());
+  }
+  [[nodiscard]] const physics::World& world() const { return world_; }
+
+ private:
+  double symmetric() { return 2 * random_.uniform() - 1; }
+
+  std::uint32_t count_;
+  core::Random random_{2};
+  std::shared_ptr<core::Team> team_;
+  physics::World world_;
+  HashChain hashes_;
+  std::uint64_t tick_ = 0;
+};
+
 void world_tick(benchmark::State& state) {
   const auto count = static_cast<std::uint32_t>(state.range(0));
-  const auto surface =
-      std::make_shared<const terrain::Terrain>(volcano(static_cast<std::size_t>(state.range(1))));
-  physics::World world(surface, {}, 1.0 / 60);
-  core::Random random(2);
-  const auto symmetric = [&] { return 2 * random.uniform() - 1; };
-  for (std::uint32_t id = 1; id <= count; ++id) {
-    state::Louse louse;
-    louse.id = id;
-    louse.position = {15 * symmetric(), 15 * symmetric()};
-    louse.velocity = {2 * symmetric(), 2 * symmetric()};
-    world.insert(louse);
-  }
-  HashChain hashes;
-  std::uint64_t tick = 0;
-  const auto steer = [&] {
-    for (std::uint32_t id = 1; id <= count; ++id) {
-      const double angle = 3.14159 * symmetric();
-      world.set_thrust(id, {state::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}}, state::kHeld);
-    }
-  };
-  steer();
+  DrivenLice lice(count, static_cast<std::size_t>(state.range(1)));
   std::uint64_t hashed = 0;
   for (auto _ : state) {
-    if (tick % 120 == 119) {  // a new direction every two seconds, not timed
+    if (lice.is_to_steer()) {  // not timed
       state.PauseTiming();
-      steer();
+      lice.steer();
       state.ResumeTiming();
     }
-    world.step();
-    hashes.add(world, ++tick);
+    lice.tick();
     hashed += count;
   }
-  const auto& c = world.counters();
+  const auto& c = lice.world().counters();
   state.counters["louse-step"] = benchmark::Counter(
       static_cast<double>(hashed), benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
   state.counters["awake"] = static_cast<double>(c.louse_steps) / static_cast<double>(hashed);
   state.counters["sub-steps"] = static_cast<double>(c.sub_steps) / static_cast<double>(c.louse_steps);
+}
+
+/// The same game by one thread and by several, their ticks in turns: one iteration is a tick of each, the
+/// time is that of several. With a pause before each tick, as in a room, the threads sleep when one is due.
+void world_tick_threads(benchmark::State& state, core::Cut cut) {
+  const auto count = static_cast<std::uint32_t>(state.range(0));
+  const auto threads = static_cast<std::size_t>(state.range(1));
+  const std::chrono::milliseconds pause(state.range(2));
+  DrivenLice alone(count, 21), together(count, 21);
+  together.use(std::make_shared<core::ThreadTeam>(threads, cut));
+  std::vector<double> alone_seconds, together_seconds;
+  const auto timed_tick = [pause](DrivenLice& lice, std::vector<double>& seconds) {
+    if (lice.is_to_steer()) lice.steer();
+    if (pause.count() != 0) std::this_thread::sleep_for(pause);
+    const auto begin = std::chrono::steady_clock::now();
+    lice.tick();
+    seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  };
+  bool is_together_first = false;
+  for (auto _ : state) {
+    if (is_together_first) timed_tick(together, together_seconds);
+    timed_tick(alone, alone_seconds);
+    if (!is_together_first) timed_tick(together, together_seconds);
+    is_together_first = !is_together_first;
+    state.SetIterationTime(together_seconds.back());
+  }
+  const auto median = [](std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  state.counters["alone_us"] = 1e6 * median(alone_seconds);
+  state.counters["together_us"] = 1e6 * median(together_seconds);
+  state.counters["faster"] = median(alone_seconds) / median(together_seconds);
 }
 
 /// `count` lice at rest and one that drives: one iteration is one tick, its state hash included.
@@ -205,6 +269,16 @@ BENCHMARK_CAPTURE(spline_evaluation, coherent, Order::kCoherent)
     ->Arg(201)
     ->Arg(1001);
 BENCHMARK(world_tick)->ArgNames({"lice", "knots"})->ArgsProduct({{1, 1000, 10000}, {21, 201}});
+BENCHMARK_CAPTURE(world_tick_threads, as_served, core::Cut::kWorthIt)
+    ->ArgNames({"lice", "threads", "pause_ms"})
+    ->ArgsProduct({{100, 300, 1000, 3000, 10000, 100000}, {1, 2}, {0, 4}})
+    ->Iterations(300)
+    ->UseManualTime();
+BENCHMARK_CAPTURE(world_tick_threads, always, core::Cut::kFinest)
+    ->ArgNames({"lice", "threads", "pause_ms"})
+    ->ArgsProduct({{300, 500, 700, 1000, 1400, 2000}, {2}, {4}})
+    ->Iterations(300)
+    ->UseManualTime();
 BENCHMARK(resting_tick)->ArgName("lice")->Arg(1000)->Arg(10000);
 BENCHMARK_CAPTURE(row_encoding, quantized, protocol::default_columns(), protocol::Format::kQuantized);
 BENCHMARK_CAPTURE(row_encoding, exact, protocol::default_columns(), protocol::Format::kExact);

@@ -35,7 +35,8 @@ class World {
   /// caller alone. Two threads that had slept, measured against one, each with the other's ticks in turns
   /// (bench/results/step-threads.txt):
   ///     lice            300   500   700   1000  1400  2000
-  ///     times as fast   0.79  0.91  0.98  1.13  1.14  1.30
+  ///     times as fast   0.49  0.65  0.82  1.05  1.16  1.45
+  /// with other programs on the cores; by how busy these were, 700 to 1800 lice broke even.
   static constexpr std::size_t kMemberLice = 600;
 
   /// step: seconds per tick, > 0. Walls stand at the terrain's edge. REQUIRES the exact equations and a
