@@ -136,10 +136,10 @@ void Members::admit(SessionId session, std::shared_ptr<Subscriber> subscriber, c
   Seat seat{0, join.name, join.role, 0, SessionOccupant{session, subscriber, *channel}};
   const std::uint32_t state_hz = granted_state_hz(join.state_hz, settings_.state_hz);
   if (join.role != protocol::Role::kSpectator) give_louse(seat);
+  count(seat.role, +1);  // who has his welcome finds himself counted
   subscriber->welcome(welcome_for(seat, join, state_hz), settings_.state_hz / state_hz);
   for (const Frame& frame : channels_.newest(*channel, scene())) subscriber->show_again(frame);
   broadcaster_->add({session, std::move(subscriber), *channel, events_.next()});
-  count(seat.role, +1);
   const Seat& added = seats_.add(std::move(seat));
   log_->info(fmt::format("room {}: session {:016x} joined as {} {} \"{}\"", settings_.name, session,
                          protocol::to_text(added.role), added.louse, added.name));
