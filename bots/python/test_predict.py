@@ -15,7 +15,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 import woodlouse
 from running import PATIENCE_S, ROOT, example, serve
-from woodlouse_motion import ALONG_HEADING, FLYING, HELD, Motion, RESTING, body_of_ack, body_of_row
+from woodlouse_motion import ALONG_HEADING, FLYING, HELD, Motion, MOVING, RESTING, body_of_ack, body_of_row
 from woodlouse_surface import FunctionSurface, surface_of
 
 AHEAD = 30  # ticks: 0.5 s at 60 Hz
@@ -217,8 +217,12 @@ class TheMotion(unittest.TestCase):
         rounds = [each for name in MAPS if name != "jumps" for each in self.compared(name)]
         for each in rounds:
             told, seen = each.told, each.seen
-            self.assertEqual((told.phase, told.thrust_kind, told.ticks_left, told.tx, told.ty),
-                             (seen.phase, seen.thrust_kind, seen.ticks_left, seen.tx, seen.ty))
+            self.assertEqual((told.thrust_kind, told.ticks_left, told.tx, told.ty),
+                             (seen.thrust_kind, seen.ticks_left, seen.tx, seen.ty))
+            # In which tick the last tenth of a millimetre ends hangs on rounding.
+            if told.phase != seen.phase:
+                self.assertEqual({told.phase, seen.phase}, {MOVING, RESTING})
+                self.assertLess(math.hypot(told.vx, told.vy) + math.hypot(seen.vx, seen.vy), 1e-3)
         self.assertGreater(sum(each.told.phase == RESTING for each in rounds), 2)
         self.assertGreater(sum(each.push_ends for each in rounds), 5)
 
