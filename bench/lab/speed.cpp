@@ -2,6 +2,9 @@
 #include "bench/lab/job.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <vector>
 #include "bench/lab/report/output.h"
 #include "bench/lab/report/race.h"
 #include "bench/lab/speed_evaluations.h"
@@ -13,12 +16,15 @@ namespace {
 
 struct SpeedOptions {
   Output output;
-  std::filesystem::path maps;  ///< empty: the project's own
-  std::string only;            ///< empty: all
+  std::filesystem::path maps;     ///< empty: the project's own
+  std::vector<std::string> only;  ///< empty: all
 };
 
 core::Expected<void> run(const SpeedOptions& options) {
-  const auto asks_for = [&](const char* part) { return options.only.empty() || options.only == part; };
+  const auto asks_for = [&](const char* part) {
+    return options.only.empty() ||
+           std::find(options.only.begin(), options.only.end(), part) != options.only.end();
+  };
   pin_to_core();
   if (asks_for("evaluations")) {
     if (auto done = measure_evaluations(options.output); !done) return done;
@@ -39,7 +45,8 @@ void add_speed(CLI::App& app, Job& job) {
   add_output_options(*command, options->output);
   command->add_option("--maps", options->maps, "folder of maps; the project's own when left out")
       ->check(CLI::ExistingDirectory);
-  command->add_option("--only", options->only, "evaluations, steps or maps; all of them when left out")
+  command->add_option("--only", options->only, "some of evaluations,steps,maps; all of them when left out")
+      ->delimiter(',')
       ->check(CLI::IsMember({"evaluations", "steps", "maps"}));
   command->footer(
       "Writes lab-speed-evaluations.csv, lab-speed-steps.csv and lab-speed-maps.csv; prints the ratios.\n"

@@ -37,6 +37,10 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
   void* memory = nullptr;
   return counted(posix_memalign(&memory, step, size) == 0 ? memory : nullptr);
 }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  if (is_counting) ++count;
+  return std::malloc(size);
+}
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
