@@ -14,8 +14,8 @@
 
 namespace woodlouse::physics {
 
-/// L: the lanes; F: the Forces the map has; G: its ground (grounds.h).
-template <typename L, typename F, typename G>
+/// L: the lanes; G: the ground (grounds.h); kThrust: whether the map has thrusts.
+template <typename L, typename G, bool kThrust>
 class LaneFlyer {
  public:
   LaneFlyer(const BatchContext& context, const G& ground)
@@ -99,7 +99,7 @@ class LaneFlyer {
         time / L(6.0) * (speed_after(L(0.0)) + L(4.0) * speed_after(L(0.5) * time) + speed_after(time));
     // A heading is written at the tick's end, but where a thrust acts along it.
     unsigned along = 0;
-    for (std::size_t l = 0; F::thrust && l < kCount; ++l)
+    for (std::size_t l = 0; kThrust && l < kCount; ++l)
       along |= (drives_along_heading(*piece.lice[l]) ? 1u : 0u) << l;
     const auto turns = (~(rest > L(0.0)) | L::Mask::of(along)) & (way2 > L(kStandstill2));
     const Pair<L> heading = unit(v);

@@ -48,7 +48,7 @@ class LaneStepper {
     lists.again.clear();
     lists.at_wall.clear();
     if (unilateral_) {
-      fly_and_slide(lice, moving, lists, counters);
+      fly(lice, moving, lists, counters);
     } else {
       const auto whole = [&](std::size_t i) { return LouseTick{moving[i], 0, context_.tick}; };
       run(lice, moving.size(), whole, lists, counters);
@@ -71,18 +71,15 @@ class LaneStepper {
   static constexpr bool kCurved = terrain::Curved<typename G::Sample>;
   static constexpr bool kMayKeepEnergy = Batch::kMayKeepEnergy;
 
-  /// Who flies does so in lanes of his own.
-  void fly_and_slide(state::Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists,
-                     StepCounters& counters) {
-    lists.now.clear();
+  /// Who flies does so in lanes of his own; the others are then in lists.again.
+  void fly(state::Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists,
+           StepCounters& counters) {
     lists.in_air.clear();
     for (const std::uint32_t index : moving) {
-      auto& list = lice[index].phase == state::Phase::kFlying ? lists.in_air : lists.now;
+      auto& list = lice[index].phase == state::Phase::kFlying ? lists.in_air : lists.again;
       list.push_back({index, 0, context_.tick});
     }
-    LaneFlyer<L, F, G>(context_, ground_).advance(lice, lists, counters);
-    run(
-        lice, lists.now.size(), [&](std::size_t i) { return lists.now[i]; }, lists, counters);
+    if constexpr (kCurved) LaneFlyer<L, G, F::thrust>(context_, ground_).advance(lice, lists, counters);
   }
 
   /// Those of lists.again, until they are through the tick or left.
@@ -180,7 +177,7 @@ class LaneStepper {
                 __attribute__((always_inline)) { keep_energy(batch, context_.parameters); });
       }
     }
-    if (unilateral_) {
+    if (kCurved && unilateral_) {
       all([this](Batch & batch) __attribute__((always_inline)) {
         batch.move_to(ground_, context_.parameters, batch.end.position);
       });
