@@ -51,7 +51,11 @@ void add_speed(CLI::App& app, Job& job) {
   command->footer(
       "Writes lab-speed-evaluations.csv, lab-speed-steps.csv and lab-speed-maps.csv; prints the ratios.\n"
       "Example:\n  woodlouse-lab speed --quick");
-  command->callback([options, &job] { job = [options] { return run(*options); }; });
+  command->callback([options, &job] {
+    for (const std::string& part : options->only)
+      options->output.command += (&part == &options->only.front() ? " --only " : ",") + part;
+    job = [options] { return run(*options); };
+  });
 }
 
 }  // namespace woodlouse::lab

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -146,6 +148,30 @@ void measure_scenes(const std::vector<Scene>& scenes, const std::string& what, E
   }
 }
 
+/// The cost of a louse as they become many, a line a map, from rows of the table: gnuplot's script.
+std::string growth_picture(const std::vector<std::vector<Table::Cell>>& rows) {
+  std::map<std::string, std::map<double, double>> ns_by_lice;
+  const std::string best = physics::to_text(physics::best_instruction_set());
+  const auto text = [](const Table::Cell& cell) { return std::get<std::string>(cell); };
+  for (const auto& row : rows) {
+    if (text(row[2]) == best && text(row[3]) == "held" && text(row[4]) == "yes")
+      ns_by_lice[text(row[0])][std::get<double>(row[1])] = std::get<double>(row[5]);
+  }
+  std::ostringstream script;
+  script << "set logscale xy\nset grid\nset key outside right\nset xlabel 'lice'\n"
+         << "set ylabel 'ns a louse and tick, " << best << ", with its hash'\nset yrange [20:2000]\n";
+  std::ostringstream lines;
+  int number = 0;
+  for (const auto& [name, points] : ns_by_lice) {
+    script << "$map" << ++number << " << end\n";
+    for (const auto& [lice, ns] : points) script << lice << ' ' << ns << '\n';
+    script << "end\n";
+    lines << "$map" << number << " with linespoints title '" << name << "' noenhanced, ";
+  }
+  script << "plot " << lines.str() << "NaN notitle\n";
+  return script.str();
+}
+
 core::Expected<std::vector<MapPointer>> maps_of(std::filesystem::path folder) {
   if (folder.empty()) {
     const auto shipped = map::find_map("volcano");
@@ -191,7 +217,8 @@ core::Expected<void> measure_maps(const std::filesystem::path& folder, const Out
   }
   std::cout << "\nA louse and tick on the shipped maps, 60 Hz; left: taken by the scalar step\n";
   table.print(std::cout);
-  return output.write(table, "lab-speed-maps");
+  if (auto done = output.write(table, "lab-speed-maps"); !done || output.quick) return done;
+  return output.draw(growth_picture(table.rows()), "lab-speed-maps", 760, 420);
 }
 
 }  // namespace woodlouse::lab

@@ -9,7 +9,7 @@ namespace woodlouse::lab {
 
 /// The maps of `folder` (empty: the project's own), by name: every instruction set this machine has, thrusts
 /// held and new each tick, with the state hash and without; then from one louse to a million. Writes
-/// lab-speed-maps.csv.
+/// lab-speed-maps.csv and draws the latter.
 core::Expected<void> measure_maps(const std::filesystem::path& folder, const Output& output);
 
 }  // namespace woodlouse::lab
