@@ -41,7 +41,8 @@ struct Scene {
 /// Lice all over a map that are pushed about.
 class Crowd {
  public:
-  explicit Crowd(const Scene& scene)
+  /// settled: after so many ticks they are where pushes and walls bring them.
+  Crowd(const Scene& scene, int settled)
       : scene_(scene), world_(map::make_world(*scene.map, kTick)), ticks_(scene.lice < 100000 ? 10 : 1) {
     world_.use(scene.set);
     const terrain::Rectangle domain = scene.map->terrain->domain();
@@ -56,8 +57,7 @@ class Crowd {
     }
     world_.restore(lice);
     for (std::uint32_t id = 1; id <= scene.lice; ++id) push_anywhere(id);
-    // Until they are where pushes and walls bring them.
-    for (int tick = 0; tick < (scene.lice < 100000 ? 600 : 60); ++tick) step();
+    for (int tick = 0; tick < settled; ++tick) step();
     begin_ = world_.counters();
   }
 
@@ -132,7 +132,8 @@ void measure_scenes(const std::vector<Scene>& scenes, const std::string& what, E
   std::vector<std::unique_ptr<Crowd>> crowds;
   std::vector<Contestant> contestants;
   for (const Scene& scene : scenes) {
-    crowds.push_back(std::make_unique<Crowd>(scene));
+    const int settled = effort == Effort::kQuick ? 120 : (scene.lice < 100000 ? 600 : 60);
+    crowds.push_back(std::make_unique<Crowd>(scene, settled));
     Crowd& crowd = *crowds.back();
     contestants.push_back({"", [&crowd] { crowd.run(); }, crowd.louse_ticks()});
   }
@@ -201,13 +202,14 @@ core::Expected<void> measure_maps(const std::filesystem::path& folder, const Out
   const auto maps = maps_of(folder);
   if (!maps) return tl::unexpected(maps.error());
   const physics::InstructionSet best = physics::best_instruction_set();
+  const std::uint32_t many = output.quick ? 200 : 1000;
   Table table({"map", "lice", "set", "thrust", "hash", "ns", "ns_best", "sub_steps", "left", "awake"});
   for (const MapPointer& map : *maps) {
     const std::string& name = map->definition.name;
     std::vector<Scene> scenes;
-    for (const auto set : available_sets()) scenes.push_back({map, 1000, set});
-    scenes.push_back({map, 1000, best, Steering::kHeld, false});
-    scenes.push_back({map, 1000, best, Steering::kEachTick});
+    for (const auto set : available_sets()) scenes.push_back({map, many, set});
+    scenes.push_back({map, many, best, Steering::kHeld, false});
+    scenes.push_back({map, many, best, Steering::kEachTick});
     measure_scenes(scenes, "maps, " + name, output.effort(), table);
     if (output.quick) continue;
     scenes.clear();
