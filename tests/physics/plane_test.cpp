@@ -10,6 +10,7 @@
 
 #include "shared/core/random.h"
 #include "shared/physics/world.h"
+#include "tests/support/motion.h"
 
 using namespace woodlouse;
 using namespace woodlouse::physics;
@@ -19,6 +20,7 @@ using terrain::HeightGrid;
 using terrain::PlaneSurface;
 using terrain::Rectangle;
 using terrain::Terrain;
+using tests::moving;
 
 namespace {
 
@@ -36,14 +38,6 @@ HeightGrid heights_of(const PlaneSurface& plane) {
   return grid;
 }
 
-state::Louse louse_of(state::LouseId id, core::Vec2 position, core::Vec2 velocity) {
-  state::Louse louse;
-  louse.id = id;
-  louse.position = position;
-  louse.velocity = velocity;
-  return louse;
-}
-
 /// A plane's world without walls, and one louse in it.
 World alone(core::Vec2 slope, const state::Parameters& parameters, const state::Louse& louse) {
   constexpr double kFar = 1e9;
@@ -58,7 +52,7 @@ std::vector<state::Louse> crowd(double fastest) {
   const auto symmetric = [&](double size) { return size * (2.0 * random.uniform() - 1.0); };
   std::vector<state::Louse> lice;
   for (state::LouseId id = 1; id <= 61; ++id) {
-    lice.push_back(louse_of(id, {symmetric(19), symmetric(19)}, {symmetric(fastest), symmetric(fastest)}));
+    lice.push_back(moving({symmetric(19), symmetric(19)}, {symmetric(fastest), symmetric(fastest)}, id));
     lice.back().thrust_kind = id % 3 == 0   ? state::ThrustKind::kNone
                               : id % 3 == 1 ? state::ThrustKind::kMapVector
                                             : state::ThrustKind::kAlongHeading;
@@ -74,7 +68,7 @@ std::vector<state::Louse> crowd(double fastest) {
 TEST_CASE("on an incline without friction a louse runs the parabola of constant acceleration, to rounding") {
   const core::Vec2 slope{0.3, -0.2};
   const state::Parameters bare{.gravity = 9.81, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0};
-  World world = alone(slope, bare, louse_of(1, {1, 2}, {3, 1}));
+  World world = alone(slope, bare, moving({1, 2}, {3, 1}));
   for (int tick = 0; tick < 6000; ++tick) world.step();
   const double t = 6000 * kTick;
   const core::Vec2 a = (-9.81 / (1.0 + dot(slope, slope))) * slope;
@@ -86,13 +80,13 @@ TEST_CASE("on an incline without friction a louse runs the parabola of constant 
 
 TEST_CASE("on level ground drag alone brings a louse v / d far, friction alone v^2 / (2 mu g)") {
   World dragged =
-      alone({}, {.gravity = 9.81, .drag = 0.5, .friction = 0.0, .thrust_max = 0.0}, louse_of(1, {}, {3, 4}));
+      alone({}, {.gravity = 9.81, .drag = 0.5, .friction = 0.0, .thrust_max = 0.0}, moving({}, {3, 4}));
   for (int tick = 0; tick < 60 * 60; ++tick) dragged.step();
   CHECK(dragged.lice()[0].position.x == Approx(6.0).epsilon(1e-9));
   CHECK(dragged.lice()[0].position.y == Approx(8.0).epsilon(1e-9));
 
   World rubbed =
-      alone({}, {.gravity = 9.81, .drag = 0.0, .friction = 0.2, .thrust_max = 0.0}, louse_of(1, {}, {3, 4}));
+      alone({}, {.gravity = 9.81, .drag = 0.0, .friction = 0.2, .thrust_max = 0.0}, moving({}, {3, 4}));
   for (int tick = 0; tick < 60 * 60; ++tick) rubbed.step();
   const double way = 25.0 / (2 * 0.2 * 9.81);
   CHECK(rubbed.lice()[0].phase == state::Phase::kResting);
@@ -163,7 +157,7 @@ TEST_CASE("elastic walls around an incline neither give nor take energy") {
   const state::Parameters elastic{
       .gravity = 9.81, .drag = 0.0, .friction = 0.0, .thrust_max = 0.0, .edge_restitution = 1.0};
   World world(std::make_shared<const Terrain>(plane), elastic, kTick);
-  world.insert(louse_of(1, {1, 2}, {3, 1}));
+  world.insert(moving({1, 2}, {3, 1}));
   const auto energy_of = [&](const state::Louse& louse) {
     const double climb = dot(slope, louse.velocity);
     return 0.5 * (dot(louse.velocity, louse.velocity) + climb * climb) +

@@ -6,10 +6,12 @@
 
 #include "shared/core/random.h"
 #include "shared/physics/world.h"
+#include "tests/support/motion.h"
 
 using namespace woodlouse;
 using namespace woodlouse::physics;
 using namespace woodlouse::state;
+using tests::moving;
 
 namespace {
 
@@ -24,14 +26,6 @@ World world_of(terrain::FunctionName name, const state::Parameters& parameters) 
                   parameters);
 }
 
-state::Louse moving(state::LouseId id, core::Vec2 position, core::Vec2 velocity) {
-  state::Louse louse;
-  louse.id = id;
-  louse.position = position;
-  louse.velocity = velocity;
-  return louse;
-}
-
 /// The events of every louse's next step together.
 StepEvents all_events(World& world) {
   world.step();
@@ -44,15 +38,15 @@ StepEvents all_events(World& world) {
 
 TEST_CASE("each louse's step tells of its wall, its stop and of nothing, and forgets it in the next") {
   World world = world_on(terrain::Terrain(terrain::PlaneSurface(kArena, 0.0, {})), {.friction = 0.5});
-  world.insert(moving(1, {19.99, 0}, {10, 0}));
-  world.insert(moving(2, {0, 0}, {0.01, 0}));
-  world.insert(moving(4, {5, 5}, {8, 0}));
+  world.insert(moving({19.99, 0}, {10, 0}, 1));
+  world.insert(moving({0, 0}, {0.01, 0}, 2));
+  world.insert(moving({5, 5}, {8, 0}, 4));
   world.step();
   REQUIRE(world.events().size() == 3);
   CHECK(world.events()[0] == kMetWall);
   CHECK(world.events()[1] == kStopped);
   CHECK(world.events()[2] == 0);
-  world.insert(moving(3, {0, 5}, {}));
+  world.insert(moving({0, 5}, {}, 3));
   CHECK(world.events()[2] == 0);
   CHECK(world.erase(1));
   REQUIRE(world.events().size() == world.lice().size());
@@ -62,7 +56,7 @@ TEST_CASE("each louse's step tells of its wall, its stop and of nothing, and for
 
 TEST_CASE("nobody moves and nothing happens any more") {
   World world = world_on(terrain::Terrain(terrain::PlaneSurface(kArena, 0.0, {})), {.friction = 0.5});
-  world.insert(moving(1, {0, 0}, {0.01, 0}));
+  world.insert(moving({0, 0}, {0.01, 0}, 1));
   CHECK(all_events(world) == kStopped);
   CHECK(all_events(world) == 0);
 }
@@ -71,11 +65,11 @@ TEST_CASE("a seam is told of on the ground and in the air") {
   state::Parameters p{.gravity = 2.0};
   p.edges = state::Edges::kWrap;
   World ground = world_of(terrain::FunctionName::kWaves, p);
-  ground.insert(moving(1, {19.99, 0}, {10, 0}));
+  ground.insert(moving({19.99, 0}, {10, 0}, 1));
   CHECK(all_events(ground) == kCrossedSeam);
   p.contact = state::SurfaceContact::kUnilateral;
   World air = world_of(terrain::FunctionName::kWaves, p);
-  state::Louse louse = moving(1, {19.99, 0}, {10, 0});
+  state::Louse louse = moving({19.99, 0}, {10, 0}, 1);
   louse.phase = state::Phase::kFlying;
   louse.flight_z = 100.0;
   air.restore({&louse, 1});
@@ -91,7 +85,7 @@ TEST_CASE("take-offs, landings, walls and stops are those that are counted") {
     core::Random random(5);
     const auto symmetric = [&](double size) { return size * (2.0 * random.uniform() - 1.0); };
     for (state::LouseId id = 1; id <= 60; ++id)
-      world.insert(moving(id, {symmetric(20), symmetric(20)}, {symmetric(12), symmetric(12)}));
+      world.insert(moving({symmetric(20), symmetric(20)}, {symmetric(12), symmetric(12)}, id));
     StepEvents seen = 0;
     for (int tick = 0; tick < 600; ++tick) {
       std::vector<state::Louse> before(world.lice().begin(), world.lice().end());

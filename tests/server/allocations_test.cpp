@@ -25,9 +25,8 @@
 #include "server/net/tcp_wire.h"
 #include "server/room/room.h"
 #include "server/room/steady_timekeeper.h"
-#include "shared/map/map_file.h"
 #include "tests/server/counted_allocations.h"
-#include "tests/server/room/manual_timekeeper.h"
+#include "tests/server/room/house.h"
 
 namespace woodlouse::server {
 namespace {
@@ -115,16 +114,6 @@ class Pace {
   static constexpr std::size_t kWarmUp = 630;  ///< ticks
   static constexpr std::size_t kTicks = kWarmUp + 60 * kSeconds;
 
-  static std::shared_ptr<const map::Map> load() {
-    auto map = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/volcano.json");
-    REQUIRE(map);
-    return *map;
-  }
-  static Start open() {
-    const auto map = load();
-    return {
-        map, std::make_unique<match::Match>(map, match::MatchSettings{60, 0}), "maps/volcano.json", {}, {}};
-  }
   static RoomSettings settings() {
     RoomSettings result;
     result.name = "volcano";
@@ -192,7 +181,8 @@ class Pace {
   std::shared_ptr<spdlog::logger> log_ =
       std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::null_sink_mt>());
   ManualTimekeeper timekeeper_;
-  std::shared_ptr<Room> room_ = Room::make(io_, io_, settings(), open(), {}, timekeeper_, log_);
+  std::shared_ptr<Room> room_ =
+      Room::make(io_, io_, settings(), test::Contexts::open(), {}, timekeeper_, log_);
   protocol::Limits limits_;
   TrafficMetrics traffic_;
   OneRoom directory_{room_->door()};

@@ -40,9 +40,9 @@ Run run(const S& surface, const state::Parameters& parameters, const state::Lous
   return run<F>(surface, parameters, louse, rate, ticks, kNowhere, [](const state::Louse&) { return true; });
 }
 
-inline state::Louse moving(core::Vec2 position, core::Vec2 velocity) {
+inline state::Louse moving(core::Vec2 position, core::Vec2 velocity, state::LouseId id = 1) {
   state::Louse louse;
-  louse.id = 1;
+  louse.id = id;
   louse.position = position;
   louse.velocity = velocity;
   return louse;
