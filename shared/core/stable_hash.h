@@ -18,6 +18,9 @@ static_assert(std::endian::native == std::endian::little, "the state hash hashes
 
 /// XXH64 with seed 0 of the whole text.
 std::uint64_t stable_hash(std::string_view bytes);
+/// out[i] = stable_hash of the `size` bytes at texts[i]; side by side where the machine can. REQUIRES a size
+/// that is a multiple of 32 and not 0.
+void stable_hashes(std::span<const char* const> texts, std::size_t size, std::uint64_t* out);
 
 /// 16 lower-case hex digits.
 std::string to_hex(std::uint64_t hash);

@@ -1,15 +1,26 @@
 #include "shared/state/state_hash.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cassert>
-#include <string_view>
 
 namespace woodlouse::state {
 namespace {
 
 /// Blocks that changed, of which a team's member is asked for at least: 10 us.
 constexpr std::size_t kMemberBlocks = 16;
+
+constexpr std::size_t kBlockBytes = kBlockLice * sizeof(Louse);
+
+/// Whole blocks that are hashed together.
+constexpr std::size_t kBatch = 32;
+struct Batch {
+  std::array<std::size_t, kBatch> blocks;
+  std::array<const char*, kBatch> texts;
+  std::array<std::uint64_t, kBatch> hashes;
+  std::size_t size = 0;
+};
 
 }  // namespace
 
@@ -20,15 +31,30 @@ bool BlockHashes::update(std::span<const Louse> lice, std::span<const std::uint8
   std::atomic<bool> is_another = values_.size() != count;
   values_.resize(count);
   const auto hash_blocks = [&](std::size_t first, std::size_t end) {
-    for (std::size_t block = first; block < end; ++block) {
-      if (changed[block] == 0) continue;
-      const auto part =
-          lice.subspan(block * kBlockLice).first(std::min(kBlockLice, lice.size() - block * kBlockLice));
-      const std::uint64_t hash =
-          core::stable_hash(std::string_view(reinterpret_cast<const char*>(part.data()), part.size_bytes()));
+    const auto keep = [&](std::size_t block, std::uint64_t hash) {
       if (hash != values_[block]) is_another.store(true, std::memory_order_relaxed);
       values_[block] = hash;
+    };
+    const auto bytes = [&](std::size_t block) {
+      return reinterpret_cast<const char*>(lice.data() + block * kBlockLice);
+    };
+    Batch batch;
+    const auto hash_batch = [&] {
+      core::stable_hashes({batch.texts.data(), batch.size}, kBlockBytes, batch.hashes.data());
+      for (std::size_t i = 0; i < batch.size; ++i) keep(batch.blocks[i], batch.hashes[i]);
+      batch.size = 0;
+    };
+    for (std::size_t block = first; block < end; ++block) {
+      if (changed[block] == 0) continue;
+      if (const std::size_t left = lice.size() - block * kBlockLice; left < kBlockLice) {
+        keep(block, core::stable_hash({bytes(block), left * sizeof(Louse)}));
+        continue;
+      }
+      batch.texts[batch.size] = bytes(block);
+      batch.blocks[batch.size++] = block;
+      if (batch.size == kBatch) hash_batch();
     }
+    hash_batch();
   };
   const auto to_hash = count - static_cast<std::size_t>(std::count(changed.begin(), changed.end(), 0));
   const std::size_t parts = core::parts_for(team, to_hash, kMemberBlocks);
