@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "shared/core/instruction_sets.h"
+
 namespace woodlouse::physics {
 
 BatchStep find_scalar_step(BatchGround ground, const BatchForces& forces);
@@ -24,9 +26,7 @@ const char* to_text(InstructionSet set) {
 bool is_available(InstructionSet set) {
   if (set == InstructionSet::kScalar) return true;
 #ifdef WOODLOUSE_X86_LANES
-  if (set == InstructionSet::kAvx2) return __builtin_cpu_supports("avx2") != 0;
-  return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512dq") != 0 &&
-         __builtin_cpu_supports("avx512vl") != 0;
+  return set == InstructionSet::kAvx2 ? core::has_avx2() : core::has_avx512();
 #else
   return false;
 #endif
@@ -43,7 +43,14 @@ BatchStep find_batch_step(InstructionSet set, BatchGround ground, const BatchFor
   assert(is_available(set));
 #ifdef WOODLOUSE_X86_LANES
   if (set == InstructionSet::kAvx2) return find_avx2_step(ground, forces);
-  if (set == InstructionSet::kAvx512) return find_avx512_step(ground, forces);
+  if (set == InstructionSet::kAvx512) {
+    BatchStep step = find_avx512_step(ground, forces);
+    if (!is_available(InstructionSet::kAvx2)) return step;
+    const BatchStep narrow = find_avx2_step(ground, forces);
+    step.advance_few = narrow.advance;
+    step.go_on_few = narrow.go_on;
+    return step;
+  }
 #endif
   return find_scalar_step(ground, forces);
 }

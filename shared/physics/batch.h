@@ -43,6 +43,16 @@ struct BatchLists {
   std::vector<LouseTick> now, again, at_wall, in_air;
 };
 
+struct BatchContext;
+
+/// Steps those of lists.again through what is left of their tick, as BatchStep::advance does; at_wall: all of
+/// them slide along one.
+using GoOn = void (*)(const BatchContext&, state::Louse* lice, bool at_wall, BatchLists& lists,
+                      StepCounters& counters);
+
+/// So many lice are stepped sooner by four lanes than by eight, half of which do nothing.
+inline constexpr std::size_t kFewLice = 4;
+
 /// What a batch reads besides its lice.
 struct BatchContext {
   /// See terrain::PlaneSurface.
@@ -56,15 +66,25 @@ struct BatchContext {
   terrain::Rectangle interior;  ///< who leaves it meets a wall or a seam
   double tick = 0.0;            ///< [s]
   SubStepRules rules;
-  double cell = 0.0;  ///< the side of the ground's smallest [m]; infinite where it has none
+  double cell = 0.0;   ///< the side of the ground's smallest [m]; infinite where it has none
+  GoOn few = nullptr;  ///< for kFewLice and fewer; null: there is nothing narrower
 };
 
 /// Steps lice[i] for each i of `moving`, none of them resting, through a tick, where the common case holds;
 /// the others are left where they were then, in lists.left.
 struct BatchStep {
+  using Advance = void (*)(const BatchContext&, state::Louse* lice, std::span<const std::uint32_t> moving,
+                           BatchLists& lists, StepCounters& counters);
   int width = 0;  ///< lanes; 0: no batched step
-  void (*advance)(const BatchContext&, state::Louse* lice, std::span<const std::uint32_t> moving,
-                  BatchLists& lists, StepCounters& counters) = nullptr;
+  Advance advance = nullptr;
+  GoOn go_on = nullptr;
+  /// The same of narrower lanes, for kFewLice and fewer; null: there are none.
+  Advance advance_few = nullptr;
+  GoOn go_on_few = nullptr;
+
+  [[nodiscard]] Advance advance_of(std::size_t lice) const {
+    return lice <= kFewLice && advance_few != nullptr ? advance_few : advance;
+  }
 };
 
 /// The grounds that have a batched step.

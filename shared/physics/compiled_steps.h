@@ -59,7 +59,8 @@ class CompiledSteps final : public GroundSteps {
                        StepCounters& counters, std::span<state::StepEvents> events) const {
     // Whoever leaves the interior takes the scalar step, which knows of walls and seams.
     const terrain::Rectangle interior = Rim(rules_.walls, rules_.parameters.edges).interior();
-    BatchContext context{{}, {}, rules_.parameters, interior, rules_.tick, stepper.rules(), ground_.cell()};
+    BatchContext context{
+        {}, {}, rules_.parameters, interior, rules_.tick, stepper.rules(), ground_.cell(), batch.go_on_few};
     if constexpr (std::is_same_v<S, terrain::PlaneSurface>) {
       const terrain::Rectangle domain = ground_.domain();
       context.plane = {ground_.height(), {domain.x_min, domain.y_min}, ground_.slope()};
@@ -67,7 +68,7 @@ class CompiledSteps final : public GroundSteps {
       context.spline = ground_.view();
     }
     counters.louse_steps += moving.size();
-    batch.advance(context, lice.data(), moving, lists, counters);
+    batch.advance_of(moving.size())(context, lice.data(), moving, lists, counters);
     counters.left += lists.left.size();
     for (const LouseTick& tick : lists.left) {
       stepper.finish(lice[tick.index], tick.remaining, static_cast<int>(tick.pieces), counters,

@@ -53,11 +53,23 @@ class LaneStepper {
       const auto whole = [&](std::size_t i) { return LouseTick{moving[i], 0, context_.tick}; };
       run(lice, moving.size(), whole, lists, counters);
     }
-    run_again(lice, lists, counters);
+    go_on(lice, false, lists, counters);
     if (lists.at_wall.empty()) return;
-    at_wall_ = true;
     lists.again.swap(lists.at_wall);
-    run_again(lice, lists, counters);
+    go_on(lice, true, lists, counters);
+  }
+
+  /// Those of lists.again, until they are through the tick or left; see GoOn.
+  void go_on(state::Louse* lice, bool at_wall, BatchLists& lists, StepCounters& counters) {
+    at_wall_ = at_wall;
+    while (!lists.again.empty()) {
+      if (kCount > kFewLice && lists.again.size() <= kFewLice && context_.few != nullptr)
+        return context_.few(context_, lice, at_wall, lists, counters);
+      lists.now.swap(lists.again);
+      lists.again.clear();
+      run(
+          lice, lists.now.size(), [&](std::size_t i) { return lists.now[i]; }, lists, counters);
+    }
   }
 
  private:
@@ -80,16 +92,6 @@ class LaneStepper {
       list.push_back({index, 0, context_.tick});
     }
     if constexpr (kCurved) LaneFlyer<L, G, F::thrust>(context_, ground_).advance(lice, lists, counters);
-  }
-
-  /// Those of lists.again, until they are through the tick or left.
-  void run_again(state::Louse* lice, BatchLists& lists, StepCounters& counters) {
-    while (!lists.again.empty()) {
-      lists.now.swap(lists.again);
-      lists.again.clear();
-      run(
-          lice, lists.now.size(), [&](std::size_t i) { return lists.now[i]; }, lists, counters);
-    }
   }
 
   /// One sub-step for each of `count` lice; tick_of(i): who and how far.

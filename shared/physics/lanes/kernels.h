@@ -16,9 +16,17 @@ void advance_lanes(const BatchContext& context, state::Louse* lice, std::span<co
   LaneStepper<L, F, G>(context).advance(lice, moving, lists, counters);
 }
 
+template <typename L, typename F, typename G>
+void go_on_in_lanes(const BatchContext& context, state::Louse* lice, bool at_wall, BatchLists& lists,
+                    StepCounters& counters) {
+  LaneStepper<L, F, G>(context).go_on(lice, at_wall, lists, counters);
+}
+
 template <typename L, typename G>
 BatchStep choose_kernel(const BatchForces& forces) {
-  const auto kernel = []<typename F>(F) { return BatchStep{L::kCount, advance_lanes<L, F, G>}; };
+  const auto kernel = []<typename F>(F) {
+    return BatchStep{L::kCount, advance_lanes<L, F, G>, go_on_in_lanes<L, F, G>};
+  };
   if (forces.central) return kernel(Forces<true, true, true, true>{});
   if (forces.friction)
     return forces.thrust ? kernel(ForcesWithAnyDrag<true, true>{}) : kernel(ForcesWithAnyDrag<true, false>{});
