@@ -18,6 +18,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string_view>
 #include <vector>
@@ -99,11 +100,7 @@ class BicubicSpline {
     return {x, y, x + dx_, y + dy_};
   }
   [[nodiscard, gnu::always_inline]] inline SurfaceSample sample_in(CellIndex cell, double x, double y) const {
-    const CellIndex inside = nearest_cell(cell.column, cell.row);
-    return evaluate_cell(
-        cells_[static_cast<std::size_t>(inside.row * (last_column_ + 1) + inside.column)].c.data(),
-        x - x_origin_ - static_cast<double>(inside.column) * dx_,
-        y - y_origin_ - static_cast<double>(inside.row) * dy_);
+    return polynomial(nearest_cell(cell.column, cell.row), x, y);
   }
 
   [[nodiscard]] View view() const {
@@ -119,15 +116,24 @@ class BicubicSpline {
   }
 
  private:
-  /// Bounded before the conversion, so that no number is too large for it; NaN gives cell 0.
+  /// Looked at before the conversion, for which no number may be too large; NaN gives cell 0.
   [[gnu::always_inline]] static inline long long cell_index(double u, long long last) {
-    const double most = static_cast<double>(last);
-    const double positive = u > 0.0 ? u : 0.0;
-    return static_cast<long long>(positive < most ? positive : most);
+    if (!(std::fabs(u) < 0x1p62)) [[unlikely]]
+      return u > 0.0 ? last : 0;
+    const auto index = static_cast<long long>(u);
+    return index < 0 ? 0 : (index > last ? last : index);
   }
   /// Copies the domain's cells to those stored beyond its seams; it begins at that column and row.
   void repeat_beyond_seams(std::size_t first_column, std::size_t first_row);
 
+  /// Of a cell that is stored.
+  [[nodiscard, gnu::always_inline]] inline SurfaceSample polynomial(CellIndex cell, double x,
+                                                                    double y) const {
+    return evaluate_cell(
+        cells_[static_cast<std::size_t>(cell.row * (last_column_ + 1) + cell.column)].c.data(),
+        x - x_origin_ - static_cast<double>(cell.column) * dx_,
+        y - y_origin_ - static_cast<double>(cell.row) * dy_);
+  }
   [[nodiscard, gnu::always_inline]] inline CellIndex nearest_cell(long long i, long long j) const {
     return {i < 0 ? 0 : (i > last_column_ ? last_column_ : i), j < 0 ? 0 : (j > last_row_ ? last_row_ : j)};
   }
@@ -160,7 +166,7 @@ SeamMismatch seam_mismatch(const HeightGrid& grid);
 
 // Inline: this is the inner loop of everything.
 [[gnu::always_inline]] inline SurfaceSample BicubicSpline::sample(double x, double y) const {
-  return sample_in(cell_at(x, y), x, y);
+  return polynomial(cell_at(x, y), x, y);
 }
 
 }  // namespace woodlouse::terrain
