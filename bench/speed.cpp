@@ -291,6 +291,6 @@ BENCHMARK_CAPTURE(row_encoding, height_and_speed,
 BENCHMARK_CAPTURE(input_line, pair, "[0.5,-0.25]");
 BENCHMARK_CAPTURE(input_line, number, "-0.75");
 BENCHMARK(ack_line);
-BENCHMARK(state_hash)->ArgName("lice")->Arg(200)->Arg(10000);
+BENCHMARK(state_hash)->ArgName("lice")->Arg(8)->Arg(200)->Arg(10000);
 
 BENCHMARK_MAIN();

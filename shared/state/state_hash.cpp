@@ -67,10 +67,9 @@ bool BlockHashes::update(std::span<const Louse> lice, std::span<const std::uint8
 
 std::uint64_t state_hash(core::StableHasher& hasher, const HashLink& link,
                          std::span<const std::uint64_t> blocks) {
+  static_assert(sizeof link == 6 * sizeof(std::uint64_t));  // in the order above, without gaps
   hasher.reset();
-  for (const std::uint64_t word :
-       {link.previous, link.inputs, link.roster, link.rules, link.tick, link.generator})
-    hasher.append(word);
+  hasher.append(link);
   hasher.append(blocks);
   return hasher.value();
 }

@@ -8,7 +8,8 @@ import re
 import subprocess
 import sys
 
-FOLDERS = ("shared/physics/CMakeFiles/woodlouse_physics.dir/lanes", "bench/lab/CMakeFiles/woodlouse_lab.dir/methods")
+FOLDERS = ("shared/core/CMakeFiles/woodlouse_core.dir", "shared/physics/CMakeFiles/woodlouse_physics.dir/lanes",
+           "bench/lab/CMakeFiles/woodlouse_lab.dir/methods")
 SHARED = re.compile(r" [WVu] (?!.*\bLanes[148]\b)(.*)")  # weak, and not of a lane type
 
 
