@@ -24,7 +24,6 @@ constexpr std::array kRates = {15.0, 60.0, 240.0};
 constexpr std::array kMethods = {Method::kStandard, Method::kCheap, Method::kPrecise};
 constexpr std::array kContacts = {SurfaceContact::kBilateral, SurfaceContact::kUnilateral};
 constexpr std::size_t kKnots = 13;
-constexpr std::uint32_t kLice = 20;
 constexpr double kHalf = 6.0;  // [m], of the map's side
 
 enum class Steering { kNone, kBrake, kChanging };
@@ -183,7 +182,7 @@ struct Gain {
 class Lice {
  public:
   Lice(std::shared_ptr<const terrain::Terrain> ground, const state::Parameters& p, Steering steering,
-       double rate)
+       double rate, std::uint32_t lice)
       : steering_(steering),
         rate_(rate),
         is_kept_(p.drag == 0.0 && p.friction == 0.0 && steering != Steering::kBrake),
@@ -192,7 +191,7 @@ class Lice {
     bottom_ = lowest(*ground, p);
     core::Random random(11);
     const auto symmetric = [&](double size) { return size * (2.0 * random.uniform() - 1.0); };
-    for (state::LouseId id = 1; id <= kLice; ++id) {
+    for (state::LouseId id = 1; id <= lice; ++id) {
       state::Louse louse = louse_at({symmetric(5.0), symmetric(5.0)}, {symmetric(3.0), symmetric(3.0)});
       louse.id = id;
       world_.insert(louse);
@@ -211,7 +210,7 @@ class Lice {
       work_.foresee(world_);
     }
     world_.step();
-    for (std::size_t k = 0; k < kLice; ++k) {
+    for (std::size_t k = 0; k < before.size(); ++k) {
       const state::Louse& louse = world_.lice()[k];
       const bool is_paid =
           steering_ != Steering::kChanging || pay(k, louse.distance - before[k].distance, gain);
@@ -258,6 +257,7 @@ Table gains(Effort effort) {
   Table table({"contact", "method", "forces", "ground", "gained", "at_rate", "bound", "capped", "sub_steps",
                "unforeseen"});
   const double seconds = effort == Effort::kQuick ? 5.0 : 100.0;
+  const std::uint32_t lice_count = effort == Effort::kQuick ? 7 : 20;
   Progress progress("gains", kContacts.size() * kMethods.size() * kForces.size() * kRoughnesses.size());
   for (const SurfaceContact contact : kContacts) {
     for (const Method method : kMethods) {
@@ -273,7 +273,7 @@ Table gains(Effort effort) {
           p.method = method;
           Gain gain;
           for (const double rate : kRates) {
-            Lice lice(ground_of(roughness), p, force.steering, rate);
+            Lice lice(ground_of(roughness), p, force.steering, rate, lice_count);
             for (long tick = 0; tick < std::lround(seconds * rate); ++tick) lice.step(gain);
             lice.count(gain);
           }

@@ -10,7 +10,7 @@
 
 namespace woodlouse::lab {
 
-/// 100 s a cell (quick: 5 s).
+/// 20 lice and 100 s a cell (quick: 7 and 5 s).
 Table gains(Effort effort);
 
 }  // namespace woodlouse::lab

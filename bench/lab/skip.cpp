@@ -12,6 +12,7 @@
 #include "bench/lab/report/output.h"
 #include "bench/lab/report/race.h"
 #include "bench/lab/room_usage.h"
+#include "bench/lab/skip_memory.h"
 #include "bench/lab/skip_steps.h"
 
 namespace woodlouse::lab {
@@ -65,6 +66,7 @@ core::Expected<void> run(const SkipOptions& options) {
   Table table({"what is skipped", "unit", "computed", "skipped"});
   if (auto done = measure_tiles(table, options.output); !done) return done;
   if (auto done = measure_skipped_steps(table, options.output.effort()); !done) return done;
+  if (auto done = measure_memory(table, options.output.effort()); !done) return done;
   if (auto done = measure_rooms(table, options); !done) return done;
   table.print(std::cout);
   return options.output.write(table, "lab-skip");

@@ -10,8 +10,10 @@
 //     sample, a1; the sub-step h; x2 and its cell
 //     sample, a2, a3; x4 and its cell
 //     sample, a4; the end, its gain of energy; where energy is kept, its sample and projection
+//     where the contact is unilateral, a sample at the end: who loses it there is left
 //     write back what is done
-// Who has not used up the tick goes through again, with others of that kind.
+// Who has not used up the tick goes through again, with others of that kind; at last those who slide along a
+// wall, whose accelerations have its force besides. Who flies does so before all that (flight.h).
 #pragma once
 
 #include <cstddef>
