@@ -9,6 +9,7 @@
 #include <cassert>
 #include <csignal>
 #include <cstdint>
+#include <map>
 #include <random>
 #include <set>
 #include <thread>
@@ -123,14 +124,21 @@ core::Expected<void> Server::open_rooms(const ServeConfig& config) {
   const std::uint64_t seed = config.seed ? *config.seed : entropy();
   std::set<std::string> names;
   std::vector<std::pair<std::string, Start>> rooms;
+  // Rooms of one file share its map: what many rooms step over then stays in the caches. A big map's tiles
+  // are built for those who are near, and counted: each room has its own.
+  std::map<fs::path, std::shared_ptr<const map::Map>> shared;
   for (const fs::path& word : config.maps) {
     const auto file = map::find_map(word.string());
     if (!file) return tl::unexpected(file.error());
-    const auto map = map::load_map(*file);
-    if (!map) return tl::unexpected(map.error());
+    std::shared_ptr<const map::Map>& map = shared[*file];
+    if (map == nullptr || std::holds_alternative<terrain::TiledGround>(map->terrain->surface())) {
+      auto loaded = map::load_map(*file);
+      if (!loaded) return tl::unexpected(loaded.error());
+      map = std::move(*loaded);
+    }
     const match::MatchSettings settings{config.tick_hz, seed + names.size()};
-    Start start{*map, std::make_unique<match::Match>(*map, settings), file->string(), {}, {}};
-    rooms.emplace_back(unique_name((*map)->definition.name, names), std::move(start));
+    Start start{map, std::make_unique<match::Match>(map, settings), file->string(), {}, {}};
+    rooms.emplace_back(unique_name(map->definition.name, names), std::move(start));
   }
   take_signals();
   for (auto& [name, start] : rooms) {
