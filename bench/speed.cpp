@@ -276,7 +276,7 @@ BENCHMARK_CAPTURE(world_tick_threads, as_served, core::Cut::kWorthIt)
     ->UseManualTime();
 BENCHMARK_CAPTURE(world_tick_threads, always, core::Cut::kFinest)
     ->ArgNames({"lice", "threads", "pause_ms"})
-    ->ArgsProduct({{300, 500, 700, 1000, 1400, 2000}, {2}, {4}})
+    ->ArgsProduct({{500, 1000, 1500, 2000, 2500, 3000, 4000, 6000}, {2}, {4}})
     ->Iterations(300)
     ->UseManualTime();
 BENCHMARK(resting_tick)->ArgName("lice")->Arg(1000)->Arg(10000);

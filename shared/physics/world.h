@@ -32,12 +32,11 @@ class GroundSteps;
 class World {
  public:
   /// Moving lice that a member of a team is asked for, at least: fewer than twice as many are stepped by the
-  /// caller alone. Two threads that had slept, measured against one, each with the other's ticks in turns
-  /// (bench/results/step-threads.txt):
-  ///     lice            300   500   700   1000  1400  2000
-  ///     times as fast   0.49  0.65  0.82  1.05  1.16  1.45
-  /// with other programs on the cores; by how busy these were, 700 to 1800 lice broke even.
-  static constexpr std::size_t kMemberLice = 600;
+  /// caller alone. Two threads that had slept, measured against one, each with the other's ticks in turns,
+  /// by AVX-512 (bench/results/step-threads.txt):
+  ///     lice            1000  1500  2000  2500  3000  4000  6000
+  ///     times as fast   0.72  0.86  0.97  1.18  1.13  1.30  1.43
+  static constexpr std::size_t kMemberLice = 1500;
 
   /// step: seconds per tick, > 0. Walls stand at the terrain's edge. REQUIRES the exact equations and a
   /// terrain that is no SharedSurface; a map's world: map/map_world.h.
