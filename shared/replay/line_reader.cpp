@@ -13,6 +13,7 @@
 #include "shared/replay/fault_telling_buffer.h"
 #include "shared/replay/header_reader.h"
 #include "shared/replay/line_fields.h"
+#include "shared/replay/step_line.h"
 #include "shared/state/louse_fields.h"
 
 namespace woodlouse::replay {
@@ -284,6 +285,10 @@ core::Expected<Header> ReplayReader::read_header() {
 core::Expected<bool> ReplayReader::read_into(Line& line) {
   const core::Expected<bool> whole = read_line();
   if (!whole || !*whole) return whole;
+  if (auto step = scan_step(line_)) {
+    line = std::move(*step);
+    return true;
+  }
   // Memory goes with the bytes and with the values: who takes shorter lines takes fewer values.
   const std::size_t values = kMaxValues * longest_line_ / kMaxReplayLineBytes;
   const auto document = json::parse_file(line_, source_, {kMaxDepth, values}, line_number_);
