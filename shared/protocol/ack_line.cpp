@@ -4,8 +4,10 @@
 #include <concepts>
 #include <cstddef>
 #include <cstring>
+#include <string_view>
 
 #include "shared/json/text.h"
+#include "shared/state/louse_fields.h"
 
 namespace woodlouse::protocol {
 namespace {
@@ -17,6 +19,11 @@ class AckText {
   AckText& literal(const char (&text)[Size]) {
     std::memcpy(end_, text, Size - 1);
     end_ += Size - 1;
+    return *this;
+  }
+  AckText& word(std::string_view text) {
+    std::memcpy(end_, text.data(), text.size());
+    end_ += text.size();
     return *this;
   }
   template <std::integral T>
@@ -55,9 +62,12 @@ void write_state(AckText& text, const ExactState& exact) {
   text.literal(R"(],"thrust_kind":)").integer(static_cast<std::uint32_t>(louse.thrust_kind));
   text.literal(R"(,"thrust_ticks":)").integer(louse.thrust_ticks);
   text.literal(R"(,"phase":)").integer(static_cast<std::uint32_t>(louse.phase));
-  text.literal(R"(,"flight_z":)").number(louse.flight_z);
-  text.literal(R"(,"flight_vz":)").number(louse.flight_vz);
-  text.literal(R"(,"distance":)").number(louse.distance).literal("}");
+  constexpr const state::LouseField* kFirst = state::find_field("flight_z");
+  constexpr const state::LouseField* kLast = state::find_field("distance");
+  static_assert(kLast - kFirst == 2, "its height and vertical speed in flight, its way");
+  for (const state::LouseField* field = kFirst; field <= kLast; ++field)
+    text.literal(",\"").word(field->name).literal("\":").number(state::field_value(louse, *field));
+  text.literal("}");
 }
 
 }  // namespace
