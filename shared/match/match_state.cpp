@@ -4,6 +4,7 @@
 #include <cassert>
 #include <string_view>
 #include <tuple>
+#include <variant>
 
 #include "shared/core/joined.h"
 #include "shared/match/match.h"
@@ -17,6 +18,7 @@ using core::joined;
 constexpr double kMaxSpeed = 1e6;      // [m/s]
 constexpr double kMaxHeight = 1e9;     // [m]
 constexpr double kMaxDistance = 1e15;  // [m]
+constexpr double kUnitSlack = 1e-9;    // of a squared length of 1
 
 bool is_within(double value, double limit) { return value >= -limit && value <= limit; }
 
@@ -44,13 +46,16 @@ std::string_view fault_of(const map::Map& map, const state::Louse& louse) {
   if (!is_on(map.terrain->domain(), louse.position)) return "is not on the map";
   if (is_too_fast(louse)) return "is too fast";
   if (!is_within(louse.flight_z, kMaxHeight)) return "flies too high";
-  if (!is_within(louse.heading, 1.5)) return "has no heading of length 1";
+  const double heading2 = core::dot(louse.heading, louse.heading);
+  if (!(heading2 > 1.0 - kUnitSlack && heading2 < 1.0 + kUnitSlack)) return "has no heading of length 1";
   if (!is_within(louse.thrust, 1.0)) return "has a thrust above 1";
   if (!is_within(louse.distance, kMaxDistance)) return "has gone too far";
   if (louse.phase > state::Phase::kFlying || louse.thrust_kind > state::ThrustKind::kMapVector) {
     return "has a phase or kind of thrust that is none";
   }
-  const bool may_fly = map.definition.physics.contact == state::SurfaceContact::kUnilateral;
+  // Over a plane nothing takes off.
+  const bool may_fly = map.definition.physics.contact == state::SurfaceContact::kUnilateral &&
+                       !std::holds_alternative<terrain::PlaneSurface>(map.terrain->surface());
   if (louse.phase == state::Phase::kFlying && !may_fly) return "flies where nobody can";
   return {};
 }

@@ -194,10 +194,11 @@ class Rim {
     return p;
   }
 
+  /// Who is beyond a wall, as a state from outside may be by a little, meets it now.
   [[nodiscard]] static double flight_time(double at, double speed, double low, double high) {
-    if (speed > 0.0) return (high - at) / speed;
-    if (speed < 0.0) return (low - at) / speed;
-    return 1e300;
+    if (!(speed > 0.0) && !(speed < 0.0)) return 1e300;
+    const double time = ((speed > 0.0 ? high : low) - at) / speed;
+    return time > 0.0 ? time : 0.0;
   }
 
   terrain::Rectangle domain_;

@@ -7,6 +7,7 @@
 #include "shared/core/random.h"
 #include "shared/map/map_file.h"
 #include "shared/match/match.h"
+#include "shared/state/state_hash.h"
 
 using namespace woodlouse;
 using namespace woodlouse::match;
@@ -92,6 +93,50 @@ TEST_CASE("a match restored at any moment, queues full or empty, goes on bit for
   }
 }
 
+TEST_CASE("over a plane nobody can fly") {
+  const std::string row = "[0,0,0,0,0]";
+  const std::string rows = "[" + row + "," + row + "," + row + "," + row + "," + row + "]";
+  const auto map = map::parse_map(R"({"name":"m","terrain":{"origin":[-10,-10],"spacing":5,"heights":)" +
+                                      rows + R"(},"physics":{"contact":"unilateral"}})",
+                                  "m.json", {});
+  REQUIRE(map);
+  Match match(*map, {60, 11});
+  match.join();
+  match.advance();
+  MatchState state = match.state();
+  REQUIRE(why_not(**map, match.settings(), state) == "");
+  state.lice[0].phase = state::Phase::kFlying;
+  CHECK(why_not(**map, match.settings(), state) == "louse 1 flies where nobody can");
+}
+
+TEST_CASE("whoever flies beyond a wall, by the little that a state may be off, is thrown back by it") {
+  const auto map = map_of(R"(,"physics":{"contact":"unilateral"})");
+  const terrain::Rectangle domain = map->terrain->domain();
+  for (const double beyond : {1e-16, 1e-9, 9e-7}) {
+    for (const double climb : {1000.0, 0.0, -3.0}) {
+      Match match(map, {60, 11});
+      match.join();
+      match.advance();
+      MatchState state = match.state();
+      state::Louse& louse = state.lice[0];
+      louse.position = {domain.x_max + beyond * (domain.x_max - domain.x_min), 0.0};
+      louse.velocity = {1.0, 0.0};
+      louse.phase = state::Phase::kFlying;
+      louse.flight_z = map->terrain->sample(domain.x_max, 0.0).z + 1e-9;
+      louse.flight_vz = climb;
+      core::StableHasher hasher;
+      state.hash = state::state_hash(hasher, state.link, state.lice);
+      REQUIRE(why_not(*map, match.settings(), state) == "");
+      const auto restored = Match::restore(map, match.settings(), state);
+      restored->advance();
+      const state::Louse& after = restored->world().lice()[0];
+      INFO(beyond << ", " << climb << ": " << after.position.x << ", " << after.velocity.x);
+      CHECK(after.position.x < domain.x_max);
+      CHECK(after.velocity.x < 0.0);
+    }
+  }
+}
+
 TEST_CASE("states that no match can be in are refused by name") {
   const auto map = map_of("");
   const MatchSettings settings{60, 11};
@@ -112,6 +157,8 @@ TEST_CASE("states that no match can be in are refused by name") {
   CHECK(fault([](MatchState& s) { s.lice[1].thrust.x = 2.0; }) == "louse 2 has a thrust above 1");
   CHECK(fault([](MatchState& s) { s.lice[1].phase = state::Phase::kFlying; }) ==
         "louse 2 flies where nobody can");
+  for (const core::Vec2 heading : {core::Vec2{}, core::Vec2{1e-160, 0.0}, core::Vec2{1.0, 1e-4}})
+    CHECK(fault([&](MatchState& s) { s.lice[0].heading = heading; }) == "louse 1 has no heading of length 1");
   CHECK(fault([](MatchState& s) { std::swap(s.lice[0], s.lice[1]); }) == "louse 1 is out of order");
   CHECK(fault([](MatchState& s) { s.next_player = 2; }) == "player 2 is out of order");
   CHECK(fault([](MatchState& s) { s.waiting[0].player = 9; }) ==
