@@ -133,18 +133,13 @@ class Work {
   /// along it is known.
   [[nodiscard]] bool foresaw(std::size_t k, const state::Louse& end) const {
     const state::Louse& seen = fine_.lice()[k];
-    const bool drives = end.thrust_kind == state::ThrustKind::kAlongHeading && end.thrust.x > 0.0;
-    const double astray = drives ? kDriveAstray : kAstray;
-    return distance(seen.position, end.position) < astray && seen.phase == end.phase;
+    return distance(seen.position, end.position) < kAstray && seen.phase == end.phase;
   }
   [[nodiscard]] double done(std::size_t k) const { return done_[k]; }
 
  private:
   static constexpr double kFineRate = 480.0;  // [1/s]
   static constexpr double kAstray = 1e-3;     // [m], of the ends
-  /// A capped step has its heading follow its velocity at once, the parts of a tick hardly need to be capped:
-  /// the ways then look alike, the drives along them do not.
-  static constexpr double kDriveAstray = 1e-5;
 
   double power_of(const state::Louse& louse) const {
     return power(fine_.terrain(), fine_.parameters(), louse);

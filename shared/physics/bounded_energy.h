@@ -24,10 +24,19 @@ double potential(core::Vec2 x, double z, const state::Parameters& p) {
   return kCentral && p.central_gravity > 0.0 ? height + central_potential(x, p) : height;
 }
 
+/// The cosine in space of a push over the tangent and v, or 1 at rest.
+template <typename S>
+double push_along(const S& s, core::Vec2 v, core::Vec2 direction) {
+  const double lengths2 = squared_length_in_space(s, v) * squared_length_in_space(s, direction);
+  if (!(lengths2 > 0.0)) return 1.0;
+  const double rise = (s.zx * v.x + s.zy * v.y) * (s.zx * direction.x + s.zy * direction.y);
+  return (dot(v, direction) + rise) / std::sqrt(lengths2);
+}
+
 /// `end`, slowed down to the energy that the start and the drive's push over h can have given it; where it
 /// keeps its energy, brought to all of the start's. Of the kinetic energies of both ends it may have gained
-/// `share`, and what doubles round. Where there is none on its way, the louse turns back where it started.
-/// Start: ground.h.
+/// `share` (0: nothing, the push's own work apart), and what doubles round. Where there is none on its way,
+/// the louse turns back where it started. Start: ground.h.
 template <bool kCentral, typename S, typename Start>
 Motion energy_bounded(const S& surface, const Rim& rim, const state::Parameters& p, const Start& start,
                       const Drive& drive, double h, const Motion& end, bool keeps_energy, double share) {
@@ -41,13 +50,23 @@ Motion energy_bounded(const S& surface, const Rim& rim, const state::Parameters&
   const double to = potential<kCentral>(place, s.z, p);
   const double climbed = to - from;
   const double speed0 = std::sqrt(start.speed2);
-  // v1^2 = v0^2 - 2 climbed + push h (v0 + v1): a brake gives nothing.
-  const double half = 0.5 * h * drive.push;
-  const double most2 = half * half + start.speed2 - 2.0 * climbed + 2.0 * half * speed0;
+  // v1^2 = v0^2 - 2 climbed + push h (c0 v0 + c1 v1), c how much of the push acts along v; all of it but
+  // where nothing may be gained. A brake gives nothing.
+  double along0 = 1.0, along1 = 1.0;
+  if (share == 0.0 && drive.push > 0.0) {
+    along0 = push_along(start.sample, start.at.velocity, drive.direction);
+    const core::Vec2 turned =
+        drive.turns ? lagging_heading(drive.direction, end.velocity, h) : drive.direction;
+    along1 = push_along(s, end.velocity, turned);
+  }
+  const double half0 = 0.5 * h * drive.push * along0;
+  const double half1 = 0.5 * h * drive.push * along1;
+  const double most2 = half1 * half1 + start.speed2 - 2.0 * climbed + 2.0 * half0 * speed0;
   const double slack =
       share * (start.speed2 + speed2) + 2.0 * kEnergyRounding * (std::fabs(from) + std::fabs(to));
   if (!(most2 > -slack)) return back;
-  const double most = half + std::sqrt(most2 > 0.0 ? most2 : 0.0);
+  const double most = half1 + std::sqrt(most2 > 0.0 ? most2 : 0.0);
+  if (!(most >= 0.0)) return back;  // a push against v takes more than there is
   if (!keeps_energy && speed2 <= most * most + slack) return end;
   if (!(speed2 > kStandstill2)) return back;
   return {end.position, most / std::sqrt(speed2) * end.velocity};

@@ -51,4 +51,11 @@ template <typename T>
   return unit(heading + (h * T(1.0 / 6.0)) * (r1 + T(2.0) * (r2 + r3) + r4));
 }
 
+/// The heading after `time` of way at v, by one implicit step: on the way from h to v's direction, however
+/// long the step. For steps whose stages resolve nothing.
+inline core::Vec2 lagging_heading(core::Vec2 h, core::Vec2 v, double time) {
+  const core::Vec2 u = h + (time * (1.0 / kHeadingLength)) * v;
+  return dot(u, u) > 0x1p-40 ? unit(u) : h;
+}
+
 }  // namespace woodlouse::physics

@@ -125,7 +125,7 @@ class Stepper {
     const auto piece = fly_on(flyer, way.louse, way.at, way.remaining, way.counters, way.happened);
     way.remaining -= piece.time;
     if (piece.landed || piece.bounced) ++way.events;
-    follow(way);
+    follow(way.drive, way.at.velocity);
   }
 
   /// What is left of the tick in one step that looks for nothing on its way, its energy bounded.
@@ -134,6 +134,7 @@ class Stepper {
     if (way.louse.phase == state::Phase::kFlying) {
       const Flyer<S> flyer(surface_, parameters_, rim_, tick_);
       fly_out(flyer, way.louse, way.at, way.remaining, way.counters, way.happened);
+      follow(way.drive, way.at.velocity);
     } else {
       const Start start = begin(way);
       const StepResult result = I{}.step(start, Field{ground_, start, way.drive}, way.remaining);
@@ -141,17 +142,11 @@ class Stepper {
       way.counters.samples += I::kSamples;
       way.louse.distance += way.remaining * std::sqrt(start.speed2);
       way.at = bounded(start, way.drive, {way.remaining, 0.0, true}, result.end);
+      lag(way.drive, way.at.velocity, way.remaining);
       if (rim_.wraps()) carry_home(way);
       way.at.position = rim_.inside(way.at.position);
     }
-    follow(way);
     way.remaining = 0.0;
-  }
-
-  /// A heading that turns, where nothing turned it: the velocity's direction.
-  static void follow(const Way& way) {
-    if (way.drive.turns && dot(way.at.velocity, way.at.velocity) > kStandstill2)
-      point(way.drive, unit(way.at.velocity));
   }
 
   /// One sub-step on the ground, or up to a halt. False: the louse has come to rest.
@@ -230,8 +225,11 @@ class Stepper {
     way.louse.distance += result.way;
     way.remaining = step.h == way.remaining ? 0.0 : way.remaining - step.h;
     way.at = result.end;
-    if (way.drive.turns) point(way.drive, result.heading);
-    if (step.capped) follow(way);
+    if (step.capped) {
+      lag(way.drive, way.at.velocity, step.h);
+    } else if (way.drive.turns) {
+      point(way.drive, result.heading);
+    }
     if (rim_.wraps()) carry_home(way);
   }
 

@@ -20,6 +20,7 @@
 
 #include "shared/core/lanes.h"
 #include "shared/core/vec2.h"
+#include "shared/physics/heading.h"
 #include "shared/state/louse.h"
 #include "shared/state/parameters.h"
 #include "shared/terrain/surface.h"
@@ -60,10 +61,23 @@ struct BasicDrive {
 };
 using Drive = BasicDrive<double>;
 
+/// Below this |v|3^2 [m^2/s^2] a louse stands still: keeps the quotients below in range.
+inline constexpr double kStandstill2 = 1e-200;
+
 /// Turns a drive to a direction of length 1 (heading.h).
 inline void point(Drive& drive, core::Vec2 heading) {
   drive.direction = heading;
   drive.size2 = dot(heading, heading);
+}
+
+/// After a flight: a drive that turns acts along v.
+inline void follow(Drive& drive, core::Vec2 v) {
+  if (drive.turns && dot(v, v) > kStandstill2) point(drive, unit(v));
+}
+
+/// After a step over h whose stages resolve nothing: a drive that turns lags behind v.
+inline void lag(Drive& drive, core::Vec2 v, double h) {
+  if (drive.turns) point(drive, lagging_heading(drive.direction, v, h));
 }
 
 /// The sets that the default method is compiled for where drag is not alone.
@@ -145,9 +159,6 @@ template <typename T>
   const T share = (s.zx * force.x + s.zy * force.y) / w2;
   return {force.x - share * s.zx, force.y - share * s.zy};
 }
-
-/// Below this |v|3^2 [m^2/s^2] a louse stands still: keeps the quotients below in range.
-inline constexpr double kStandstill2 = 1e-200;
 
 /// a at velocity v; at a standstill without friction and drive along the heading (see resting_balance).
 ///

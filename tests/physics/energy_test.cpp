@@ -88,6 +88,37 @@ double worst_gain(const std::shared_ptr<const Terrain>& ground, const Parameters
 
 }  // namespace
 
+TEST_CASE("what a capped step may have of a push is its work, by where it acts") {
+  const tests::Plane level;
+  const state::Parameters p{9.81, 0.0, 0.0, 4.0, 1.0};
+  using Ground = physics::Ground<tests::Plane, Forces<false, false, true>, SurfaceEquations>;
+  const Ground ground(level, p);
+  const Rim rim(tests::kNowhere, p.edges);
+  constexpr double kStep = 1.0 / 60;
+  const auto speed_after = [&](const state::Louse& louse, core::Vec2 end) {
+    Drive drive = drive_of<true>(louse, p.thrust_max);
+    bool bounces = false;
+    const auto start = ground.depart<true>({louse.position, louse.velocity}, drive, rim, 1.0, bounces);
+    const Motion bounded =
+        energy_bounded<false>(level, rim, p, start, drive, kStep, {{0.02, 0.0}, end}, false, 0.0);
+    return std::hypot(bounded.velocity.x, bounded.velocity.y);
+  };
+  state::Louse louse = moving({0, 0}, {1, 0});
+  louse.thrust_kind = ThrustKind::kMapVector;
+  louse.thrust = {-0.5, 0.0};
+  CHECK(speed_after(louse, {1.5, 0.0}) == Approx(1.0 - 2.0 * kStep).epsilon(1e-14));
+  louse.thrust = {0.5, 0.0};
+  CHECK(speed_after(louse, {1.5, 0.0}) == Approx(1.0 + 2.0 * kStep).epsilon(1e-14));
+  louse.thrust = {0.0, 1.0};
+  CHECK(speed_after(louse, {1.5, 0.0}) == Approx(1.0).epsilon(1e-14));
+  louse.thrust_kind = ThrustKind::kAlongHeading;
+  louse.thrust = {1.0, 0.0};
+  louse.heading = {-1.0, 0.0};
+  CHECK(speed_after(louse, {1.5, 0.0}) == Approx(1.0 - 4.0 * kStep).epsilon(1e-14));
+  louse.velocity = {};
+  CHECK(speed_after(louse, {-1.5, 0.0}) == Approx(4.0 * kStep).epsilon(1e-14));
+}
+
 TEST_CASE("nobody makes energy among dents that a step leads over, by any method and contact") {
   for (const auto& [rate, steepness] : {std::pair{30.0, 8.0}, std::pair{10.0, 1.0}}) {
     for (const Method method : kMethodsTold) {

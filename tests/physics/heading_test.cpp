@@ -77,6 +77,21 @@ TEST_CASE("rolling backwards the heading is in a balance that does not last, and
   CHECK(apart(coarse, fine) < 1e-3 * apart(fine, straight.louse.position) + 1e-5);
 }
 
+TEST_CASE("a louse whose sub-steps are capped turns its heading on as much way as another") {
+  // A gutter so narrow that its bottom asks for shorter steps than there are, and bends nobody on it.
+  const tests::Gutter gutter{{}, 1e4};
+  const state::Parameters p{9.81, 0.0, 0.0, 1e-9, 0.5};
+  for (const double angle : {0.5, 2.5, 3.1}) {
+    const state::Louse louse = driven({0, 1.5}, {std::sin(angle), std::cos(angle)});
+    const auto run = tests::run<Forces<true, true, true>>(gutter, p, louse, 60, 1);
+    CHECK(run.counters.capped == run.counters.sub_steps);
+    const double left = 2 * std::atan(std::tan(angle / 2) * std::exp(-1.5 / 60 / kHeadingLength));
+    CHECK(std::atan2(run.louse.heading.x, run.louse.heading.y) == Approx(left).margin(1e-4));
+  }
+  CHECK(lagging_heading({0, -1}, {0, 1e140}, 1.0) == core::Vec2{0, 1});
+  CHECK(lagging_heading({0, -1}, {0, kHeadingLength}, 1.0) == core::Vec2{0, -1});  // in between lies nothing
+}
+
 TEST_CASE("a wall throws the heading back as it does the velocity, and at rest it is kept") {
   const tests::Plane level;
   const state::Parameters p{9.81, 0.0, 0.0, 0.5, 1.0};
