@@ -43,7 +43,7 @@ class AckText {
   }
 
  private:
-  static constexpr std::size_t kNumbers = 18;
+  static constexpr std::size_t kNumbers = 19;
   static constexpr std::size_t kNames = 300;
   static constexpr std::size_t kRoom = kNames + kNumbers * json::kNumberRoom;
 

@@ -56,7 +56,11 @@ const state::LouseField* louse_field(Column column) { return entry(column).field
 const std::vector<Column>& all_columns() {
   static const std::vector<Column> columns = [] {
     std::vector<Column> all;
-    for (const state::LouseField& field : state::kLouseFields) all.push_back(*column_from_text(field.name));
+    for (const state::LouseField& field : state::kLouseFields) {
+      const auto column = column_from_text(field.name);
+      assert(column && "a louse's field has a column of its name");
+      all.push_back(*column);
+    }
     return all;
   }();
   return columns;

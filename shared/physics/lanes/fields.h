@@ -7,7 +7,7 @@
 
 namespace woodlouse::physics {
 
-/// The fields of physics::Louse from position to thrust, one register a field.
+/// The fields of state::Louse from position to thrust, one register a field.
 template <typename L>
 struct LaneFields {
   static constexpr int kFields = 8;
