@@ -5,11 +5,11 @@
 #include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
 #include "shared/core/whole_file.h"
+#include "shared/json/document.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::client {
@@ -205,28 +205,29 @@ void add_options(CLI::App& app, Raw& raw) {
 }  // namespace
 
 core::Expected<Config> read_config_file(const std::string& text, const std::string& file, Config config) {
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (!json.is_object())
+  const auto document = json::parse_file(text, file, {2, 1000});
+  if (!document) return tl::unexpected(document.error());
+  if (!document->root().is(json::Kind::kObject))
     return core::fail(file, "it is not a JSON object", "for example {\"name\": \"mara\"}");
   Raw raw = raw_of(config);
   const std::initializer_list<std::pair<const char*, std::string*>> texts = {
       {"server", &raw.server}, {"map", &raw.map},       {"name", &raw.name}, {"room", &raw.room},
       {"color", &raw.color},   {"glyphs", &raw.glyphs}, {"view", &raw.view}};
-  for (const auto& entry : json.items()) {
-    const std::string& key = entry.key();
-    const nlohmann::json& value = entry.value();
+  for (const json::Value& value : document->root().children()) {
+    const std::string key(value.key());
     const std::string where = file + ": " + key;
     const auto* const known =
         std::find_if(texts.begin(), texts.end(), [&key](const auto& t) { return key == t.first; });
     if (known != texts.end()) {
-      if (!value.is_string()) return core::fail(where, "it is not a string");
-      *known->second = value.get<std::string>();
+      if (!value.is(json::Kind::kString)) return core::fail(where, "it is not a string");
+      *known->second = value.text();
     } else if (key == "fps") {
-      if (!value.is_number_integer()) return core::fail(where, "it is not a whole number");
-      raw.fps = static_cast<int>(std::clamp<std::int64_t>(value.get<std::int64_t>(), -1, 1000));
+      const auto fps = value.integer();
+      if (!fps) return core::fail(where, "it is not a whole number");
+      raw.fps = static_cast<int>(std::clamp<std::int64_t>(*fps, -1, 1000));
     } else if (key == "watch" || key == "verify") {
-      if (!value.is_boolean()) return core::fail(where, "it is not true or false");
-      (key == "watch" ? raw.watch : raw.verify) = value.get<bool>();
+      if (!value.is(json::Kind::kBoolean)) return core::fail(where, "it is not true or false");
+      (key == "watch" ? raw.watch : raw.verify) = value.boolean();
     } else {
       return core::fail(where, "no such setting",
                         "known: server map name room color glyphs view fps watch verify");

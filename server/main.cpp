@@ -2,6 +2,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
+#include <system_error>
 #include <variant>
 
 #include "server/commands/check.h"
@@ -27,14 +28,22 @@ int report(const core::Error& error, int exit_code) {
   return exit_code;
 }
 
-int run(const PrintConfig& config) {
-  std::cout << config.text;
-  return kOk;
+/// Of what was printed for somebody: an answer that got lost is none.
+int printed(int exit_code) {
+  if (std::cout.flush()) return exit_code;
+  return report({"standard output", "can't be written", ""}, kFailed);
 }
 
-int run(const CheckConfig& config) { return check_command(config.maps, std::cout); }
-int run(const VerifyConfig& config) { return verify_command(config.request, std::cout); }
-int run(const InspectConfig& config) { return inspect_command(config.request, std::cout, std::cerr); }
+int run(const PrintConfig& config) {
+  std::cout << config.text;
+  return printed(kOk);
+}
+
+int run(const CheckConfig& config) { return printed(check_command(config.maps, std::cout)); }
+int run(const VerifyConfig& config) { return printed(verify_command(config.request, std::cout)); }
+int run(const InspectConfig& config) {
+  return printed(inspect_command(config.request, std::cout, std::cerr));
+}
 
 /// While maps are loaded, or a recording to go on from: nothing is begun yet, and whoever stops the server
 /// need not wait for it. Once rooms open, Server takes the signals over.
@@ -57,10 +66,16 @@ int run(const ServeConfig& config) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A closed pipe behind standard output or error is no reason to end a game.
+  // A closed pipe behind standard output or error is no reason to end a game, nor is a recording that grows
+  // past what its user may write: then writing fails.
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
   core::end_when_out_of_memory("woodlouse-server: out of memory\n");
   const auto config = parse_config(argc, argv);
   if (!config) return report(config.error(), kUsage);
-  return std::visit([](const auto& chosen) { return run(chosen); }, *config);
+  try {
+    return std::visit([](const auto& chosen) { return run(chosen); }, *config);
+  } catch (const std::system_error& error) {  // of what no error can be returned from: a thread
+    return report({"", error.what(), "has the system no more threads for it?"}, kFailed);
+  }
 }

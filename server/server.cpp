@@ -12,6 +12,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -225,8 +226,13 @@ void Server::run() {
   acceptor_.start();
 
   std::vector<std::jthread> threads;
-  for (std::size_t i = 0; i < tick_threads(rooms); ++i) threads.emplace_back([this] { ticks_.run(); });
-  for (std::size_t i = 0; i < kIoThreads; ++i) threads.emplace_back([this] { io_.run(); });
+  try {
+    for (std::size_t i = 0; i < tick_threads(rooms); ++i) threads.emplace_back([this] { ticks_.run(); });
+    for (std::size_t i = 0; i < kIoThreads; ++i) threads.emplace_back([this] { io_.run(); });
+  } catch (const std::system_error&) {
+    stop_contexts();  // or those that run would never end
+    throw;
+  }
   threads.clear();
   disk_.join();
   if (shadows_) shadows_->join();

@@ -1,8 +1,9 @@
 // `sample`: a surface's height, gradient and Hessian at given points.
 #include <CLI/CLI.hpp>
-#include <fstream>
 #include <iostream>
 #include <optional>
+#include <sstream>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "bench/lab/report/progress.h"
 #include "bench/lab/report/table.h"
 #include "shared/core/vec2.h"
+#include "shared/core/whole_file.h"
 #include "shared/terrain/outside_policy.h"
 
 namespace woodlouse::lab {
@@ -43,9 +45,12 @@ core::Expected<std::vector<core::Vec2>> read_points(std::istream& in, const std:
 
 core::Expected<std::vector<core::Vec2>> read_points(const std::string& source) {
   if (source == "-") return read_points(std::cin, "standard input");
-  std::ifstream in(source);
-  if (!in)
-    return core::fail(source, "can't be read", "--points takes a CSV file of x,y, or - for standard input");
+  constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
+  auto bytes = core::read_whole_file(source, kMaxBytes);
+  if (!bytes)
+    return core::fail(bytes.error().where, bytes.error().what,
+                      "--points takes a CSV file of x,y, or - for standard input");
+  std::istringstream in(std::move(*bytes));
   return read_points(in, source);
 }
 

@@ -5,6 +5,8 @@
 #include <mutex>
 #include <thread>
 
+#include "shared/core/thread_team.h"
+
 namespace woodlouse::scenario {
 
 Play::Play(const Scenario& scenario, physics::InstructionSet set, const std::shared_ptr<core::Team>& team)
@@ -61,8 +63,9 @@ void play_all(std::span<const std::unique_ptr<Play>> plays, std::size_t threads)
       if (!play->is_done()) waiting.push_back(play);
     }
   };
+  const auto work_too = [&work](std::size_t) { work(); };
   std::vector<std::jthread> others;
-  for (std::size_t k = 1; k < threads; ++k) others.emplace_back(work);
+  core::start_threads(others, 1, threads, work_too);
   work();
 }
 

@@ -1,6 +1,7 @@
 #include "shared/core/sink_file.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <cassert>
@@ -17,6 +18,7 @@ namespace fs = std::filesystem;
 
 class FileSink final : public ByteSink {
  public:
+  /// A pipe's descriptor does not wait (O_NONBLOCK).
   FileSink(int descriptor, std::string name) : descriptor_(descriptor), name_(std::move(name)) {
     assert(descriptor >= 0);
   }
@@ -29,6 +31,10 @@ class FileSink final : public ByteSink {
     while (!bytes.empty()) {
       const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
       if (count < 0 && errno == EINTR) continue;
+      if (count < 0 && errno == EAGAIN) {
+        if (!takes_more()) return fail(name_, "nobody reads it");
+        continue;
+      }
       if (count < 0) return fail(name_, std::strerror(errno));
       bytes.remove_prefix(static_cast<std::size_t>(count));
     }
@@ -41,6 +47,14 @@ class FileSink final : public ByteSink {
   }
 
  private:
+  static constexpr int kPatience = 500;  // [ms]
+
+  /// Whether a full pipe is read from, while whoever writes waits.
+  [[nodiscard]] bool takes_more() const {
+    pollfd pipe{descriptor_, POLLOUT, 0};
+    return ::poll(&pipe, 1, kPatience) != 0;  // what else may be wrong with it, write() tells
+  }
+
   int descriptor_;
   std::string name_;
 };
@@ -52,15 +66,14 @@ int open_for_writing(const fs::path& file) {
   const bool is_other = fs::is_other(file, error);
   // Not waiting: a pipe that nobody reads is an error, not a server that stands still.
   const int flags = O_WRONLY | O_CLOEXEC | (is_other ? O_NONBLOCK : O_CREAT | O_EXCL);
-  const int descriptor = ::open(file.c_str(), flags, kMode);
-  if (descriptor >= 0 && is_other) ::fcntl(descriptor, F_SETFL, 0);
-  return descriptor;
+  return ::open(file.c_str(), flags, kMode);
 }
 
 /// Why `name`, the number-th for this file, can't be created: by errno.
 tl::unexpected<Error> not_created(const fs::path& name, std::size_t number) {
-  const char* const hint = errno != ENAMETOOLONG ? ""
-                           : number == 0         ? "take a shorter one"
+  const char* const hint = errno == ENXIO          ? "a pipe needs somebody who reads it, before"
+                           : errno != ENAMETOOLONG ? ""
+                           : number == 0           ? "take a shorter one"
                                          : "there is one without a number, and this is too long: take a "
                                            "shorter one";
   return fail(name.string(), std::strerror(errno), hint);
@@ -80,7 +93,8 @@ fs::path numbered(const fs::path& file, std::size_t number) {
 }
 
 Expected<NewFile> create_file(const fs::path& file) {
-  if (std::error_code error; fs::is_directory(file, error)) return fail(file.string(), std::strerror(EISDIR));
+  if (std::error_code error; fs::is_directory(file, error))
+    return fail(file.string(), std::strerror(EISDIR), "name a file in it");
   for (std::size_t number = 0; number <= kMaxFileNumber; ++number) {
     fs::path name = number == 0 ? file : numbered(file, number);
     const int descriptor = open_for_writing(name);

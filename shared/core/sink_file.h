@@ -22,7 +22,8 @@ std::filesystem::path numbered(const std::filesystem::path& file, std::size_t nu
 
 /// Creates the file; where one of that name is there already, the first of numbered(file, 1), (file, 2), ...
 /// that is not: nothing is ever written over. A device or a pipe that somebody reads is written into as it
-/// is. Errors: where = the file, what = the system's words, or that all numbers are taken.
+/// is; a pipe that is full and not read from for half a second is an error of the sink's. Errors: where = the
+/// file, what = the system's words, or that all numbers are taken.
 Expected<NewFile> create_file(const std::filesystem::path& file);
 
 }  // namespace woodlouse::core

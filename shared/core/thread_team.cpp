@@ -34,8 +34,7 @@ bool spin_until(const F& is_over) {
 
 ThreadTeam::ThreadTeam(std::size_t size, Cut cut) : Team(size, cut), members_(size) {
   assert(size <= kMostThreads);
-  for (std::size_t member = 1; member < size; ++member)
-    helpers_.emplace_back([this, member] { help(member); });
+  start_threads(helpers_, 1, size, [this](std::size_t member) { help(member); });
 }
 
 ThreadTeam::~ThreadTeam() {

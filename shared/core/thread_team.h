@@ -7,17 +7,31 @@
 #pragma once
 
 #include <atomic>
+#include <cassert>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
 #include "shared/core/team.h"
 
 namespace woodlouse::core {
+
+/// Adds threads that call work(first) to work(end - 1). Where the system gives no more of them, those are
+/// left out: for work that others do as well.
+template <typename F>
+void start_threads(std::vector<std::jthread>& threads, std::size_t first, std::size_t end, const F& work) {
+  threads.reserve(threads.size() + end - first);
+  try {
+    for (std::size_t k = first; k < end; ++k) threads.emplace_back([work, k] { work(k); });
+  } catch (const std::system_error&) {
+    assert(threads.size() < threads.capacity());
+  }
+}
 
 class ThreadTeam final : public Team {
  public:
@@ -27,7 +41,7 @@ class ThreadTeam final : public Team {
   /// without looking, 1.6 with it.
   static constexpr std::chrono::microseconds kSpin{60};
 
-  /// size: 1..kMostThreads; starts one thread fewer.
+  /// size: 1..kMostThreads; starts one thread fewer, or as many of them as the system gives.
   explicit ThreadTeam(std::size_t size, Cut cut = Cut::kWorthIt);
   /// REQUIRES that nobody is in try_run().
   ~ThreadTeam() override;

@@ -71,6 +71,7 @@ class InputQueue {
   /// Moves the inputs of `tick` to `out` (cleared first), by (player, seq).
   void take(std::uint64_t tick, std::vector<AppliedInput>& out);
 
+  [[nodiscard]] bool has_waiting() const { return !waiting_.empty(); }
   /// By ascending id; by (tick, player, seq).
   [[nodiscard]] std::vector<PlayerSeq> players() const;
   [[nodiscard]] std::vector<AppliedInput> waiting() const;

@@ -70,6 +70,8 @@ class World {
   bool set_thrust(state::LouseId id, const state::Thrust& thrust, std::uint32_t ticks);
   /// Steps every louse that is not at rest.
   void step();
+  /// Whether the next step is known to change nothing: no louse moves, and no thrust of one at rest runs out.
+  [[nodiscard]] bool stands_still() const { return !lists_are_stale_ && moving_.empty() && waiting_.empty(); }
 
   /// Every louse, by ascending id.
   [[nodiscard]] std::span<const state::Louse> lice() const { return lice_; }

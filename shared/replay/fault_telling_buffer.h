@@ -13,6 +13,8 @@ class FaultTellingBuffer : public std::streambuf {
  public:
   /// Why the bytes ended before their end, in words; empty: they did not.
   [[nodiscard]] const std::string& fault() const { return fault_; }
+  /// The bytes ended where their own form says that more were to come: whoever wrote them was interrupted.
+  [[nodiscard]] virtual bool is_cut_off() const { return false; }
 
  protected:
   std::string fault_;
@@ -22,6 +24,12 @@ class FaultTellingBuffer : public std::streambuf {
 inline std::string fault_of(const std::istream& in) {
   const auto* buffer = dynamic_cast<const FaultTellingBuffer*>(in.rdbuf());
   return buffer != nullptr ? buffer->fault() : std::string();
+}
+
+/// False for a buffer of another kind.
+inline bool is_cut_off(const std::istream& in) {
+  const auto* buffer = dynamic_cast<const FaultTellingBuffer*>(in.rdbuf());
+  return buffer != nullptr && buffer->is_cut_off();
 }
 
 /// Owns the buffer that it reads through.

@@ -23,6 +23,8 @@ class LineOrder {
   void begin();
   /// The next line, or as many steps as it stands for. Errors, without a place: it can't stand here.
   [[nodiscard]] core::Expected<void> follow(const Line& line);
+  /// The end was read: nothing may follow.
+  [[nodiscard]] bool is_over() const { return has_end_; }
 
  private:
   [[nodiscard]] core::Expected<void> step(std::uint64_t tick, std::uint64_t steps);

@@ -262,16 +262,19 @@ core::Expected<bool> ReplayReader::read_line() {
   }
   if (const std::string fault = fault_of(in_); !fault.empty())
     return core::fail(joined({source_, ":", std::to_string(line_number_ + 1)}), fault);
-  cut_off_ = cut_off_ || !line_.empty();
+  if (order_.is_over() && !line_.empty())
+    return core::fail(joined({source_, ":", std::to_string(line_number_ + 1)}), "stands after the end");
+  cut_off_ = cut_off_ || !line_.empty() || replay::is_cut_off(in_);
   return false;
 }
 
 core::Expected<Header> ReplayReader::read_header() {
   const core::Expected<bool> whole = read_line();
   if (!whole) return tl::unexpected(whole.error());
-  if (!*whole)
-    return core::fail(source_,
-                      line_.empty() ? "is empty" : "has no whole line: it was cut off in the header");
+  if (!*whole) {
+    const bool is_empty = line_.empty() && !replay::is_cut_off(in_);
+    return core::fail(source_, is_empty ? "is empty" : "has no whole line: it was cut off in the header");
+  }
   const auto document = json::parse_file(line_, source_, {kMaxDepth, kMaxValues}, line_number_);
   if (!document) return tl::unexpected(document.error());
   Problems problems(source_);

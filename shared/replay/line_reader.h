@@ -1,6 +1,7 @@
 // A recording's lines, read back and checked.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <iosfwd>
@@ -35,7 +36,17 @@ class ReplayReader {
   /// steps than anybody wants to wait for. REQUIRES that next() has given all steps of the line before.
   core::Expected<std::optional<Line>> next_line();
 
-  /// The file's last line has no newline: whoever wrote it was interrupted. Known once next() gave nothing.
+  /// How many steps of a line that stands for many next() has still to give: all of them did nothing.
+  [[nodiscard]] std::uint64_t quiet_steps() const { return quiet_.steps; }
+  /// Passes over so many of them. REQUIRES count <= quiet_steps().
+  void skip_quiet(std::uint64_t count) {
+    assert(count <= quiet_.steps);
+    quiet_.step.tick += count;
+    quiet_.steps -= count;
+  }
+
+  /// The file's last line has no newline, or its last zstd frame no end: whoever wrote it was interrupted.
+  /// Known once next() gave nothing.
   [[nodiscard]] bool is_cut_off() const { return cut_off_; }
   /// next() failed at a line that a reader of longer lines may take.
   [[nodiscard]] bool wants_longer_lines() const { return wants_longer_lines_; }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "shared/core/thread_team.h"
 #include "shared/replay/archive.h"
 #include "shared/replay/line_reader.h"
 #include "shared/replay/segment.h"
@@ -184,8 +185,10 @@ std::optional<core::Expected<Verification>> verify_by_index(const ReplaySource& 
   std::deque<Plan::Job> work;
   for (unsigned k = 0; k < jobs; ++k) work.emplace_back(plan);
   {
+    const auto work_on = [&work](std::size_t job) { work[job].work(); };
     std::vector<std::jthread> threads;
-    for (Plan::Job& job : work) threads.emplace_back([&job] { job.work(); });
+    core::start_threads(threads, 1, work.size(), work_on);
+    work_on(0);
   }
   return plan.verdict(work);
 }

@@ -1,6 +1,7 @@
 #include "shared/replay/playback.h"
 #include "shared/replay/line_reader.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "shared/core/joined.h"
@@ -79,6 +80,8 @@ core::Expected<void> Playback::seek(std::uint64_t tick) {
     if (!step) return tl::unexpected(step.error());
     if (!*step)
       return core::fail(archive_->source().name, core::joined({"ends before tick ", std::to_string(tick)}));
+    const std::uint64_t most = std::min(tick - this->tick(), reader_->quiet_steps());
+    reader_->skip_quiet(rerun_->stand_still(most));
   }
   return {};
 }

@@ -219,6 +219,12 @@ core::Expected<std::optional<Difference>> Rerun::step(const StepLine& line, cons
   return difference;
 }
 
+std::uint64_t Rerun::stand_still(std::uint64_t most) {
+  if (!match_->stands_still()) return 0;
+  match_->stand_still(most);
+  return most;
+}
+
 std::string Rerun::difference_to(const Keyframe& keyframe) const {
   const match::MatchState& recorded = keyframe.state;
   const match::MatchState own = match_->state();

@@ -39,6 +39,8 @@ class Rerun {
 
   /// Performs the step as recorded; nothing: it went so. Errors: it can't follow what came before.
   core::Expected<std::optional<Difference>> step(const StepLine& line, const std::string& place);
+  /// Performs as many of the `most` steps to come as are known to do nothing (Match::stand_still); how many.
+  std::uint64_t stand_still(std::uint64_t most);
   /// What of the keyframe is otherwise than here: "louse 3, x: .. recorded, .. re-run"; empty: nothing.
   /// REQUIRES keyframe.state.tick == match().tick().
   [[nodiscard]] std::string difference_to(const Keyframe& keyframe) const;

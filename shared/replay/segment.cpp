@@ -36,13 +36,27 @@ core::Expected<Segment> run_segment(ReplayReader& reader, const std::shared_ptr<
   for (;;) {
     core::Expected<std::optional<Line>> line = reader.next();
     if (!line) return tl::unexpected(line.error());
-    if (!*line) break;
+    if (!*line) {
+      if (reader.is_cut_off()) segment.end.reset();
+      break;
+    }
     if (const auto* step = std::get_if<StepLine>(&**line)) {
       auto difference = (*rerun)->step(*step, reader.place());
       if (!difference) return tl::unexpected(difference.error());
       ++segment.steps;
       lines.add(*step);
       if (!segment.difference) segment.difference = std::move(*difference);
+      // What is known to do nothing, or known to be wrong, is not worth its time.
+      if (segment.difference && reader.quiet_steps() > 0) {
+        segment.difference->detail = "the recording says that nothing moved then, nor in the steps behind it";
+        return segment;
+      }
+      const std::uint64_t quiet = (*rerun)->stand_still(reader.quiet_steps());
+      if (quiet > 0) {
+        reader.skip_quiet(quiet);
+        segment.steps += quiet;
+        lines.last_tick += quiet;
+      }
     }
     if (auto* keyframe = std::get_if<Keyframe>(&**line)) {
       compare(**rerun, *keyframe, segment);

@@ -1,5 +1,7 @@
 #include "shared/replay/zstd_input.h"
 
+#include <zstd_errors.h>
+
 #include <algorithm>
 #include <cstring>
 #include <utility>
@@ -13,6 +15,16 @@ namespace {
 
 /// Of the frames found by unpacking, one is kept for so much text: a file of empty frames takes no memory.
 constexpr std::uint64_t kFoundFrameBytes = 1u << 16;
+
+std::string fault_at(std::uint64_t at, std::size_t error) {
+  const std::string byte = std::to_string(at);
+  if (ZSTD_getErrorCode(error) == ZSTD_error_frameParameter_windowTooLarge) {
+    return core::joined({"the compressed frame at byte ", byte, " wants more than ",
+                         std::to_string(1u << (ZstdInput::kMaxWindowLog - 20)),
+                         " MiB of memory to be unpacked: pack it again without --long or --ultra"});
+  }
+  return core::joined({"compressed data is damaged at byte ", byte, ": ", ZSTD_getErrorName(error)});
+}
 
 }  // namespace
 
@@ -63,8 +75,7 @@ bool ZstdInput::unpack_some() {
     ZSTD_outBuffer out{out_.data(), out_.size(), 0};
     const std::size_t left = ZSTD_decompressStream(context_.get(), &out, &pending_);
     if (ZSTD_isError(left) != 0) {
-      fault_ = core::joined(
-          {"compressed data is damaged at byte ", std::to_string(at), ": ", ZSTD_getErrorName(left)});
+      fault_ = fault_at(at, left);
       return false;
     }
     if (left == 0) is_frame_open_ = false;

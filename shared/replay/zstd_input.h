@@ -39,6 +39,8 @@ class ZstdInput : public FaultTellingBuffer {
 
   explicit ZstdInput(std::unique_ptr<std::istream> packed);
 
+  [[nodiscard]] bool is_cut_off() const override { return is_drained_ && is_frame_open_; }
+
  protected:
   int_type underflow() override;
   pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode which) override;

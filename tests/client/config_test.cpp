@@ -120,8 +120,9 @@ TEST_CASE("help and version end it with 0") {
 }
 
 TEST_CASE("a bad config file is named with its field") {
-  for (const char* bad : {R"({"fps": "fast"})", R"({"fps": 99})", R"({"colour": "mono"})", R"([1])",
-                          R"({"name": )", R"({"watch": 1})", R"({"server": "h:x"})"}) {
+  for (const char* bad :
+       {R"({"fps": "fast"})", R"({"fps": 99})", R"({"colour": "mono"})", R"([1])", R"({"name": )",
+        R"({"watch": 1})", R"({"server": "h:x"})", R"({"fps": 5, "fps": 6})"}) {
     Environment environment(bad);
     const Parsed parsed = parse({});
     REQUIRE(parsed.exit_code == 2);

@@ -90,7 +90,8 @@ TEST_CASE("a name that is too long is told, and whether its number makes it so")
 
 TEST_CASE("what can't be written into is told, and nobody waits for a pipe's reader") {
   const Folder folder;
-  CHECK(create_file(folder.path).error().text() == folder.path.string() + ": Is a directory");
+  CHECK(create_file(folder.path).error().text() ==
+        folder.path.string() + ": Is a directory (name a file in it)");
   CHECK(create_file(folder.path / "none" / "game").error().what == "No such file or directory");
   const fs::path pipe = folder.path / "pipe";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
@@ -102,6 +103,9 @@ TEST_CASE("what can't be written into is told, and nobody waits for a pipe's rea
   CHECK(created->sink->write("heard").has_value());
   char bytes[8] = {};
   CHECK(::read(reader, bytes, sizeof bytes) == 5);
+  // Full, and read from no more: told, not waited for.
+  const std::string much(1u << 20, 'x');
+  CHECK(created->sink->write(much).error().what == "nobody reads it");
   ::close(reader);
   const auto full = create_file("/dev/full");
   REQUIRE(full);

@@ -95,7 +95,7 @@ bool is_written(const std::filesystem::path& file, const std::string& bytes) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
+  if (argc != 2 || argv[1][0] == '-') {
     std::fprintf(stderr, "usage: woodlouse_seed_recordings FOLDER\n");
     return 2;
   }

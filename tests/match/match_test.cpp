@@ -48,6 +48,34 @@ TEST_CASE("the order in which inputs arrive within a tick never changes the hash
   for (std::uint64_t shuffle = 1; shuffle < 20; ++shuffle) REQUIRE(played(shuffle) == hash);
 }
 
+TEST_CASE("a match that stands still does in one call what it would step by step") {
+  const auto start = [] {
+    auto map = std::make_shared<map::Map>(*volcano());
+    map->definition.physics.friction = 5.0;
+    auto match = std::make_unique<Match>(map, MatchSettings{60, 1});
+    CHECK(match->stands_still());
+    match->join();
+    match->join();
+    CHECK_FALSE(match->stands_still());
+    while (match->tick() < 300) match->advance();
+    REQUIRE(match->stands_still());
+    return match;
+  };
+  const auto stepped = start(), passed = start();
+  for (int k = 0; k < 1000; ++k) stepped->advance();
+  passed->stand_still(1000);
+  for (const auto* match : {stepped.get(), passed.get()}) CHECK(match->tick() == 1300);
+  CHECK(passed->hash() == stepped->hash());
+  CHECK(passed->link() == stepped->link());
+  for (auto* match : {stepped.get(), passed.get()}) {
+    REQUIRE(match->file(push(1, 1, 1.0, 0.0)).tick == 1300);
+    CHECK_FALSE(match->stands_still());
+    match->respawn(2);
+    for (int k = 0; k < 50; ++k) match->advance();
+  }
+  CHECK(passed->hash() == stepped->hash());
+}
+
 TEST_CASE("a join takes effect in the next step, at a spawn point, at rest or rolling from it") {
   Match match(volcano(), {60, 1});
   const PlayerId player = match.join();

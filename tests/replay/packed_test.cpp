@@ -2,6 +2,7 @@
 #include <zstd.h>
 
 #include <catch2/catch.hpp>
+#include <memory>
 #include <sstream>
 #include <string>
 
@@ -97,6 +98,39 @@ TEST_CASE("a packed recording that breaks off anywhere verifies up to there, at 
   CHECK(jobs->cut_off);
 }
 
+TEST_CASE("a packed recording whose last frame has no end is no complete one") {
+  const Recording packed = record_packed({.seed = 4, .steps = 130});
+  const auto whole = verify_bytes(packed.bytes);
+  REQUIRE(whole);
+  CHECK_FALSE(whole->cut_off);
+  const std::string skips{"\x50\x2a\x4d\x18\xff\xff\xff\xff", 8};  // 4 GiB that are not there
+  for (const std::string& bytes : {packed.bytes.substr(0, packed.bytes.size() - 1), packed.bytes + skips,
+                                   packed_by_zstd(record({.seed = 4, .steps = 130}).bytes) + skips}) {
+    for (const unsigned jobs : {1u, 3u}) {
+      const auto verification = verify_bytes(bytes, jobs);
+      REQUIRE(verification);
+      CHECK(verification->ok());
+      CHECK(verification->cut_off);
+    }
+  }
+  const auto cut = verify_bytes(packed.bytes.substr(0, 20));
+  CHECK(cut.error().text().find("it was cut off in the header") != std::string::npos);
+}
+
+TEST_CASE("a frame that wants more memory than there is for it is no damaged one") {
+  std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), &ZSTD_freeCCtx);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_windowLog, 27);
+  const std::string text = record({.steps = 10}).bytes;
+  std::string frame(ZSTD_compressBound(text.size()), '\0');
+  ZSTD_outBuffer out{frame.data(), frame.size(), 0};
+  ZSTD_inBuffer in{text.data(), text.size(), 0};
+  REQUIRE_FALSE(ZSTD_isError(ZSTD_compressStream2(context.get(), &out, &in, ZSTD_e_continue)));
+  while (ZSTD_compressStream2(context.get(), &out, &in, ZSTD_e_end) != 0) {
+  }
+  frame.resize(out.pos);
+  CHECK(verify_bytes(frame).error().text().find("pack it again without --long") != std::string::npos);
+}
+
 TEST_CASE("an altered bit of a packed recording is an error, never another game") {
   const Recording packed = record_packed({.seed = 5, .steps = 130});
   core::Random random(6);
@@ -159,7 +193,7 @@ TEST_CASE("bombs are refused in one line") {
         std::string::npos);
   // A window that would need 2 GiB.
   CHECK(error(std::string("\x28\xB5\x2F\xFD\x00\xA8", 6) + std::string(100, '\0'))
-            .find("r.zst:1: compressed data is damaged") == 0);
+            .find("r.zst:1: the compressed frame at byte 0 wants more than 8 MiB") == 0);
 }
 
 }  // namespace woodlouse::replay

@@ -291,4 +291,20 @@ TEST_CASE("a line of many steps is no way past the keyframe that is due") {
   CHECK(verification.error().text().find("r.jsonl:4: more than 5000 steps after the last keyframe") == 0);
 }
 
+TEST_CASE("a line of many steps in which something moves is told at once, not re-run") {
+  match::Match match(small_map("spline"), {60, 3});
+  match.join({"ada", state::Role::kPlayer});
+  match.file({1, 0, {state::ThrustKind::kMapVector, {1.0, 0.0}}, state::kHeld, 1});
+  while (match.tick() < 60) match.advance();
+  std::string text;
+  append_header(text, make_header(match, "tests", "small.json"));
+  append_keyframe(text, match.state());
+  append_quiet_steps(text, 60, 5000, match.hash());
+  const Verification found = verdict(text);
+  REQUIRE(found.difference);
+  CHECK(found.difference->tick == 61);
+  CHECK(found.difference->detail.find("nothing moved then") != std::string::npos);
+  CHECK(found.ticks == 1);
+}
+
 }  // namespace woodlouse::replay

@@ -204,6 +204,11 @@ TEST_CASE("lines that are missing, doubled, out of order or behind the end are e
   lines = recording.lines;
   lines.push_back(lines[at]);
   CHECK(error_of(lines) == "r.jsonl:" + std::to_string(lines.size()) + ": stands after the end");
+  for (const char* behind : {"x", "{\"step\":130,\"hash\":\"0000000000000001\"}", "{"}) {
+    lines = recording.lines;
+    lines.emplace_back(behind);  // without its newline
+    CHECK(error_of(lines) == "r.jsonl:" + std::to_string(lines.size()) + ": stands after the end");
+  }
   lines = recording.lines;
   lines.back() = "{\"end\":129,\"reason\":\"\",\"index\":0}\n";
   CHECK(error_of(lines).find("r.jsonl:" + std::to_string(lines.size()) +

@@ -176,9 +176,10 @@ TEST_CASE("a wrong config file is refused by its key or place") {
       {R"({"bots": "many"})", "bots"},
       {R"({"config": "x.json"})", "config"},
       {R"([1, 2])", "object"},
-      {R"({"map": [[[[[[[[[[1]]]]]]]]]]})", "nested too deep"},
-      {R"({"map": )" + std::string(400000, '[') + std::string(400000, ']') + "}", "nested too deep"},
-      {R"({"bots": )", "parse error"},
+      {R"({"map": [[[[[[[[[[1]]]]]]]]]]})", "nested more than 3 deep"},
+      {R"({"map": )" + std::string(400000, '[') + std::string(400000, ']') + "}", "nested more than 3 deep"},
+      {R"({"bots": )", ":1"},
+      {R"({"ticks": 5, "ticks": 600000})", "ticks"},
   }));
   const File file(text);
   const auto config = parse({"--map", "a", "--config", file.path()});
