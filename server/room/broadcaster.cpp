@@ -3,6 +3,8 @@
 #include <boost/asio/post.hpp>
 
 #include <algorithm>
+#include <cassert>
+#include <string>
 #include <utility>
 
 namespace woodlouse::server {
@@ -26,11 +28,10 @@ void Broadcaster::remove(SessionId session) {
 
 void Broadcaster::event(std::uint64_t number, Line line) {
   backlog_.fetch_add(1, std::memory_order_relaxed);
-  asio::post(strand_,
-             [self = shared_from_this(), this, job = EventJob{number, std::move(line), 0}]() mutable {
-               events_.push_back(std::move(job));
-               wake();
-             });
+  asio::post(strand_, [self = shared_from_this(), this, event = Event{number, std::move(line), 0}]() mutable {
+    events_.push_back(std::move(event));
+    wake();
+  });
 }
 
 void Broadcaster::let_go(SessionId session) {
@@ -53,21 +54,47 @@ void Broadcaster::frames(FrameKind kind, ChannelFrames frames) {
   });
 }
 
+/// Those who are to go and have heard all events before.
+void Broadcaster::let_those_go() {
+  for (; !events_.empty() && !events_.front().line; events_.pop_front()) {
+    for (const Member& member : members_)
+      if (member.subscriber && member.session == events_.front().session) member.subscriber->let_go();
+    backlog_.fetch_sub(1, std::memory_order_relaxed);
+  }
+}
+
+/// Up to the first who is to go.
+Broadcaster::Batch Broadcaster::take_events() {
+  assert(!events_.empty() && events_.front().line);
+  Batch batch;
+  std::string all;
+  while (!events_.empty() && events_.front().line) {
+    const std::string& line = *events_.front().line;
+    if (!batch.events.empty() && all.size() + line.size() > kBatchBytes) break;
+    all += line;
+    batch.events.push_back(std::move(events_.front()));
+    events_.pop_front();
+  }
+  batch.all = batch.events.size() == 1 ? batch.events.front().line : Line(std::move(all));
+  return batch;
+}
+
 bool Broadcaster::begin_job() {
   next_member_ = 0;
-  if (!events_.empty()) {
-    event_job_ = std::move(events_.front());
-    events_.pop_front();
+  let_those_go();
+  if (!events_.empty() && !(is_frames_turn_ && (key_ || delta_))) {
+    event_job_ = take_events();
   } else if (key_) {
     frame_job_ = std::exchange(key_, std::nullopt);
   } else if (delta_) {
     frame_job_ = std::exchange(delta_, std::nullopt);
   }
+  is_frames_turn_ = event_job_.has_value();
   return event_job_ || frame_job_;
 }
 
 void Broadcaster::end_job() {
-  if (event_job_) backlog_.fetch_sub(1, std::memory_order_relaxed);
+  if (event_job_) backlog_.fetch_sub(event_job_->events.size(), std::memory_order_relaxed);
   event_job_.reset();
   frame_job_.reset();
   std::erase_if(members_, [](const Member& member) { return !member.subscriber; });
@@ -75,12 +102,11 @@ void Broadcaster::end_job() {
 
 void Broadcaster::serve(const Member& member) const {
   if (!member.subscriber) return;
-  if (event_job_ && !event_job_->line) {
-    if (event_job_->session == member.session) member.subscriber->let_go();
-    return;
-  }
   if (event_job_) {
-    if (event_job_->number >= member.first_event) member.subscriber->deliver(event_job_->line);
+    if (event_job_->events.front().number >= member.first_event)
+      return member.subscriber->deliver(event_job_->all);
+    for (const Event& event : event_job_->events)  // it joined between them
+      if (event.number >= member.first_event) member.subscriber->deliver(event.line);
     return;
   }
   for (const ChannelFrame& entry : *frame_job_)

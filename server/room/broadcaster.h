@@ -1,9 +1,10 @@
 // Hands a room's frames and events to its members, on a strand of its own, a slice at a time: a big broadcast
 // delays neither the tick nor other rooms.
 //
-// Events wait in their order; of frames at most the newest key and the newest delta wait (state is
-// replaceable). backlog() tells the room when events come faster than they go out, so that it refuses what
-// would make more of them.
+// Events wait in their order, and all that wait go out together, one text for everybody; of frames at most
+// the newest key and the newest delta wait (state is replaceable). Both take turns: however many events come,
+// no frame that is due waits for more than one hand-out of them. backlog() tells the room when events come
+// faster than they go out, so that it refuses what would make more of them.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -27,6 +28,8 @@ class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
  public:
   static constexpr std::size_t kSlice = 64;         ///< members served before others may run
   static constexpr std::size_t kMaxBacklog = 1024;  ///< events waiting, past which the room makes no more
+  static constexpr std::size_t kBatchBytes = 32u
+                                             << 10;  ///< of events handed out together, or one of any length
 
   explicit Broadcaster(boost::asio::io_context& io) : strand_(boost::asio::make_strand(io)) {}
 
@@ -48,15 +51,22 @@ class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
   [[nodiscard]] std::size_t backlog() const { return backlog_.load(std::memory_order_relaxed); }
 
  private:
-  struct EventJob {
+  struct Event {
     std::uint64_t number = 0;
     Line line;  ///< none: no event, the session is let go
     SessionId session = 0;
+  };
+  /// Events that go out together.
+  struct Batch {
+    std::vector<Event> events;
+    Line all;  ///< their lines, one behind the other
   };
 
   void wake();
   void hand_out_slice();
   bool begin_job();
+  [[nodiscard]] Batch take_events();
+  void let_those_go();
   void end_job();
   void serve(const Member& member) const;
 
@@ -64,11 +74,12 @@ class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
   std::atomic<std::size_t> backlog_{0};
   // The strand's:
   std::vector<Member> members_;  ///< subscriber null: removed during a job
-  std::deque<EventJob> events_;
+  std::deque<Event> events_;
   std::optional<ChannelFrames> key_;
   std::optional<ChannelFrames> delta_;
-  std::optional<EventJob> event_job_;  ///< the job being handed out, one of the two
+  std::optional<Batch> event_job_;  ///< the job being handed out, one of the two
   std::optional<ChannelFrames> frame_job_;
+  bool is_frames_turn_ = false;  ///< events went out last
   std::size_t next_member_ = 0;  ///< of that job
   bool awake_ = false;           ///< a slice is posted
 };

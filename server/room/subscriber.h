@@ -17,7 +17,7 @@ class Subscriber {
  public:
   virtual ~Subscriber() = default;
 
-  /// An event or another line that several share.
+  /// An event or other lines that several share, one or more, whole.
   virtual void deliver(Line line) = 0;
   /// An answer to this one alone.
   virtual void answer(protocol::ServerMessage message) = 0;

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,12 @@ namespace {
 
 class Listener final : public Subscriber {
  public:
-  void deliver(Line line) override { heard.push_back(*line); }
-  void show(const Frame& frame) override { heard.push_back(*frame.text); }
+  void deliver(Line line) override {
+    std::istringstream lines(*line);
+    for (std::string one; std::getline(lines, one);) heard.push_back(one);
+    ++deliveries;
+  }
+  void show(const Frame& frame) override { heard.push_back(frame.text->substr(0, frame.text->size() - 1)); }
   void answer(protocol::ServerMessage) override {}
   void show_again(const Frame&) override {}
   void deliver_map(Line) override {}
@@ -23,11 +28,12 @@ class Listener final : public Subscriber {
   void end(protocol::Bye) override {}
 
   std::vector<std::string> heard;
+  int deliveries = 0;
 };
 
 using Heard = std::vector<std::string>;
 
-Line line(const std::string& text) { return Line(text); }
+Line line(const std::string& text) { return Line(text + "\n"); }
 
 ChannelFrames frames(FrameKind kind, std::uint64_t tick, const std::string& text) {
   return {{1, {kind, tick, 0, tick, line("1:" + text)}}, {2, {kind, tick, 0, tick, line("2:" + text)}}};
@@ -69,6 +75,32 @@ TEST_CASE("of frames that wait only the newest goes out, an unsent key before th
   house.broadcaster->frames(FrameKind::kDelta, frames(FrameKind::kDelta, 66, "delta66"));
   house.io.run();
   CHECK(house.listeners[0]->heard == Heard{"1:key60", "1:delta66"});
+}
+
+TEST_CASE(
+    "events that wait go to a member together, as much as a batch holds, and frames take turns with them") {
+  House house;
+  house.add(2 * Broadcaster::kSlice);
+  const auto late = std::make_shared<Listener>();
+  house.broadcaster->add({1000, late, 1, 3});
+  const std::string long_text(Broadcaster::kBatchBytes / 2, 'x');
+  for (std::uint64_t n = 1; n <= 4; ++n) house.broadcaster->event(n, line(std::to_string(n) + long_text));
+  for (std::uint64_t n = 5; n <= 400; ++n) house.broadcaster->event(n, line(std::to_string(n)));
+  house.broadcaster->frames(FrameKind::kKey, frames(FrameKind::kKey, 0, "key"));
+  house.broadcaster->frames(FrameKind::kDelta, frames(FrameKind::kDelta, 3, "delta"));
+  house.io.run();
+  const Listener& first = *house.listeners.front();
+  REQUIRE(first.heard.size() == 402);
+  // One event alone, as two are longer than a batch; a key after the first batch, a delta after the second.
+  CHECK(first.heard[1] == "1:key");
+  CHECK(first.heard[3] == "1:delta");
+  CHECK(first.deliveries == 4);
+  CHECK(first.heard.back() == "400");
+  CHECK(late->heard.size() == 400);
+  CHECK(late->heard.front() == "1:key");
+  CHECK(late->heard[1] == "1:delta");
+  CHECK(late->heard[2].front() == '3');
+  CHECK(house.broadcaster->backlog() == 0);
 }
 
 TEST_CASE("a big broadcast lets others run between its slices") {

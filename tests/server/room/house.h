@@ -19,7 +19,13 @@ namespace woodlouse::server::test {
 /// Keeps what a room says to it.
 class Guest final : public Subscriber {
  public:
-  void deliver(Line line) override { lines.push_back(*line); }
+  void deliver(Line line) override {
+    const std::string& text = *line;
+    for (std::size_t at = 0, end = 0; at < text.size(); at = end) {
+      end = text.find('\n', at) + 1;
+      lines.push_back(text.substr(at, end - at));
+    }
+  }
   void answer(protocol::ServerMessage message) override {
     if (std::holds_alternative<protocol::Ack>(message)) order.push_back('a');
     answers.push_back(std::move(message));
