@@ -1,8 +1,18 @@
 #include "server/log.h"
 
+#include <spdlog/async.h>
 #include <spdlog/pattern_formatter.h>
-#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/sinks/base_sink.h>
 
+#include <unistd.h>
+
+#include <cassert>
+#include <cerrno>
+#include <future>
+#include <mutex>
+#include <string>
+#include <system_error>
+#include <thread>
 #include <utility>
 
 #include "shared/core/printable.h"
@@ -32,6 +42,50 @@ std::unique_ptr<spdlog::formatter> formatter(const char* pattern, spdlog::patter
   return result;
 }
 
+/// Standard error, not by way of stdio: whose lock a thread that stands in a write would keep, and exit()
+/// wants.
+class StandardError final : public spdlog::sinks::base_sink<std::mutex> {
+  void sink_it_(const spdlog::details::log_msg& message) override {
+    spdlog::memory_buf_t line;
+    formatter_->format(message, line);
+    for (std::string_view left(line.data(), line.size()); !left.empty();) {
+      const ssize_t count = ::write(STDERR_FILENO, left.data(), left.size());
+      if (count < 0 && errno == EINTR) continue;
+      if (count < 0) return;  // closed, or full: nobody is left to be told
+      left.remove_prefix(static_cast<std::size_t>(count));
+    }
+  }
+  void flush_() override {}
+};
+
+/// Hands on to another sink, and tells in a line of its own how many lines were lost before the next.
+class CountingSink final : public spdlog::sinks::sink {
+ public:
+  CountingSink(spdlog::sink_ptr target, const std::shared_ptr<spdlog::details::thread_pool>& thread)
+      : sink_(std::move(target)), thread_(thread) {}
+
+  void log(const spdlog::details::log_msg& message) override {
+    const auto thread = thread_.lock();
+    const std::size_t lost = thread ? thread->overrun_counter() : told_;
+    if (lost != told_) {
+      const std::string text = std::to_string(lost - told_) + " lines of the log are lost: nobody read it";
+      sink_->log({message.time, {}, message.logger_name, spdlog::level::warn, {text.data(), text.size()}});
+      told_ = lost;
+    }
+    sink_->log(message);
+  }
+  void flush() override { sink_->flush(); }
+  void set_pattern(const std::string& pattern) override { sink_->set_pattern(pattern); }
+  void set_formatter(std::unique_ptr<spdlog::formatter> formatter) override {
+    sink_->set_formatter(std::move(formatter));
+  }
+
+ private:
+  spdlog::sink_ptr sink_;
+  std::weak_ptr<spdlog::details::thread_pool> thread_;  ///< which holds the messages, and they the sink
+  std::size_t told_ = 0;
+};
+
 }  // namespace
 
 std::string json_escaped(std::string_view text) {
@@ -59,12 +113,32 @@ std::unique_ptr<spdlog::formatter> formatter_of(LogFormat format) {
                                  spdlog::pattern_time_type::utc);
 }
 
-std::shared_ptr<spdlog::logger> make_logger(LogFormat format) {
-  auto log =
-      std::make_shared<spdlog::logger>("woodlouse-server", std::make_shared<spdlog::sinks::stderr_sink_mt>());
-  log->set_formatter(formatter_of(format));
-  log->flush_on(spdlog::level::info);
-  return log;
+Log::Log(LogFormat format) : Log(format, std::make_shared<StandardError>()) {}
+
+Log::Log(LogFormat format, spdlog::sink_ptr sink)
+    : thread_(std::make_shared<spdlog::details::thread_pool>(kMostWaiting, 1)),
+      logger_(std::make_shared<spdlog::async_logger>(
+          "woodlouse-server", std::make_shared<CountingSink>(std::move(sink), thread_), thread_,
+          spdlog::async_overflow_policy::overrun_oldest)) {
+  logger_->set_formatter(formatter_of(format));
+  logger_->flush_on(spdlog::level::info);
+}
+
+/// The thread ends when it has written all that waits. One that stands in a write is left behind, with all
+/// that it holds.
+Log::~Log() {
+  logger_.reset();
+  auto ended = std::make_shared<std::promise<void>>();
+  const std::future<void> end = ended->get_future();
+  try {
+    std::thread([thread = std::move(thread_), ended]() mutable {
+      thread.reset();
+      ended->set_value();
+    }).detach();
+    end.wait_for(kPatience);
+  } catch (const std::system_error&) {  // no thread for it: what waits is lost
+    assert(!logger_);
+  }
 }
 
 }  // namespace woodlouse::server

@@ -1,20 +1,48 @@
-// The server's log: on standard error, as text for people or one JSON object a line for machines.
+// The server's log: on standard error, as text for people or one JSON object a line for machines. Whoever
+// logs never waits for who reads it: a thread of its own writes, of what it does not come to the oldest is
+// lost, and counted.
 #pragma once
 
 #include <spdlog/logger.h>
 
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <string_view>
 
+namespace spdlog::details {
+class thread_pool;
+}
+
 namespace woodlouse::server {
 
 enum class LogFormat : std::uint8_t { kText, kJson };
 
-/// Thread safe. What is logged is formatted first, log->info(fmt::format(...)), by fmt's library: the
-/// logger's own templates compile fmt again in each file that logs, five seconds each.
-std::shared_ptr<spdlog::logger> make_logger(LogFormat format);
+/// Holds the log's thread. When it goes, what was logged is written, for kPatience: a pipe that nobody reads
+/// must not keep a server from ending.
+class Log {
+ public:
+  static constexpr std::size_t kMostWaiting = 8192;  ///< lines
+  static constexpr std::chrono::milliseconds kPatience{150};
+
+  explicit Log(LogFormat format);
+  /// To another sink than standard error. Nothing but the log's thread calls it.
+  Log(LogFormat format, spdlog::sink_ptr sink);
+  Log(const Log&) = delete;
+  Log& operator=(const Log&) = delete;
+  ~Log();
+
+  /// Thread safe; REQUIRES that the log lives. What is logged is formatted first,
+  /// log->info(fmt::format(...)), by fmt's library: the logger's own templates compile fmt again in each file
+  /// that logs, five seconds each.
+  [[nodiscard]] const std::shared_ptr<spdlog::logger>& logger() const { return logger_; }
+
+ private:
+  std::shared_ptr<spdlog::details::thread_pool> thread_;
+  std::shared_ptr<spdlog::logger> logger_;
+};
 
 /// How a message becomes a line: whatever it holds, one of its own, and printable (core/printable.h).
 std::unique_ptr<spdlog::formatter> formatter_of(LogFormat format);

@@ -49,13 +49,13 @@ int run(const InspectConfig& config) {
 /// need not wait for it. Once rooms open, Server takes the signals over.
 void end_when_signalled() {
   constexpr auto kEnd = [](int) { std::_Exit(kOk); };
-  std::signal(SIGINT, kEnd);
-  std::signal(SIGTERM, kEnd);
+  for (const int signal : kStopSignals) std::signal(signal, kEnd);
 }
 
 int run(const ServeConfig& config) {
   end_when_signalled();
-  auto server = Server::create(config, make_logger(config.log_format));
+  const Log log(config.log_format);
+  auto server = Server::create(config, log.logger());
   if (!server) return report(server.error(), kFailed);
   std::cout << "listening " << (*server)->address() << std::endl;
   (*server)->run();

@@ -155,8 +155,7 @@ core::Expected<void> Server::open_fork_room(const ServeConfig& config, Start sta
 }
 
 void Server::take_signals() {
-  signals_.add(SIGINT);
-  signals_.add(SIGTERM);
+  for (const int signal : kStopSignals) signals_.add(signal);
 }
 
 core::Expected<void> Server::open_room(const ServeConfig& config, const std::string& name, Start start) {
@@ -241,7 +240,7 @@ void Server::run() {
 void Server::await_signal() {
   signals_.async_wait([this](const boost::system::error_code& error, int signal) {
     if (error) return;
-    const std::string name = signal == SIGINT ? "SIGINT" : "SIGTERM";
+    const std::string name = core::joined({"SIG", ::sigabbrev_np(signal)});
     log_->info(fmt::format("{}: stopping", name));
     stop("the server stops", name);
   });

@@ -14,6 +14,8 @@
 #include <boost/asio/strand.hpp>
 #include <boost/asio/thread_pool.hpp>
 
+#include <array>
+#include <csignal>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -34,6 +36,9 @@
 
 namespace woodlouse::server {
 
+/// What ends a server in order: everybody is told, all is written. None of them is a crash.
+inline constexpr std::array kStopSignals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM};
+
 class Server {
  public:
   static constexpr std::size_t kIoThreads = 2;
@@ -48,7 +53,7 @@ class Server {
   /// `127.0.0.1:7777`, with the port that was really taken.
   [[nodiscard]] const std::string& address() const { return address_; }
 
-  /// Serves until SIGINT, SIGTERM or the tick limit; everybody has been told and all is written when it
+  /// Serves until one of kStopSignals or the tick limit; everybody has been told and all is written when it
   /// returns.
   void run();
 

@@ -2,12 +2,21 @@
 
 #include <spdlog/details/log_msg.h>
 #include <spdlog/formatter.h>
+#include <spdlog/sinks/base_sink.h>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <chrono>
+#include <future>
+#include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
+#include <vector>
 
 using woodlouse::server::formatter_of;
 using woodlouse::server::json_escaped;
+using woodlouse::server::Log;
 using woodlouse::server::LogFormat;
 
 TEST_CASE("a logged text cannot leave its JSON string") {
@@ -22,6 +31,58 @@ TEST_CASE("bytes that are no UTF-8 are logged as question marks") {
   CHECK(json_escaped("\xc0\xaf") == "??");       // overlong
   CHECK(json_escaped("\xed\xa0\x80") == "???");  // a surrogate
   CHECK(json_escaped("\xe2\x82 x") == "?? x");
+}
+
+TEST_CASE("who logs never waits for who reads, and what was lost is counted") {
+  class Stuck final : public spdlog::sinks::base_sink<std::mutex> {
+   public:
+    std::promise<void> stands, go_on;
+    std::vector<std::string> lines;
+
+   private:
+    void sink_it_(const spdlog::details::log_msg& message) override {
+      if (lines.empty()) {
+        stands.set_value();
+        go_on.get_future().wait();
+      }
+      lines.emplace_back(message.payload.data(), message.payload.size());
+    }
+    void flush_() override {}
+  };
+  const auto sink = std::make_shared<Stuck>();
+  constexpr std::size_t kMore = 500;
+  {
+    const Log log(LogFormat::kText, sink);
+    log.logger()->info("first");
+    sink->stands.get_future().wait();
+    for (std::size_t k = 0; k < Log::kMostWaiting + kMore; ++k)
+      log.logger()->info("line " + std::to_string(k));
+    sink->go_on.set_value();
+  }
+  REQUIRE(sink->lines.size() > Log::kMostWaiting);
+  CHECK(sink->lines.back() == "line " + std::to_string(Log::kMostWaiting + kMore - 1));
+  const auto told = std::find_if(sink->lines.begin(), sink->lines.end(), [](const std::string& line) {
+    return line.find(" lines of the log are lost") != std::string::npos;
+  });
+  REQUIRE(told != sink->lines.end());
+  const auto lost = static_cast<std::size_t>(std::stoul(*told));
+  CHECK(lost >= kMore - 1);
+  CHECK(lost + sink->lines.size() == Log::kMostWaiting + kMore + 2);  // the first, and the word of the lost
+}
+
+TEST_CASE("a log that nobody reads keeps no server from ending") {
+  class Never final : public spdlog::sinks::base_sink<std::mutex> {
+    void sink_it_(const spdlog::details::log_msg&) override {
+      for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+    }
+    void flush_() override {}
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  {
+    const Log log(LogFormat::kText, std::make_shared<Never>());
+    for (std::size_t k = 0; k < 2 * Log::kMostWaiting; ++k) log.logger()->info("line");
+  }
+  CHECK(std::chrono::steady_clock::now() - begin < 100 * Log::kPatience);
 }
 
 TEST_CASE("neither log shows a terminal anything but one line of text") {

@@ -8,7 +8,7 @@ import tempfile
 import time
 import unittest
 
-from wire import PATIENCE, PROGRAM, Server, map_file, run
+from wire import PATIENCE, PROGRAM, Client, Reader, Server, map_file, run, share_missed
 
 
 def wait_until_caught(pid, number):
@@ -25,7 +25,7 @@ def wait_until_caught(pid, number):
 
 class Shutdown(unittest.TestCase):
     def test_a_signal_says_bye_to_all_finishes_the_recording_and_exits_zero_within_a_second(self):
-        for by in (signal.SIGTERM, signal.SIGINT):
+        for by in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGQUIT, signal.SIGUSR1, signal.SIGALRM):
             with tempfile.TemporaryDirectory() as folder:
                 file = os.path.join(folder, "game.ndjson")
                 with Server("--record", file, "--bots", "2") as server:
@@ -43,6 +43,31 @@ class Shutdown(unittest.TestCase):
                         client.socket.close()
                 code, verdict, errors = run("verify", file)
                 self.assertEqual((code, verdict.split()[0]), (0, "ok"), verdict + errors)
+
+    def test_a_log_that_nobody_reads_holds_up_neither_frames_nor_the_end(self):
+        unread, log = os.pipe()
+        process = subprocess.Popen([PROGRAM, "--map", map_file("volcano"), "--listen", "127.0.0.1:0"],
+                                   stdout=subprocess.PIPE, stderr=log, text=True)
+        os.close(log)
+        try:
+            address = process.stdout.readline().split()[1]
+            host, port = address.rsplit(":", 1)
+            with Client(host, int(port)) as watcher:
+                watcher.join("eye", role="spectator")
+                reader = Reader(watcher)
+                # A pipe holds 64 KB; each of these is a line of some 80 bytes when it comes and when it goes.
+                for number in range(700):
+                    with Client(host, int(port)) as guest:
+                        guest.join(f"guest {number}")
+                process.terminate()
+                begun = time.monotonic()
+                self.assertEqual(process.wait(PATIENCE), 0)
+                self.assertLess(time.monotonic() - begun, 1.0)
+                self.assertLess(share_missed(reader.messages("key", "delta"), 3), 0.05)
+        finally:
+            process.kill()
+            process.stdout.close()
+            os.close(unread)
 
     def test_a_signal_while_a_big_map_is_loaded_ends_it_at_once_and_leaves_no_recording(self):
         for by in (signal.SIGTERM, signal.SIGINT):
