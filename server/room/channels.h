@@ -25,10 +25,17 @@ using ChannelFrames = boost::container::small_vector<ChannelFrame, 4>;
 
 class Channels {
  public:
-  static constexpr std::size_t kMaxLayouts = 32;  ///< in a room at a time; bounds the encoding of a tick
+  /// In a room at a time, besides the common ones, which everybody can have; bounds the
+  /// encoding of a tick.
+  static constexpr std::size_t kMaxRareLayouts = 32;
 
-  /// One more client of that layout; nothing when the room serves kMaxLayouts others.
-  std::optional<ChannelId> acquire(const RowLayout& layout);
+  /// One more client of that layout; where there are kMaxRareLayouts others, of the smallest one in use that
+  /// has its columns, or of every column.
+  ChannelId acquire(const RowLayout& layout);
+  /// REQUIRES an acquired channel.
+  [[nodiscard]] const RowLayout& layout(ChannelId channel) const {
+    return channels_.at(channel).encoder.layout();
+  }
   /// One client less.
   void release(ChannelId channel);
 
@@ -49,10 +56,12 @@ class Channels {
     std::optional<Frame> key;
     std::optional<Frame> delta;
   };
+  [[nodiscard]] RowLayout wider(const RowLayout& layout) const;
   const Frame& encode(Channel& channel, const Scene& scene, FrameKind kind);
 
   std::map<ChannelId, Channel> channels_;
   ChannelId next_id_ = 1;
+  std::size_t rare_ = 0;  ///< of channels_, those that only some may have
   std::uint64_t encoded_ = 0;
 };
 

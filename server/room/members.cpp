@@ -128,26 +128,21 @@ void Members::refuse_closed(Subscriber& subscriber) {
 
 void Members::admit(SessionId session, std::shared_ptr<Subscriber> subscriber, const protocol::Join& join) {
   if (auto refusal = why_not()) return subscriber->refuse_join(std::move(*refusal));
-  const auto channel = channels_.acquire({join.fields, join.format});
-  if (!channel)
-    return subscriber->refuse_join(
-        error(code::kBadField, "join.fields: this room serves " + std::to_string(Channels::kMaxLayouts) +
-                                   " different choices of fields and format already; leave `fields` out"));
-  Seat seat{0, join.name, join.role, 0, SessionOccupant{session, subscriber, *channel}};
+  const ChannelId channel = channels_.acquire({join.fields, join.format});
+  Seat seat{0, join.name, join.role, 0, SessionOccupant{session, subscriber, channel}};
   const std::uint32_t state_hz = granted_state_hz(join.state_hz, settings_.state_hz);
   if (join.role != protocol::Role::kSpectator) give_louse(seat);
   count(seat.role, +1);  // who has his welcome finds himself counted
-  subscriber->welcome(welcome_for(seat, join, state_hz), settings_.state_hz / state_hz);
-  for (const Frame& frame : channels_.newest(*channel, scene())) subscriber->show_again(frame);
-  broadcaster_->add({session, std::move(subscriber), *channel, events_.next()});
+  subscriber->welcome(welcome_for(seat, state_hz), settings_.state_hz / state_hz);
+  for (const Frame& frame : channels_.newest(channel, scene())) subscriber->show_again(frame);
+  broadcaster_->add({session, std::move(subscriber), channel, events_.next()});
   const Seat& added = seats_.add(std::move(seat));
   log_->info(fmt::format("room {}: session {:016x} joined as {} {} \"{}\"", settings_.name, session,
                          protocol::to_text(added.role), added.louse, added.name));
   send(events_.joined(game_.tick(), added));
 }
 
-protocol::Welcome Members::welcome_for(const Seat& seat, const protocol::Join& join,
-                                       std::uint32_t state_hz) const {
+protocol::Welcome Members::welcome_for(const Seat& seat, std::uint32_t state_hz) const {
   const map::Map& map = game_.map();
   const terrain::Rectangle& domain = map.terrain->domain();
   protocol::Welcome welcome;
@@ -156,8 +151,9 @@ protocol::Welcome Members::welcome_for(const Seat& seat, const protocol::Join& j
   welcome.tick = game_.tick();
   welcome.tick_hz = game_.settings().tick_hz;
   welcome.state_hz = state_hz;
-  welcome.fields = join.fields;
-  welcome.format = join.format;
+  const RowLayout& layout = channels_.layout(std::get<SessionOccupant>(seat.occupant).channel);
+  welcome.fields = layout.fields;
+  welcome.format = layout.format;
   welcome.map_name = map.definition.name;
   welcome.map_hash = map.hash;
   welcome.extent = {domain.x_min, domain.y_min, domain.x_max, domain.y_max};

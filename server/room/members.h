@@ -71,8 +71,7 @@ class Members {
  private:
   [[nodiscard]] std::optional<protocol::ErrorMessage> why_not() const;
   void give_louse(Seat& seat);
-  [[nodiscard]] protocol::Welcome welcome_for(const Seat& seat, const protocol::Join& join,
-                                              std::uint32_t state_hz) const;
+  [[nodiscard]] protocol::Welcome welcome_for(const Seat& seat, std::uint32_t state_hz) const;
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Input& input, Time arrived);
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Chat& chat);
   void on_message(Seat& seat, const SessionOccupant& occupant, const protocol::Leave&);
