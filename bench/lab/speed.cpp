@@ -32,7 +32,10 @@ core::Expected<void> run(const SpeedOptions& options) {
   if (asks_for("steps")) {
     if (auto done = measure_steps(options.output); !done) return done;
   }
-  if (asks_for("maps")) return measure_maps(options.maps, options.output);
+  if (asks_for("maps")) {
+    if (auto done = measure_maps(options.maps, options.output); !done) return done;
+  }
+  if (asks_for("threads")) return measure_threads(options.maps, options.output);
   return {};
 }
 
@@ -45,11 +48,11 @@ void add_speed(CLI::App& app, Job& job) {
   add_output_options(*command, options->output);
   command->add_option("--maps", options->maps, "folder of maps; the project's own when left out")
       ->check(CLI::ExistingDirectory);
-  command->add_option("--only", options->only, "some of evaluations,steps,maps; all of them when left out")
+  command->add_option("--only", options->only, "some of evaluations,steps,maps,threads; all when left out")
       ->delimiter(',')
-      ->check(CLI::IsMember({"evaluations", "steps", "maps"}));
+      ->check(CLI::IsMember({"evaluations", "steps", "maps", "threads"}));
   command->footer(
-      "Writes lab-speed-evaluations.csv, lab-speed-steps.csv and lab-speed-maps.csv; prints the ratios.\n"
+      "Writes lab-speed-evaluations.csv, -steps.csv, -maps.csv and -threads.csv; prints the ratios.\n"
       "Example:\n  woodlouse-lab speed --quick");
   command->callback([options, &job] {
     for (const std::string& part : options->only)

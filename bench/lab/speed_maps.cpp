@@ -14,6 +14,7 @@
 #include "bench/lab/problems/motion.h"
 #include "bench/lab/report/race.h"
 #include "shared/core/random.h"
+#include "shared/core/thread_team.h"
 #include "shared/map/map_file.h"
 #include "shared/map/map_search_file.h"
 #include "shared/map/map_world.h"
@@ -36,6 +37,7 @@ struct Scene {
   physics::InstructionSet set{};
   Steering steering = Steering::kHeld;
   bool hashed = true;
+  std::size_t threads = 1;
 };
 
 /// Lice all over a map that are pushed about.
@@ -45,6 +47,8 @@ class Crowd {
   Crowd(const Scene& scene, int settled)
       : scene_(scene), world_(map::make_world(*scene.map, kTick)), ticks_(scene.lice < 100000 ? 10 : 1) {
     world_.use(scene.set);
+    if (scene.threads > 1) team_ = std::make_shared<core::ThreadTeam>(scene.threads);
+    world_.use(team_);
     const terrain::Rectangle domain = scene.map->terrain->domain();
     const auto between = [&](double low, double high) {
       return 0.5 * (low + high) + 0.45 * (high - low) * symmetric();
@@ -99,7 +103,7 @@ class Crowd {
     world_.step();
   }
   void hash() {
-    blocks_.update(world_.lice(), world_.changed_blocks());
+    blocks_.update(world_.lice(), world_.changed_blocks(), team_.get());
     world_.forget_changes();
     hash_ = state::state_hash(hasher_, {hash_, 0, 0, 0, ++hashes_, 0}, blocks_.values());
     keep(hash_);
@@ -107,6 +111,7 @@ class Crowd {
 
   Scene scene_;
   core::Random random_{2};
+  std::shared_ptr<core::Team> team_;
   physics::World world_;
   int ticks_;
   std::uint32_t next_ = 0;
@@ -127,17 +132,30 @@ std::vector<physics::InstructionSet> available_sets() {
   return sets;
 }
 
-/// The scenes of one map beside each other.
-void measure_scenes(const std::vector<Scene>& scenes, const std::string& what, Effort effort, Table& table) {
-  std::vector<std::unique_ptr<Crowd>> crowds;
-  std::vector<Contestant> contestants;
+using Crowds = std::vector<std::unique_ptr<Crowd>>;
+
+Crowds crowds_of(const std::vector<Scene>& scenes, Effort effort) {
+  Crowds crowds;
   for (const Scene& scene : scenes) {
     const int settled = effort == Effort::kQuick ? 120 : (scene.lice < 100000 ? 600 : 60);
     crowds.push_back(std::make_unique<Crowd>(scene, settled));
-    Crowd& crowd = *crowds.back();
-    contestants.push_back({"", [&crowd] { crowd.run(); }, crowd.louse_ticks()});
   }
-  const std::vector<Timing> times = race(contestants, effort, what);
+  return crowds;
+}
+
+/// Of a louse and tick.
+std::vector<Timing> times_of(const Crowds& crowds, const std::string& what, Effort effort,
+                             Clock clock = Clock::kProcessor) {
+  std::vector<Contestant> contestants;
+  for (const auto& crowd : crowds)
+    contestants.push_back({"", [&crowd = *crowd] { crowd.run(); }, crowd->louse_ticks()});
+  return race(contestants, effort, what, clock);
+}
+
+/// The scenes of one map beside each other.
+void measure_scenes(const std::vector<Scene>& scenes, const std::string& what, Effort effort, Table& table) {
+  const Crowds crowds = crowds_of(scenes, effort);
+  const std::vector<Timing> times = times_of(crowds, what, effort);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const Scene& scene = scenes[i];
     const auto [sub_steps, left] = crowds[i]->shares();
@@ -221,6 +239,29 @@ core::Expected<void> measure_maps(const std::filesystem::path& folder, const Out
   table.print(std::cout);
   if (auto done = output.write(table, "lab-speed-maps"); !done || output.quick) return done;
   return output.draw(growth_picture(table.rows()), "lab-speed-maps", 760, 420);
+}
+
+core::Expected<void> measure_threads(const std::filesystem::path& folder, const Output& output) {
+  const auto maps = maps_of(folder);
+  if (!maps) return tl::unexpected(maps.error());
+  const AnyCore any_core;
+  const physics::InstructionSet best = physics::best_instruction_set();
+  const std::vector<std::uint32_t> crowds_told =
+      output.quick ? std::vector<std::uint32_t>{4000} : std::vector<std::uint32_t>{1000, 10000, 100000};
+  Table table({"map", "lice", "ns_one", "ns_two", "times_as_fast"});
+  for (const MapPointer& map : *maps) {
+    for (const std::uint32_t lice : crowds_told) {
+      const Crowds crowds =
+          crowds_of({{map, lice, best}, {map, lice, best, Steering::kHeld, true, 2}}, output.effort());
+      const std::string& name = map->definition.name;
+      const auto times = times_of(crowds, "threads, " + name, output.effort(), Clock::kWall);
+      table.add({name, static_cast<double>(lice), times[0].median_ns, times[1].median_ns,
+                 times[0].median_ns / times[1].median_ns});
+    }
+  }
+  std::cout << "\nA louse and tick by one thread and by two, its hash included: the time that passes\n";
+  table.print(std::cout);
+  return output.write(table, "lab-speed-threads");
 }
 
 }  // namespace woodlouse::lab

@@ -12,4 +12,8 @@ namespace woodlouse::lab {
 /// lab-speed-maps.csv and draws the latter.
 core::Expected<void> measure_maps(const std::filesystem::path& folder, const Output& output);
 
+/// The same maps by one thread and by two, in turns, wall time: 1,000 lice, 10,000 and 100,000. Writes
+/// lab-speed-threads.csv.
+core::Expected<void> measure_threads(const std::filesystem::path& folder, const Output& output);
+
 }  // namespace woodlouse::lab

@@ -10,16 +10,16 @@
 namespace woodlouse::lab {
 namespace {
 
-double processor_seconds() {
+double seconds_on(Clock clock) {
   timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  clock_gettime(clock == Clock::kWall ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-double seconds_of(const Contestant& contestant, std::size_t repeats) {
-  const double begin = processor_seconds();
+double seconds_of(const Contestant& contestant, std::size_t repeats, Clock clock) {
+  const double begin = seconds_on(clock);
   for (std::size_t i = 0; i < repeats; ++i) contestant.run();
-  return processor_seconds() - begin;
+  return seconds_on(clock) - begin;
 }
 
 }  // namespace
@@ -33,7 +33,19 @@ void pin_to_core() {
   sched_setaffinity(0, sizeof set, &set);  // refused: unpinned, only noisier
 }
 
-std::vector<Timing> race(const std::vector<Contestant>& contestants, Effort effort, const std::string& what) {
+AnyCore::AnyCore() {
+  CPU_ZERO(&before_);
+  sched_getaffinity(0, sizeof before_, &before_);
+  cpu_set_t every;
+  CPU_ZERO(&every);
+  for (std::size_t core = 0; core < CPU_SETSIZE; ++core) CPU_SET(core, &every);
+  sched_setaffinity(0, sizeof every, &every);  // of these, those that the process may have
+}
+
+AnyCore::~AnyCore() { sched_setaffinity(0, sizeof before_, &before_); }
+
+std::vector<Timing> race(const std::vector<Contestant>& contestants, Effort effort, const std::string& what,
+                         Clock clock) {
   const double block = effort == Effort::kQuick ? 0.0005 : 0.003;  // [s]
   const std::size_t rounds = effort == Effort::kQuick ? 5 : 41;
   Progress progress(what, (rounds + 1) * contestants.size());
@@ -41,11 +53,11 @@ std::vector<Timing> race(const std::vector<Contestant>& contestants, Effort effo
   for (const Contestant& c : contestants) {
     c.run();  // warms the caches
     std::size_t n = 1;
-    double seconds = seconds_of(c, n);
+    double seconds = seconds_of(c, n, clock);
     while (seconds < block && n < (1u << 24)) {
       n = std::max(n * 2, static_cast<std::size_t>(static_cast<double>(n) *
                                                    std::min(100.0, block / std::max(seconds, 1e-9))));
-      seconds = seconds_of(c, n);
+      seconds = seconds_of(c, n, clock);
     }
     repeats.push_back(n);
     progress.advance();
@@ -53,7 +65,7 @@ std::vector<Timing> race(const std::vector<Contestant>& contestants, Effort effo
   std::vector<std::vector<double>> times(contestants.size());
   for (std::size_t round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < contestants.size(); ++i) {
-      const double per_run = seconds_of(contestants[i], repeats[i]) / static_cast<double>(repeats[i]);
+      const double per_run = seconds_of(contestants[i], repeats[i], clock) / static_cast<double>(repeats[i]);
       times[i].push_back(1e9 * per_run / contestants[i].count);
       progress.advance();
     }

@@ -5,6 +5,8 @@
 // as ours; caches that others emptied still do. The thread is pinned to one core.
 #pragma once
 
+#include <sched.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -35,7 +37,24 @@ struct Timing {
 
 /// Keeps the thread on the core it runs on.
 void pin_to_core();
+
+/// While it lives the thread may run on every core again, and so may those that it starts.
+class AnyCore {
+ public:
+  AnyCore();
+  ~AnyCore();
+  AnyCore(const AnyCore&) = delete;
+  AnyCore& operator=(const AnyCore&) = delete;
+
+ private:
+  cpu_set_t before_;
+};
+
+/// kWall: the time that passes, for what several threads do.
+enum class Clock { kProcessor, kWall };
+
 /// The times, in the order of the contestants. `what` labels the progress bar.
-std::vector<Timing> race(const std::vector<Contestant>& contestants, Effort effort, const std::string& what);
+std::vector<Timing> race(const std::vector<Contestant>& contestants, Effort effort, const std::string& what,
+                         Clock clock = Clock::kProcessor);
 
 }  // namespace woodlouse::lab
