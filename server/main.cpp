@@ -49,7 +49,7 @@ int run(const InspectConfig& config) {
 /// need not wait for it. Once rooms open, Server takes the signals over.
 void end_when_signalled() {
   constexpr auto kEnd = [](int) { std::_Exit(kOk); };
-  for (const int signal : kStopSignals) std::signal(signal, kEnd);
+  for (const int signal : stop_signals()) std::signal(signal, kEnd);
 }
 
 int run(const ServeConfig& config) {

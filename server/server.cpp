@@ -86,6 +86,15 @@ std::uint64_t entropy() {
 
 }  // namespace
 
+std::vector<int> stop_signals() {
+  std::vector<int> result = {SIGINT, SIGTERM};
+  for (const int signal : {SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM}) {
+    struct sigaction now {};
+    if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN) result.push_back(signal);
+  }
+  return result;
+}
+
 Server::Server(const ServeConfig& config, std::shared_ptr<spdlog::logger> log)
     : log_(std::move(log)),
       io_(static_cast<int>(kIoThreads)),
@@ -155,7 +164,7 @@ core::Expected<void> Server::open_fork_room(const ServeConfig& config, Start sta
 }
 
 void Server::take_signals() {
-  for (const int signal : kStopSignals) signals_.add(signal);
+  for (const int signal : stop_signals()) signals_.add(signal);
 }
 
 core::Expected<void> Server::open_room(const ServeConfig& config, const std::string& name, Start start) {

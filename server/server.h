@@ -14,8 +14,6 @@
 #include <boost/asio/strand.hpp>
 #include <boost/asio/thread_pool.hpp>
 
-#include <array>
-#include <csignal>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -36,8 +34,9 @@
 
 namespace woodlouse::server {
 
-/// What ends a server in order: everybody is told, all is written. None of them is a crash.
-inline constexpr std::array kStopSignals = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM};
+/// What ends a server in order: everybody is told, all is written. None of the signals that end a program is
+/// a crash. But those that whoever started it has ignored: nohup's HUP stays so.
+std::vector<int> stop_signals();
 
 class Server {
  public:
@@ -53,7 +52,7 @@ class Server {
   /// `127.0.0.1:7777`, with the port that was really taken.
   [[nodiscard]] const std::string& address() const { return address_; }
 
-  /// Serves until one of kStopSignals or the tick limit; everybody has been told and all is written when it
+  /// Serves until one of stop_signals() or the tick limit; everybody has been told and all is written when it
   /// returns.
   void run();
 

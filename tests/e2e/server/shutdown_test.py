@@ -44,6 +44,17 @@ class Shutdown(unittest.TestCase):
                 code, verdict, errors = run("verify", file)
                 self.assertEqual((code, verdict.split()[0]), (0, "ok"), verdict + errors)
 
+    def test_a_signal_that_its_starter_ignores_ends_nothing(self):
+        before = signal.signal(signal.SIGHUP, signal.SIG_IGN)  # as nohup does; a child inherits it
+        try:
+            with Server() as server, server.player() as player:
+                server.process.send_signal(signal.SIGHUP)
+                for _ in range(20):
+                    player.expect("delta")
+                self.assertEqual(server.stop()[0], 0)
+        finally:
+            signal.signal(signal.SIGHUP, before)
+
     def test_a_log_that_nobody_reads_holds_up_neither_frames_nor_the_end(self):
         unread, log = os.pipe()
         process = subprocess.Popen([PROGRAM, "--map", map_file("volcano"), "--listen", "127.0.0.1:0"],
