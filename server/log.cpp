@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cassert>
 #include <cerrno>
 #include <future>
@@ -128,6 +129,14 @@ Log::Log(LogFormat format, spdlog::sink_ptr sink)
 /// that it holds.
 Log::~Log() {
   logger_.reset();
+  using Clock = std::chrono::steady_clock;
+  std::size_t waiting = thread_->queue_size();
+  const auto latest = Clock::now() + kLongest;
+  for (auto moved = Clock::now(); waiting > 0 && Clock::now() < std::min(latest, moved + kPatience);) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const std::size_t left = thread_->queue_size();
+    if (std::exchange(waiting, left) > left) moved = Clock::now();
+  }
   auto ended = std::make_shared<std::promise<void>>();
   const std::future<void> end = ended->get_future();
   try {

@@ -20,12 +20,14 @@ namespace woodlouse::server {
 
 enum class LogFormat : std::uint8_t { kText, kJson };
 
-/// Holds the log's thread. When it goes, what was logged is written, for kPatience: a pipe that nobody reads
-/// must not keep a server from ending.
+/// Holds the log's thread. When it goes, what was logged is written, as long as that goes on: a pipe that
+/// nobody has read from for kPatience must not keep a server from ending, nor one that is read slowly for
+/// kLongest.
 class Log {
  public:
   static constexpr std::size_t kMostWaiting = 8192;  ///< lines
   static constexpr std::chrono::milliseconds kPatience{150};
+  static constexpr std::chrono::milliseconds kLongest{2000};
 
   explicit Log(LogFormat format);
   /// To another sink than standard error. Nothing but the log's thread calls it.
