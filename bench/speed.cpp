@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "server/room/row_table.h"
+#include "server/frames/row_table.h"
 #include "shared/core/random.h"
 #include "shared/core/stable_hash.h"
 #include "shared/core/thread_team.h"

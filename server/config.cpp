@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "server/config_file.h"
+#include "server/limit_options.h"
 #include "server/option_checks.h"
 #include "server/version.h"
 #include "shared/core/thread_team.h"
@@ -27,11 +28,11 @@ constexpr const char* kExamples = R"(Examples:
 Exit: 0 fine; 1 a recording that differs, or what can't be read or served; 2 usage.)";
 
 constexpr const char* kForkExamples =
-    R"(Its lice go on as they were; who joins under a recorded name takes that louse
-over. Map, tick rate and seed are the recording's.
+    R"(Its lice go on as they were; with --adopt-by-name who joins under a recorded name
+takes that louse over. Map, tick rate and seed are the recording's.
 
 Examples:
-  woodlouse-server fork game.ndjson --tick 1200 --listen :7778
+  woodlouse-server fork game.ndjson --tick 1200 --adopt-by-name --listen :7778
   woodlouse-server fork game.ndjson.zst --tick 1200 --bots 4 --record other-end.ndjson.zst)";
 
 /// The options of a server as typed, before they are checked against each other.
@@ -105,7 +106,14 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
       ->envname("WOODLOUSE_LOG_FORMAT")
       ->check(CLI::IsMember({"text", "json"}))
       ->capture_default_str();
-  app.add_option("--config", typed.config_file, "JSON file with any of these options")
+  app.add_option("--log-level", serve.log_level, "Least severe of what is logged; SIGHUP reads it again")
+      ->envname("WOODLOUSE_LOG_LEVEL")
+      ->check(CLI::IsMember(log_levels()))
+      ->capture_default_str();
+  serve.limits.messages_per_s = serve.limits.burst = 0;
+  add_limit_options(app, serve.limits);
+  app.add_option("--config", typed.config_file,
+                 "JSON file with any of these options; SIGHUP reads its limits and log level again")
       ->envname("WOODLOUSE_CONFIG");
 }
 
@@ -121,6 +129,8 @@ CLI::App* add_fork(CLI::App& app, Typed& typed) {
   fork->add_option("file", typed.fork_point.recording, "A recording")->required();
   fork->add_option("--tick", typed.fork_point.tick, "Where to go on")->required()->check(whole_number(0));
   add_maps(*fork, typed.fork_point.maps);
+  fork->add_flag("--adopt-by-name", typed.fork_point.adopts_by_name,
+                 "Who joins under a recorded name takes that louse over, whoever it is");
   add_serve_options(*fork, typed.fork);
   fork->footer(kForkExamples);
   return fork;

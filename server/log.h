@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace spdlog::details {
 class thread_pool;
@@ -19,6 +20,9 @@ class thread_pool;
 namespace woodlouse::server {
 
 enum class LogFormat : std::uint8_t { kText, kJson };
+
+/// The names of levels, from the least severe on.
+inline std::vector<std::string> log_levels() { return {"debug", "info", "warning", "error"}; }
 
 /// Holds the log's thread. When it goes, what was logged is written, as long as that goes on: a pipe that
 /// nobody has read from for kPatience must not keep a server from ending, nor one that is read slowly for

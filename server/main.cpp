@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <iostream>
 #include <system_error>
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 #include "server/commands/check.h"
@@ -11,6 +13,7 @@
 #include "server/config.h"
 #include "server/log.h"
 #include "server/server.h"
+#include "server/signals.h"
 #include "shared/core/allocation.h"
 
 namespace {
@@ -49,13 +52,14 @@ int run(const InspectConfig& config) {
 /// need not wait for it. Once rooms open, Server takes the signals over.
 void end_when_signalled() {
   constexpr auto kEnd = [](int) { std::_Exit(kOk); };
-  for (const int signal : stop_signals()) std::signal(signal, kEnd);
+  for (const int signal : taken_signals()) std::signal(signal, kEnd);
 }
 
-int run(const ServeConfig& config) {
+int run(const ServeConfig& config, const Server::Reread& reread) {
   end_when_signalled();
   const Log log(config.log_format);
-  auto server = Server::create(config, log.logger());
+  log.logger()->set_level(spdlog::level::from_str(config.log_level));
+  auto server = Server::create(config, reread, log.logger());
   if (!server) return report(server.error(), kFailed);
   std::cout << "listening " << (*server)->address() << std::endl;
   (*server)->run();
@@ -73,8 +77,20 @@ int main(int argc, char** argv) {
   core::end_when_out_of_memory("woodlouse-server: out of memory\n");
   const auto config = parse_config(argc, argv);
   if (!config) return report(config.error(), kUsage);
+  const auto reread = [argc, argv]() -> woodlouse::core::Expected<ServeConfig> {
+    auto again = parse_config(argc, argv);
+    if (!again) return tl::unexpected(again.error());
+    return std::get<ServeConfig>(std::move(*again));
+  };
   try {
-    return std::visit([](const auto& chosen) { return run(chosen); }, *config);
+    return std::visit(
+        [&reread](const auto& chosen) {
+          if constexpr (std::is_same_v<std::decay_t<decltype(chosen)>, ServeConfig>)
+            return run(chosen, reread);
+          else
+            return run(chosen);
+        },
+        *config);
   } catch (const std::system_error& error) {  // of what no error can be returned from: a thread
     return report({"", error.what(), "has the system no more threads for it?"}, kFailed);
   }

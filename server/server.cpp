@@ -18,6 +18,8 @@
 #include <variant>
 
 #include "server/commands/fork.h"
+#include "server/limit_options.h"
+#include "server/signals.h"
 #include "server/version.h"
 #include "server/watchers/ground_ahead.h"
 #include "server/watchers/recorder.h"
@@ -84,33 +86,35 @@ std::uint64_t entropy() {
   return (static_cast<std::uint64_t>(device()) << 32) | device();
 }
 
-}  // namespace
-
-std::vector<int> stop_signals() {
-  std::vector<int> result = {SIGINT, SIGTERM};
-  for (const int signal : {SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM}) {
-    struct sigaction now {};
-    if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN) result.push_back(signal);
-  }
-  return result;
+/// As many connections as there may be files open, some of which the server needs itself.
+protocol::Limits limits_of(const ServeConfig& config) {
+  constexpr std::uint64_t kOwnFiles = 64;
+  protocol::Limits limits = completed(config.limits, config.tick_hz);
+  const std::uint64_t own = kOwnFiles + 2 * config.maps.size();
+  const std::uint64_t files = std::max(own + 1, raise_descriptor_limit());
+  limits.max_connections =
+      static_cast<std::uint32_t>(std::min<std::uint64_t>(limits.max_connections, files - own));
+  return limits;
 }
 
-Server::Server(const ServeConfig& config, std::shared_ptr<spdlog::logger> log)
+}  // namespace
+
+Server::Server(const ServeConfig& config, Reread reread, std::shared_ptr<spdlog::logger> log)
     : log_(std::move(log)),
       io_(static_cast<int>(kIoThreads)),
+      lanes_(io_, kIoThreads),
       strand_(asio::make_strand(io_)),
       signals_(strand_),
       deadline_(strand_),
+      reread_(std::move(reread)),
+      had_terminal_(has_terminal()),
+      limits_(limits_of(config)),
       environment_{lobby_, limits_, traffic_, timekeeper_, kServerName, log_},
-      acceptor_(io_, environment_) {
-  // A bot may push once a tick and still ask for the time.
-  limits_.messages_per_s = std::max(limits_.messages_per_s, 2 * config.tick_hz);
-  limits_.burst = std::max(limits_.burst, 2 * limits_.messages_per_s);
-}
+      acceptor_(lanes_, environment_) {}
 
 Server::~Server() = default;
 
-core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config,
+core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config, Reread reread,
                                                        std::shared_ptr<spdlog::logger> log) {
   std::optional<Start> fork;
   if (config.fork) {
@@ -118,7 +122,7 @@ core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config,
     if (!start) return tl::unexpected(start.error());
     fork = std::move(*start);
   }
-  std::unique_ptr<Server> server(new Server(config, std::move(log)));
+  std::unique_ptr<Server> server(new Server(config, std::move(reread), std::move(log)));
   // The port first: a busy one must not cost somebody his recording.
   const auto endpoint = server->acceptor_.open(config.listen);
   if (!endpoint) return tl::unexpected(endpoint.error());
@@ -164,7 +168,7 @@ core::Expected<void> Server::open_fork_room(const ServeConfig& config, Start sta
 }
 
 void Server::take_signals() {
-  for (const int signal : stop_signals()) signals_.add(signal);
+  for (const int signal : taken_signals()) signals_.add(signal);
 }
 
 core::Expected<void> Server::open_room(const ServeConfig& config, const std::string& name, Start start) {
@@ -174,15 +178,16 @@ core::Expected<void> Server::open_room(const ServeConfig& config, const std::str
   settings.bots = config.bots;
   settings.bots_alone_play = config.bots_alone_play;
   settings.tick_limit = config.ticks;
-  settings.per_room = limits_.per_room;
+  settings.limits = *limits_.now();
+  settings.adopts_by_name = config.fork && config.fork->adopts_by_name;
   auto watchers = make_watchers(config, name, start);
   if (!watchers) return tl::unexpected(watchers.error());
   start.match->use(step_team_);
   log_opened(name, config, start);
   ++rooms_running_;
-  const bool is_new = lobby_.open(
-      Room::make(ticks_, io_, std::move(settings), std::move(start), std::move(*watchers), timekeeper_, log_),
-      [this] { asio::post(strand_, [this] { room_ended(); }); });
+  const bool is_new = lobby_.open(Room::make(ticks_, lanes_, std::move(settings), std::move(start),
+                                             std::move(*watchers), timekeeper_, log_),
+                                  [this] { asio::post(strand_, [this] { room_ended(); }); });
   assert(is_new);
   static_cast<void>(is_new);
   return {};
@@ -248,11 +253,34 @@ void Server::run() {
 
 void Server::await_signal() {
   signals_.async_wait([this](const boost::system::error_code& error, int signal) {
-    if (error) return;
-    const std::string name = core::joined({"SIG", ::sigabbrev_np(signal)});
-    log_->info(fmt::format("{}: stopping", name));
-    stop("the server stops", name);
+    if (!error) on_signal(signal);
   });
+}
+
+void Server::on_signal(int signal) {
+  const bool lost_terminal = signal == SIGHUP && had_terminal_ && !has_terminal();
+  if (signal == SIGHUP && !lost_terminal) {
+    reload();
+    return await_signal();
+  }
+  const std::string name = core::joined({"SIG", ::sigabbrev_np(signal)});
+  log_->info(fmt::format("{}: stopping", name));
+  stop("the server stops", name);
+}
+
+/// What may change while games go on: limits and the log's level.
+void Server::reload() {
+  const auto config = reread_();
+  if (!config) {
+    log_->error(fmt::format("SIGHUP: nothing is changed: {}: {}", config.error().where, config.error().what));
+    return;
+  }
+  log_->set_level(spdlog::level::from_str(config->log_level));
+  const protocol::Limits limits = limits_of(*config);
+  limits_.replace(limits);
+  for (const auto& room : lobby_.rooms()) room->use(limits);
+  log_->warn(
+      "SIGHUP: limits and log level are read again; limits of a session hold for who comes from now on");
 }
 
 void Server::room_ended() {

@@ -1,9 +1,9 @@
 // The whole server: rooms, port, threads, signals, and the order in which they start and stop.
 //
 // Threads: rooms tick in a context of their own (one thread for each room, at most one a core), sockets and
-// broadcasts run in another (kIoThreads), recordings are written on one more, tiles of big maps are built
-// ahead of lice on another, shadows re-run games on as many as rooms tick on. A tick so never waits for a
-// socket, and for a disk only where a louse outruns the tiles. With --step-threads there is one team of
+// broadcasts run in another (kIoThreads, a lane each), recordings are written on one more, tiles of big maps
+// are built ahead of lice on another, shadows re-run games on as many as rooms tick on. A tick so never waits
+// for a socket, and for a disk only where a louse outruns the tiles. With --step-threads there is one team of
 // threads more, which a room with many lice has for its tick; a room that finds it taken goes without.
 #pragma once
 
@@ -15,6 +15,7 @@
 #include <boost/asio/thread_pool.hpp>
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -25,34 +26,35 @@
 #include "server/net/acceptor.h"
 #include "server/net/session.h"
 #include "server/room/figures.h"
+#include "server/room/lanes.h"
 #include "server/room/lobby.h"
 #include "server/room/room.h"
 #include "server/room/start.h"
-#include "server/room/steady_timekeeper.h"
+#include "server/timing/live_limits.h"
+#include "server/timing/steady_timekeeper.h"
 #include "shared/core/error.h"
 #include "shared/core/team.h"
 
 namespace woodlouse::server {
 
-/// What ends a server in order: everybody is told, all is written. None of the signals that end a program is
-/// a crash. But those that whoever started it has ignored: nohup's HUP stays so.
-std::vector<int> stop_signals();
-
 class Server {
  public:
+  using Reread = std::function<core::Expected<ServeConfig>()>;
+
   static constexpr std::size_t kIoThreads = 2;
   /// From the signal to the exit at most.
   static constexpr Duration kStopWithin = std::chrono::milliseconds(800);
 
   /// Loads the maps or the recording to go on from, opens the port, creates the recordings.
-  static core::Expected<std::unique_ptr<Server>> create(ServeConfig config,
+  /// reread: the configuration once more, at each HUP.
+  static core::Expected<std::unique_ptr<Server>> create(ServeConfig config, Reread reread,
                                                         std::shared_ptr<spdlog::logger> log);
   ~Server();
 
   /// `127.0.0.1:7777`, with the port that was really taken.
   [[nodiscard]] const std::string& address() const { return address_; }
 
-  /// Serves until one of stop_signals() or the tick limit; everybody has been told and all is written when it
+  /// Serves until a signal ends it or the tick limit; everybody has been told and all is written when it
   /// returns.
   void run();
 
@@ -60,7 +62,7 @@ class Server {
   void print_summary(std::ostream& out) const;
 
  private:
-  Server(const ServeConfig& config, std::shared_ptr<spdlog::logger> log);
+  Server(const ServeConfig& config, Reread reread, std::shared_ptr<spdlog::logger> log);
   core::Expected<void> open_rooms(const ServeConfig& config);
   core::Expected<void> open_fork_room(const ServeConfig& config, Start start);
   /// From here on a signal waits for run(), which writes down and says bye. Before, nothing is begun that it
@@ -71,6 +73,8 @@ class Server {
                                          const Start& start);
   void log_opened(const std::string& room, const ServeConfig& config, const Start& start) const;
   void await_signal();
+  void on_signal(int signal);
+  void reload();
   void room_ended();
   void stop(const std::string& text, const std::string& reason);
   void part_stopped();
@@ -85,11 +89,14 @@ class Server {
   boost::asio::io_context io_;
   boost::asio::io_context
       ticks_;  ///< ends before io_: what rooms posted holds them, and they hand out over io_
+  Lanes lanes_;
   boost::asio::strand<boost::asio::io_context::executor_type> strand_;
   boost::asio::signal_set signals_;
   boost::asio::steady_timer deadline_;
 
-  protocol::Limits limits_;
+  Reread reread_;
+  bool had_terminal_;
+  LiveLimits limits_;
   TrafficMetrics traffic_;
   SteadyTimekeeper timekeeper_;
   Lobby lobby_;

@@ -8,7 +8,7 @@
 
 #include "bench/lab/problems/motion.h"
 #include "server/room/room.h"
-#include "server/room/steady_timekeeper.h"
+#include "server/timing/steady_timekeeper.h"
 #include "shared/core/random.h"
 #include "shared/map/map_file.h"
 #include "shared/map/map_search_file.h"
@@ -50,6 +50,7 @@ double bytes_of_louse(const map::Map& map, std::uint32_t count, bool moves) {
 /// Bytes a room of that map in which nobody is, which many share.
 double bytes_of_empty_room(const std::shared_ptr<const map::Map>& map, int count) {
   boost::asio::io_context io, ticks;
+  const server::Lanes lanes(io, 1);
   server::SteadyTimekeeper timekeeper;
   const auto log = std::make_shared<spdlog::logger>("lab");
   std::vector<std::shared_ptr<server::Room>> rooms;
@@ -59,8 +60,8 @@ double bytes_of_empty_room(const std::shared_ptr<const map::Map>& map, int count
     server::RoomSettings settings;
     settings.name = "room " + std::to_string(i);
     auto match = std::make_unique<match::Match>(map, match::MatchSettings{60, 1});
-    rooms.push_back(server::Room::make(ticks, io, settings, {map, std::move(match), "volcano.json", {}, {}},
-                                       {}, timekeeper, log));
+    rooms.push_back(server::Room::make(ticks, lanes, settings,
+                                       {map, std::move(match), "volcano.json", {}, {}}, {}, timekeeper, log));
   }
   return (allocated() - before) / count;
 }

@@ -8,7 +8,7 @@
 
 #include "bench/lab/problems/motion.h"
 #include "bench/lab/report/race.h"
-#include "server/room/frame_encoder.h"
+#include "server/frames/frame_encoder.h"
 #include "shared/core/random.h"
 #include "shared/physics/attitude.h"
 #include "shared/physics/world.h"

@@ -1,7 +1,10 @@
 #include "server/commands/fork.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "shared/core/joined.h"
@@ -85,6 +88,18 @@ std::string on_trust(const replay::Playback& playback, std::size_t inputs) {
                  inputs == 1 ? " waiting input" : " waiting inputs"});
 }
 
+/// Inputs are counted anew from here on, or who sent the last one there is a number for is never heard again:
+/// those that wait come first.
+match::MatchState counted_anew(match::MatchState state) {
+  std::map<match::PlayerId, std::uint32_t> next;
+  for (match::AppliedInput& input : state.waiting) input.seq = next[input.player]++;
+  for (match::PlayerSeq& player : state.players) {
+    const auto waiting = next.find(player.player);
+    player.last_seq = waiting == next.end() ? std::nullopt : std::optional(waiting->second - 1);
+  }
+  return state;
+}
+
 }  // namespace
 
 core::Expected<Start> open_fork(const ForkPoint& point) {
@@ -102,7 +117,7 @@ core::Expected<Start> open_fork(const ForkPoint& point) {
                       "take the tick after it");
   Start start;
   start.map = (*archive)->map();
-  start.match = match::Match::restore(start.map, (*playback)->match().settings(), state);
+  start.match = match::Match::restore(start.map, (*playback)->match().settings(), counted_anew(state));
   start.map_file =
       replay::map_file_of((*archive)->header(), {point.recording.parent_path(), point.maps}).string();
   start.unclaimed = unclaimed_seats(*start.match);

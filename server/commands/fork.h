@@ -13,6 +13,7 @@ struct ForkPoint {
   std::filesystem::path recording;
   std::uint64_t tick = 0;
   std::filesystem::path maps{};  ///< where its map is, if it is only named; empty: beside the recording
+  bool adopts_by_name = false;   ///< who joins under a recorded name takes that louse over
 };
 
 /// The match at that tick, proven up to there since the keyframe before it, which is taken on trust. Inputs

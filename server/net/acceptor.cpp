@@ -5,6 +5,7 @@
 #include <boost/asio/bind_executor.hpp>
 #include <boost/asio/post.hpp>
 
+#include <chrono>
 #include <utility>
 
 #include "server/net/tcp_wire.h"
@@ -35,17 +36,17 @@ core::Error cannot_listen(const std::string& where, const error_code& error) {
 
 }  // namespace
 
-Acceptor::Acceptor(asio::io_context& io, const SessionEnvironment& environment)
-    : io_(io),
+Acceptor::Acceptor(const Lanes& lanes, const SessionEnvironment& environment)
+    : lanes_(lanes),
       environment_(environment),
-      strand_(asio::make_strand(io)),
+      strand_(asio::make_strand(lanes.io())),
       acceptor_(strand_),
       pause_(strand_),
-      addresses_(environment.limits.per_address) {}
+      addresses_(environment.limits) {}
 
 core::Expected<tcp::endpoint> Acceptor::open(const ListenAddress& address) {
   error_code error;
-  tcp::resolver resolver(io_);
+  tcp::resolver resolver(lanes_.io());
   const auto found =
       resolver.resolve(address.host, std::to_string(address.port), tcp::resolver::passive, error);
   if (error) return tl::unexpected(cannot_listen(to_text(address), error));
@@ -64,7 +65,7 @@ void Acceptor::start() {
 }
 
 void Acceptor::accept() {
-  acceptor_.async_accept(asio::make_strand(io_), [this](const error_code& error, tcp::socket socket) {
+  acceptor_.async_accept(lanes_[next_lane()], [this](const error_code& error, tcp::socket socket) {
     on_accept(error, std::move(socket));
   });
 }
@@ -94,29 +95,37 @@ void Acceptor::open_session(tcp::socket socket) {
   const tcp::endpoint remote = socket.remote_endpoint(error);
   if (error) return;  // gone before it was seen
   const std::string address = ConnectionLimits::key(remote.address());
-  const ConnectionLimits::Admission admission = addresses_.admit(address);
+  const Time now = environment_.timekeeper.now();
+  const ConnectionLimits::Admission admission = addresses_.admit(address, now);
   if (admission == ConnectionLimits::Admission::kDrop) return;
+  const auto limits = environment_.limits.now();
+  const std::shared_ptr<AddressAccount>& account = addresses_.account(address);
   auto wire = std::make_unique<TcpWire>(std::move(socket));
-  error = wire->set_options();
-  if (error)
+  error = wire->set_options(std::chrono::seconds(limits->vacant_s));
+  if (error && account->take_log_line(now))
     environment_.log->warn(fmt::format("socket options of {}: {}", to_text(remote), error.message()));
 
+  const std::size_t lane = next_lane();
   const SessionId id = next_id_++;
-  auto session = std::make_shared<Session>(id, std::move(wire), environment_);
+  auto session = std::make_shared<Session>(id, std::move(wire), lanes_, lane, account, environment_);
   sessions_.emplace(id, session);
   auto closed = [this, id, address] { asio::post(strand_, [this, id, address] { on_closed(id, address); }); };
   environment_.log->debug(fmt::format("session {:016x}: from {}", id, to_text(remote)));
   if (admission == ConnectionLimits::Admission::kWelcome) return session->start(std::move(closed));
-  session->start_refused({std::string(protocol::code::kTooManyConnections),
-                          "your address has " + std::to_string(environment_.limits.per_address) +
-                              " connections already; close one first",
-                          true,
-                          {}},
-                         std::move(closed));
+  const bool is_address = admission == ConnectionLimits::Admission::kAddressFull;
+  session->start_refused(
+      {std::string(protocol::code::kTooManyConnections),
+       is_address ? "your address has " + std::to_string(limits->per_address) +
+                        " connections already; close one first"
+                  : "the server has " + std::to_string(limits->max_connections) +
+                        " connections, the last of them for addresses that have none; try again later",
+       true,
+       {}},
+      std::move(closed));
 }
 
 void Acceptor::on_closed(SessionId id, const std::string& address) {
-  addresses_.release(address);
+  addresses_.release(address, environment_.timekeeper.now());
   sessions_.erase(id);
   if (stopped_ && sessions_.empty()) std::exchange(stopped_, nullptr)();
 }

@@ -1,12 +1,12 @@
 // Opens the port and turns connections into sessions; keeps them until they are closed.
 #pragma once
 
-#include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
 #include <boost/system/error_code.hpp>
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -21,7 +21,8 @@ namespace woodlouse::server {
 
 class Acceptor {
  public:
-  Acceptor(boost::asio::io_context& io, const SessionEnvironment& environment);
+  /// All outlive it.
+  Acceptor(const Lanes& lanes, const SessionEnvironment& environment);
 
   /// Listens. Before the threads run.
   core::Expected<boost::asio::ip::tcp::endpoint> open(const ListenAddress& address);
@@ -37,10 +38,11 @@ class Acceptor {
   void accept();
   void on_accept(const boost::system::error_code& error, boost::asio::ip::tcp::socket socket);
   void open_session(boost::asio::ip::tcp::socket socket);
+  [[nodiscard]] std::size_t next_lane() const { return static_cast<std::size_t>(next_id_ % lanes_.size()); }
   void on_closed(SessionId id, const std::string& address);
   void pause();
 
-  boost::asio::io_context& io_;
+  const Lanes& lanes_;
   const SessionEnvironment& environment_;
   Strand strand_;
   boost::asio::ip::tcp::acceptor acceptor_;

@@ -3,21 +3,56 @@
 #include <boost/asio/ip/network_v6.hpp>
 
 #include <cassert>
+#include <utility>
 
 namespace woodlouse::server {
 
 namespace ip = boost::asio::ip;
 
-ConnectionLimits::Admission ConnectionLimits::admit(const std::string& key) {
-  std::uint32_t& count = counts_[key];
-  if (count >= per_address_ + kCourtesy) return Admission::kDrop;
-  return ++count > per_address_ ? Admission::kRefuse : Admission::kWelcome;
+ConnectionLimits::Admission ConnectionLimits::admit(const std::string& key, Time now) {
+  forget_some(now);
+  const auto limits = limits_.now();
+  const auto found = addresses_.find(key);
+  const std::uint32_t own = found == addresses_.end() ? 0 : found->second.connections;
+  const std::uint32_t reserved = own > 0 ? limits->max_connections / kReserve : 0;
+  Admission admission = Admission::kWelcome;
+  if (own >= limits->per_address) admission = Admission::kAddressFull;
+  if (connections_ >= limits->max_connections - reserved) admission = Admission::kServerFull;
+  if (own >= limits->per_address + kCourtesy || connections_ >= limits->max_connections + kCourtesy)
+    return Admission::kDrop;
+  Address& address = addresses_[key];
+  if (address.account == nullptr)
+    address.account = std::make_shared<AddressAccount>(next_id_++, key, *limits, now);
+  ++address.connections;
+  ++connections_;
+  return admission;
 }
 
-void ConnectionLimits::release(const std::string& key) {
-  const auto found = counts_.find(key);
-  assert(found != counts_.end());
-  if (--found->second == 0) counts_.erase(found);
+void ConnectionLimits::release(const std::string& key, Time now) {
+  const auto found = addresses_.find(key);
+  assert(found != addresses_.end() && found->second.connections > 0 && connections_ > 0);
+  --connections_;
+  if (--found->second.connections > 0) return;
+  if (!std::exchange(found->second.is_leaving, true)) leaving_.push_back(key);
+  forget_some(now);
+}
+
+/// Two for each that comes: those that left are soon all looked at.
+void ConnectionLimits::forget_some(Time now) {
+  for (int k = 0; k < 2 && !leaving_.empty(); ++k) {
+    const std::string key = std::move(leaving_.front());
+    leaving_.pop_front();
+    const auto found = addresses_.find(key);
+    assert(found != addresses_.end());
+    found->second.is_leaving = false;
+    if (found->second.connections > 0) continue;
+    if (found->second.account->is_at_rest(now)) {
+      addresses_.erase(found);
+    } else {
+      found->second.is_leaving = true;
+      leaving_.push_back(key);
+    }
+  }
 }
 
 std::string ConnectionLimits::key(const ip::address& address) {

@@ -1,33 +1,57 @@
-// How many connections each address has. An IPv6 client owns a /64, so that is what counts as its address.
-// Pure. One owner, no locking.
+// How many connections there are, and of which address. An IPv6 client owns a /64, so that is what counts as
+// its address. Pure. One owner, no locking.
 #pragma once
 
 #include <boost/asio/ip/address.hpp>
 
 #include <cstdint>
+#include <deque>
 #include <map>
+#include <memory>
 #include <string>
+
+#include "server/net/address_account.h"
+#include "server/timing/live_limits.h"
 
 namespace woodlouse::server {
 
 class ConnectionLimits {
  public:
-  /// Past the limit so many more are told why before they are turned away; further ones are just closed.
+  /// Past a limit so many more are told why before they are turned away; further ones are just closed.
   static constexpr std::uint32_t kCourtesy = 16;
+  /// One connection in so many is for addresses that have none: a few can't keep out everybody else.
+  static constexpr std::uint32_t kReserve = 20;
 
-  explicit ConnectionLimits(std::uint32_t per_address) : per_address_(per_address) {}
+  /// limits outlives it.
+  explicit ConnectionLimits(const LiveLimits& limits) : limits_(limits) {}
 
-  enum class Admission { kWelcome, kRefuse, kDrop };
-  /// A connection of that address: kWelcome and kRefuse count it until release().
-  Admission admit(const std::string& key);
-  void release(const std::string& key);
+  enum class Admission { kWelcome, kAddressFull, kServerFull, kDrop };
+  /// A connection of that address: all but kDrop count it until release().
+  Admission admit(const std::string& key, Time now);
+  void release(const std::string& key, Time now);
+  /// REQUIRES that it was admitted and not released. It outlives the address's connections while there is
+  /// something to remember: who comes back finds it as he left it.
+  [[nodiscard]] const std::shared_ptr<AddressAccount>& account(const std::string& key) const {
+    return addresses_.at(key).account;
+  }
+  [[nodiscard]] std::size_t addresses() const { return addresses_.size(); }
 
   /// What connections are counted by: the IPv4 address (also a mapped one), or the IPv6 network.
   static std::string key(const boost::asio::ip::address& address);
 
  private:
-  std::uint32_t per_address_;
-  std::map<std::string, std::uint32_t> counts_;
+  struct Address {
+    std::uint32_t connections = 0;
+    std::shared_ptr<AddressAccount> account;
+    bool is_leaving = false;  ///< stands in leaving_
+  };
+  void forget_some(Time now);
+
+  const LiveLimits& limits_;
+  std::map<std::string, Address> addresses_;
+  std::deque<std::string> leaving_;  ///< without a connection, to be forgotten once they are at rest
+  std::uint32_t connections_ = 0;
+  AddressId next_id_ = 1;
 };
 
 }  // namespace woodlouse::server

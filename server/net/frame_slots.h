@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "server/room/frame.h"
+#include "server/frames/frame.h"
 
 namespace woodlouse::server {
 

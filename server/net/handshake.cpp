@@ -1,11 +1,14 @@
 #include "server/net/handshake.h"
 
+#include <cassert>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
+#include "shared/core/stable_hash.h"
+#include "shared/match/match.h"
 #include "shared/protocol/codes.h"
 
 namespace woodlouse::server {
@@ -43,22 +46,24 @@ std::optional<ErrorMessage> judge_other(Handshake::State state) {
 
 }  // namespace
 
-std::optional<ErrorMessage> Handshake::judge(const protocol::ClientMessage& message) {
+std::optional<ErrorMessage> Handshake::why_not(const protocol::ClientMessage& message) {
+  assert(state_ != State::kLeaving);
   strikes_ = 0;
   return std::visit(
-      [this](const auto& m) -> std::optional<ErrorMessage> {
+      [this](const auto& m) {
         using Message = std::decay_t<decltype(m)>;
-        if constexpr (std::is_same_v<Message, protocol::Join>) {
-          if (auto refusal = judge_join(state_)) return refusal;
-          state_ = m.role == protocol::Role::kSpectator ? State::kSpectating : State::kPlaying;
-          return std::nullopt;
-        } else {
-          if (auto refusal = judge_other<Message>(state_)) return refusal;
-          if constexpr (std::is_same_v<Message, protocol::Leave>) state_ = State::kLeaving;
-          return std::nullopt;
-        }
+        if constexpr (std::is_same_v<Message, protocol::Join>)
+          return judge_join(state_);
+        else
+          return judge_other<Message>(state_);
       },
       message);
+}
+
+void Handshake::take(const protocol::ClientMessage& message) {
+  if (const auto* join = std::get_if<protocol::Join>(&message))
+    state_ = join->role == protocol::Role::kSpectator ? State::kSpectating : State::kPlaying;
+  if (std::holds_alternative<protocol::Leave>(message)) state_ = State::kLeaving;
 }
 
 ErrorMessage Handshake::judge(const protocol::DecodeError& failure) {
@@ -67,6 +72,24 @@ ErrorMessage Handshake::judge(const protocol::DecodeError& failure) {
   ErrorMessage answer{failure.code, failure.text, hopeless, {}};
   if (strikes_ >= kMaxStrikes) answer.text += "; " + std::to_string(kMaxStrikes) + " such lines running";
   return answer;
+}
+
+protocol::Hello hello_of(std::uint64_t session, std::string_view server, std::vector<std::string> rooms,
+                         const protocol::Limits& limits) {
+  protocol::Hello hello;
+  hello.behavior = match::kBehavior;
+  hello.server = server;
+  hello.session = core::to_hex(session);
+  hello.rooms = std::move(rooms);
+  hello.features = {"quantized", "exact", "fields", "delta", "get_map", "resume"};
+  hello.limits = limits;
+  return hello;
+}
+
+protocol::ErrorMessage unknown_room(const std::string& asked, const std::vector<std::string>& rooms) {
+  std::string names;
+  for (const std::string& name : rooms) names += ' ' + name;
+  return error(code::kUnknownRoom, "join.room: no room \"" + asked + "\"; there are:" + names);
 }
 
 }  // namespace woodlouse::server

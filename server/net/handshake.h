@@ -7,6 +7,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "shared/protocol/codec.h"
 #include "shared/protocol/messages.h"
@@ -20,9 +23,10 @@ class Handshake {
   /// How many lines running may be no JSON at all before it is hopeless.
   static constexpr int kMaxStrikes = 3;
 
-  /// A message has come. Legal: nothing, and the state moves on. Else the error to answer. REQUIRES that it
-  /// is not leaving.
-  std::optional<protocol::ErrorMessage> judge(const protocol::ClientMessage& message);
+  /// A message has come. Legal: nothing. Else the error to answer. REQUIRES that it is not leaving.
+  std::optional<protocol::ErrorMessage> why_not(const protocol::ClientMessage& message);
+  /// A legal message is taken: the state moves on.
+  void take(const protocol::ClientMessage& message);
   /// A line could not be read. The error to answer; fatal when it was the kMaxStrikes-th running that is no
   /// JSON, or a join of another protocol version.
   protocol::ErrorMessage judge(const protocol::DecodeError& error);
@@ -35,5 +39,11 @@ class Handshake {
   State state_ = State::kGreeting;
   int strikes_ = 0;
 };
+
+/// What a session is told first of all. session: its number, for logs.
+protocol::Hello hello_of(std::uint64_t session, std::string_view server, std::vector<std::string> rooms,
+                         const protocol::Limits& limits);
+/// The answer to a join of a room that is not among those.
+protocol::ErrorMessage unknown_room(const std::string& asked, const std::vector<std::string>& rooms);
 
 }  // namespace woodlouse::server

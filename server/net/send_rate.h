@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "server/room/clock.h"
-#include "server/room/frame.h"
+#include "server/frames/frame.h"
+#include "server/timing/clock.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::server {

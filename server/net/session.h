@@ -12,25 +12,33 @@
 #pragma once
 
 #include <spdlog/logger.h>
+#include <boost/asio/post.hpp>
 #include <boost/system/error_code.hpp>
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
+#include "server/net/allowance.h"
 #include "server/net/handshake.h"
-#include "server/net/outbox.h"
-#include "server/net/rate_limiter.h"
+#include "server/net/pulse.h"
 #include "server/net/send_rate.h"
+#include "server/net/sender.h"
 #include "server/net/wire.h"
 #include "server/room/directory.h"
 #include "server/room/door.h"
 #include "server/room/figures.h"
+#include "server/room/lanes.h"
 #include "server/room/subscriber.h"
-#include "server/room/timekeeper.h"
+#include "server/timing/live_limits.h"
+#include "server/timing/timekeeper.h"
+#include "shared/protocol/codec.h"
 #include "shared/protocol/framing.h"
 #include "shared/protocol/messages.h"
 
@@ -39,32 +47,32 @@ namespace woodlouse::server {
 /// What all sessions share; outlives them.
 struct SessionEnvironment {
   const Directory& directory;
-  const protocol::Limits& limits;
+  const LiveLimits& limits;
   TrafficMetrics& traffic;
   Timekeeper& timekeeper;
   std::string_view server_name;  ///< with its version
   std::shared_ptr<spdlog::logger> log;
 };
 
-class Session final : public Subscriber, public std::enable_shared_from_this<Session> {
+class Session final : public Subscriber, private Sender::Owner, public std::enable_shared_from_this<Session> {
  public:
-  /// What a line weighs against the rate that goes out to a whole room, or brings a long answer.
-  static constexpr double kBroadcastCost = 10.0;
   /// From a fatal error on, or once a goodbye is written.
   static constexpr Duration kLinger = std::chrono::seconds(1);
   static constexpr Duration kShutdownLinger = std::chrono::milliseconds(300);
 
-  /// The wire's executor is the session's: what is not said to be of any thread runs there alone.
-  Session(SessionId id, std::unique_ptr<Wire> wire, const SessionEnvironment& environment);
+  /// The wire is of that lane of the server's: what is not said to be of any thread runs there alone.
+  Session(SessionId id, std::unique_ptr<Wire> wire, const Lanes& lanes, std::size_t lane,
+          std::shared_ptr<AddressAccount> address, const SessionEnvironment& environment);
 
   // One of the two, once; any thread.
 
-  /// Says hello and begins to read. closed: called once, on the session's executor, when the wire is closed.
+  /// Says hello and begins to read. closed: called once, on the session's lane, when the wire is closed.
   void start(std::function<void()> closed);
   /// Instead of start(): an error and a bye, no hello.
   void start_refused(protocol::ErrorMessage why, std::function<void()> closed);
 
   // Subscriber: any thread.
+  [[nodiscard]] std::size_t lane() const override { return lane_number_; }
   void deliver(Line line) override;
   void answer(protocol::ServerMessage message) override;
   void show(const Frame& frame) override;
@@ -72,10 +80,14 @@ class Session final : public Subscriber, public std::enable_shared_from_this<Ses
   void deliver_map(Line line) override;
   void refuse_join(protocol::ErrorMessage error) override;
   void welcome(protocol::Welcome welcome, std::uint32_t divisor) override;
-  void let_go() override;
+  void let_go() override {
+    boost::asio::post(lane_, [self = shared_from_this()] { self->say_goodbye(); });
+  }
   void end(protocol::Bye bye) override;
 
  private:
+  static constexpr std::size_t kKeptLine = 1024;  ///< bytes of an answer whose memory is used again
+
   enum class State {
     kOpen,
     kSayingBye,  ///< the last line waits in the outbox or is being written
@@ -86,51 +98,79 @@ class Session final : public Subscriber, public std::enable_shared_from_this<Ses
   void read();
   void on_read(const boost::system::error_code& error, std::size_t size);
   void on_input_ended();
-  [[nodiscard]] bool is_listening() const;
+  /// What comes after a `leave` or while a bye is said is thrown away.
+  [[nodiscard]] bool is_listening() const {
+    return state_ == State::kOpen && handshake_.state() != Handshake::State::kLeaving;
+  }
   void on_line(const protocol::LineFramer::Line& line, Time now);
   void on_message(protocol::ClientMessage message, Time now);
-  bool admit_line(Time now, double cost);
+  void join(protocol::Join join, Time now);
+  void ask(protocol::ClientMessage question, Time now);
+  void pass_on_due(Time now) {
+    for (protocol::ClientMessage& question : allowance_.due(now))
+      door_->submit(id_, std::move(question), now);
+  }
 
-  void say(const protocol::ServerMessage& message);
+  template <typename Call>
+  void on_lane(Call call);
+  void say(const protocol::ServerMessage& message) {
+    push(answers_.line([&](std::string& text) { protocol::append(text, message); }));
+  }
   void push(Line line);
-  void write();
-  void on_written(const boost::system::error_code& error, std::size_t size);
+  void queue(Line line);
+  [[nodiscard]] std::shared_ptr<void> keep() override { return shared_from_this(); }
+  void on_sent() override { pulse_.sent(now()); }
+  void on_all_sent() override;
+  void on_broken() override { close(); }
   void tell_pace(SendRate::Change change);
 
-  void fail(std::string_view code, std::string text);
+  void fail(std::string_view code, std::string text) {
+    fail(protocol::ErrorMessage{std::string(code), std::move(text), true, {}});
+  }
   void fail(const protocol::ErrorMessage& error);
   void say_goodbye();
   void say_bye(const std::optional<protocol::ErrorMessage>& error, const protocol::Bye& bye,
                Outbox::Replaceable replaceable, Duration linger);
-  void leave_room();
+  void leave_room() {
+    if (!door_) return;
+    std::exchange(door_, nullptr)->leave(id_, parting_);
+    if (!is_end_told_) log(spdlog::level::info, parting_ == Parting::kLeft ? "left" : "connection ended");
+  }
   void close();
 
   [[nodiscard]] Time now() const { return environment_.timekeeper.now(); }
   void watch(Time until);
   void on_watch();
+  void check_pulse(Time now);
+  void log(spdlog::level::level_enum level, const std::string& what);
 
   SessionId id_;
   std::unique_ptr<Wire> wire_;
+  Lane lane_;
+  std::size_t lane_number_;
   const SessionEnvironment& environment_;
+  std::shared_ptr<const protocol::Limits> limits_;
   std::function<void()> closed_;
 
   State state_ = State::kOpen;
   Handshake handshake_;
   std::shared_ptr<Door> door_;  ///< null before the join
-  std::array<char, 16384> incoming_{};
+  std::array<char, 2048> incoming_{};
   protocol::LineFramer framer_;
   bool input_ended_ = false;  ///< the client has shut its sending side: nothing is left to read
-  RateLimiter limiter_;
+  Parting parting_ = Parting::kLost;
+  Allowance allowance_;
 
-  LinePool answers_;
-  Outbox outbox_;
-  Outbox::Batch writing_;  ///< in flight; empty: none
+  LinePool answers_{kKeptLine};
+  Sender sender_;
   SendRate rate_;
   std::uint32_t divisor_ = 1;
 
   std::unique_ptr<Alarm> watch_;
+  Pulse pulse_;
+  std::uint64_t pings_ = 0;
+  bool is_end_told_ = false;  ///< in the log
   Time handshake_until_;
-  Time active_;  ///< the last line read or write finished
   Time linger_until_{};
 };
 

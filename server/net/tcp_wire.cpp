@@ -6,6 +6,9 @@
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 
+#include <algorithm>
+#include <cassert>
+
 namespace woodlouse::server {
 namespace {
 
@@ -16,13 +19,16 @@ using boost::system::error_code;
 // what it is sent is fresh; bytes on their way do not count, so that distance costs no speed.
 using NotSentLowWater = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
 constexpr int kUnsentBytes = 64 * 1024;
+using UserTimeout = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_USER_TIMEOUT>;
 
 }  // namespace
 
-error_code TcpWire::set_options() {
+error_code TcpWire::set_options(std::chrono::milliseconds patience) {
   error_code error;
-  socket_.set_option(asio::ip::tcp::no_delay(true), error);
+  socket_.non_blocking(true, error);
+  if (!error) socket_.set_option(asio::ip::tcp::no_delay(true), error);
   if (!error) socket_.set_option(NotSentLowWater(kUnsentBytes), error);
+  if (!error) socket_.set_option(UserTimeout(static_cast<int>(patience.count())), error);
   return error;
 }
 
@@ -30,9 +36,26 @@ void TcpWire::read_some(std::span<char> into, Handler handler) {
   socket_.async_read_some(asio::buffer(into.data(), into.size()), std::move(handler));
 }
 
-void TcpWire::write(std::span<const Line> lines, Handler handler) {
+void TcpWire::gather(std::span<const Line> lines, std::size_t skipped) {
   buffers_.clear();
-  for (const Line& line : lines) buffers_.push_back(asio::buffer(*line));
+  for (const Line& line : lines) {
+    const std::size_t gone = std::min(skipped, line->size());
+    skipped -= gone;
+    if (gone < line->size()) buffers_.push_back(asio::buffer(*line) + gone);
+  }
+  assert(skipped == 0);
+}
+
+std::size_t TcpWire::write_now(std::span<const Line> lines) {
+  if (!socket_.non_blocking()) return 0;
+  gather(lines, 0);
+  error_code error;
+  const std::size_t written = socket_.write_some(std::span<const asio::const_buffer>(buffers_), error);
+  return error ? 0 : written;
+}
+
+void TcpWire::write(std::span<const Line> lines, std::size_t skipped, Handler handler) {
+  gather(lines, skipped);
   asio::async_write(socket_, std::span<const asio::const_buffer>(buffers_), std::move(handler));
 }
 

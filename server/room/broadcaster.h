@@ -1,14 +1,11 @@
-// Hands a room's frames and events to its members, on a strand of its own, a slice at a time: a big broadcast
-// delays neither the tick nor other rooms.
+// Hands a room's frames and events to those of its members that live on one lane, on that lane, a slice at a
+// time: a big broadcast delays neither the tick nor other rooms.
 //
 // Events wait in their order, and all that wait go out together, one text for everybody; of frames at most
 // the newest key and the newest delta wait (state is replaceable). Both take turns: however many events come,
 // no frame that is due waits for more than one hand-out of them. backlog() tells the room when events come
 // faster than they go out, so that it refuses what would make more of them.
 #pragma once
-
-#include <boost/asio/io_context.hpp>
-#include <boost/asio/strand.hpp>
 
 #include <atomic>
 #include <cstddef>
@@ -18,7 +15,8 @@
 #include <optional>
 #include <vector>
 
-#include "server/room/channels.h"
+#include "server/frames/channels.h"
+#include "server/room/lanes.h"
 #include "server/room/subscriber.h"
 
 namespace woodlouse::server {
@@ -31,7 +29,7 @@ class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
   static constexpr std::size_t kBatchBytes = 32u
                                              << 10;  ///< of events handed out together, or one of any length
 
-  explicit Broadcaster(boost::asio::io_context& io) : strand_(boost::asio::make_strand(io)) {}
+  explicit Broadcaster(const Lane& lane) : strand_(lane) {}
 
   struct Member {
     SessionId session = 0;
@@ -40,7 +38,7 @@ class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
     std::uint64_t first_event = 0;  ///< events numbered below came before it joined
   };
 
-  // Any thread; in the order called.
+  // Any thread; in the order called. A member is called on the lane.
   void add(Member member);
   void remove(SessionId session);
   void event(std::uint64_t number, Line line);
@@ -70,7 +68,7 @@ class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
   void end_job();
   void serve(const Member& member) const;
 
-  boost::asio::strand<boost::asio::io_context::executor_type> strand_;
+  Lane strand_;
   std::atomic<std::size_t> backlog_{0};
   // The strand's:
   std::vector<Member> members_;  ///< subscriber null: removed during a job

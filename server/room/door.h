@@ -2,15 +2,29 @@
 // so.
 #pragma once
 
+#include <memory>
 #include <string>
 
-#include "server/room/clock.h"
+#include "server/frames/layouts.h"
 #include "server/room/subscriber.h"
+#include "server/timing/clock.h"
 #include "shared/protocol/messages.h"
 
-#include <memory>
-
 namespace woodlouse::server {
+
+/// Who asks to be let in.
+struct Arrival {
+  SessionId session = 0;
+  std::shared_ptr<Subscriber> subscriber;
+  protocol::Join join;
+  AddressId address = 0;
+  Time at{};  ///< when its line was read
+};
+
+enum class Parting {
+  kLeft,  ///< for good
+  kLost,  ///< the connection ended: who asked for it may come back to its louse
+};
 
 /// Any thread; calls of one thread take effect in their order. Every call returns at once.
 class Door {
@@ -21,11 +35,13 @@ class Door {
   virtual ~Door() = default;
 
   /// Answered by welcome() and frames, or refuse_join().
-  virtual void join(SessionId session, std::shared_ptr<Subscriber> subscriber, protocol::Join join) = 0;
+  virtual void join(Arrival arrival) = 0;
   /// A message of a session that asked to join. arrived: when its line was read.
   virtual void submit(SessionId session, protocol::ClientMessage message, Time arrived) = 0;
-  /// The session is gone: its thrust ends and its louse goes.
-  virtual void leave(SessionId session) = 0;
+  /// The session says nothing any more, though it is connected: its thrust ends.
+  virtual void vacate(SessionId session) = 0;
+  /// The session is gone: its thrust ends, and its louse goes or waits.
+  virtual void leave(SessionId session, Parting parting) = 0;
 
   /// Never changes.
   [[nodiscard]] virtual const std::string& name() const = 0;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "server/room/frame.h"
+#include "server/frames/frame.h"
 #include "server/room/seats.h"
 #include "shared/protocol/messages.h"
 

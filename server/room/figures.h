@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "server/room/clock.h"
+#include "server/timing/clock.h"
 
 namespace woodlouse::server {
 

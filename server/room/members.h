@@ -3,7 +3,6 @@
 #pragma once
 
 #include <spdlog/logger.h>
-#include <boost/asio/io_context.hpp>
 
 #include <atomic>
 #include <cstdint>
@@ -14,94 +13,107 @@
 #include <string>
 #include <vector>
 
-#include "server/room/broadcaster.h"
-#include "server/room/channels.h"
-#include "server/room/clock.h"
+#include "server/frames/layouts.h"
+#include "server/frames/snapshot.h"
+#include "server/room/door.h"
 #include "server/room/events.h"
-#include "server/room/pending_acks.h"
+#include "server/room/house_crew.h"
+#include "server/room/input_desk.h"
+#include "server/room/lanes.h"
+#include "server/room/outlet.h"
+#include "server/room/places.h"
+#include "server/room/room_settings.h"
 #include "server/room/seats.h"
 #include "server/room/tick_watcher.h"
+#include "server/timing/budgets.h"
+#include "server/timing/clock.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::server {
 
-struct RoomSettings {
-  std::string name;
-  std::uint32_t state_hz = 20;              ///< divides the match's tick_hz
-  std::uint32_t bots = 0;                   ///< of the house
-  bool bots_alone_play = false;             ///< the house's bots keep a room awake in which nobody is
-  std::optional<std::uint64_t> tick_limit;  ///< ends after so many
-  std::uint32_t per_room = 1024;            ///< sessions at most, the house's bots apart
-};
-
 using Watchers = std::vector<std::unique_ptr<TickWatcher>>;
 
 class Members {
  public:
-  /// io: where events and frames are handed out. settings, game and watchers outlive it.
-  Members(boost::asio::io_context& io, const RoomSettings& settings, match::Match& game,
-          const Watchers& watchers, std::vector<Seat> unclaimed, std::shared_ptr<spdlog::logger> log);
+  /// Of one address: more than a router's hiccup takes of a household.
+  static constexpr std::size_t kMostVacantOfAddress = 8;
+
+  /// lanes: where events and frames are handed out. settings, game and watchers outlive it.
+  Members(const Lanes& lanes, const RoomSettings& settings, match::Match& game, const Watchers& watchers,
+          std::vector<Seat> unclaimed, Time now, std::shared_ptr<spdlog::logger> log);
 
   void add_house_bots();  ///< once, before the first tick
-  /// The house's bots look and push, each ten times a second.
-  void steer_house_bots();
+  void steer_house_bots() { crew_.steer(game_); }
 
-  void admit(SessionId session, std::shared_ptr<Subscriber> subscriber, const protocol::Join& join);
+  void admit(Arrival arrival);
   static void refuse_closed(Subscriber& subscriber);
-  void remove(SessionId session);
+  void vacate(SessionId session);
+  void remove(SessionId session, Parting parting);
+  /// The lice go whose players have not come back in time.
+  void give_up_vacant();
   void take(SessionId session, const protocol::ClientMessage& message, Time arrived);
   void announce(const protocol::Notice& notice);
   /// Says bye to every session; they are members no more.
   void dismiss(const protocol::Bye& bye);
+  /// settings.limits are others now.
+  void renew_budgets(Time now) { budgets_ = Budgets(room_rates(settings_.limits), now); }
 
   /// How long before step `tick`, begun at `begun`, its inputs came; then answer() tells them.
-  std::span<const InputMargin> margins(std::uint64_t tick, Time begun);
+  std::span<const InputMargin> margins(std::uint64_t tick, Time begun) {
+    return inputs_.margins(tick, begun);
+  }
   void answer(std::uint64_t tick, Time begun);
   /// The picture of every layout in use, where one is due.
   void send_frames();
 
-  /// No session is here, and nothing goes on that somebody began.
+  /// No session is here, nobody may come back, and nothing goes on that somebody began.
   [[nodiscard]] bool is_deserted();
 
   /// Any thread.
   [[nodiscard]] protocol::RoomEntry census() const;
-  [[nodiscard]] std::uint64_t frames_encoded() const { return channels_.encoded(); }
+  [[nodiscard]] std::uint64_t frames_encoded() const { return outlet_->frames_encoded(); }
 
  private:
-  [[nodiscard]] std::optional<protocol::ErrorMessage> why_not() const;
+  [[nodiscard]] std::optional<protocol::ErrorMessage> why_not(const Arrival& arrival);
+  bool make_room(protocol::Role role, AddressId address);
+  bool welcome_back(const Arrival& arrival);
+  void seat(Seat seat, const Arrival& arrival, bool is_back);
   void give_louse(Seat& seat);
-  [[nodiscard]] protocol::Welcome welcome_for(const Seat& seat, std::uint32_t state_hz) const;
+  void hold(Seat seat);
+  void end(const Seat& seat);
+  void unsubscribe(const SessionOccupant& occupant);
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Input& input, Time arrived);
-  void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Chat& chat);
-  void on_message(Seat& seat, const SessionOccupant& occupant, const protocol::Leave&);
-  void on_message(Seat& seat, SessionOccupant& occupant, const protocol::GetMap&);
-  void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Resync&);
-  void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Respawn&);
-  void drop_input(SessionOccupant& occupant, const protocol::Input& input, const match::Filed& filed);
-  [[nodiscard]] bool refuse_when_busy(SessionOccupant& occupant) const;
-  void send(const NumberedLine& event) { broadcaster_->event(event.number, event.line); }
+  void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Chat& chat, Time arrived);
+  void on_message(Seat& seat, const SessionOccupant& occupant, const protocol::Leave&, Time);
+  void on_message(Seat& seat, SessionOccupant& occupant, const protocol::GetMap&, Time);
+  void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Resync&, Time);
+  void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Respawn&, Time arrived);
+  [[nodiscard]] bool refuse_when_busy(SessionOccupant& occupant, Spending what, Time arrived);
+  void send(const NumberedLine& event) { outlet_->event(event.number, event.line); }
   void count(protocol::Role role, std::int32_t change);
   [[nodiscard]] Scene scene() const;
+  [[nodiscard]] SharedSnapshot snapshot();
   [[nodiscard]] std::uint64_t ticks_a_frame() const;
 
   const RoomSettings& settings_;
   match::Match& game_;
   const Watchers& watchers_;
   std::shared_ptr<spdlog::logger> log_;
-  std::shared_ptr<Broadcaster> broadcaster_;
+  std::shared_ptr<Outlet> outlet_;
   Line map_line_;
   std::atomic<std::uint32_t> players_{0}, bots_{0}, spectators_{0};
   Seats seats_;
-  PendingAcks acks_;
-  // Of the step that margins() was asked for:
-  std::vector<PendingAck> due_;
-  std::vector<InputMargin> margins_;
+  InputDesk inputs_;
+  Places places_;
+  Budgets budgets_;
+  Layouts layouts_;
   std::multimap<std::uint64_t, SessionId>
       leaving_;  ///< by the tick from which on all their inputs are acknowledged
-  Channels channels_;
+  SharedPool<Snapshot> snapshots_;
+  SharedSnapshot snapshot_;  ///< of its tick, for all who ask within that
   Events events_;
-  std::vector<std::vector<Seat*>> bots_by_turn_;  ///< the house's, by the tick of a period at which they look
+  HouseCrew crew_;
 };
 
 }  // namespace woodlouse::server

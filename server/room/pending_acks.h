@@ -2,13 +2,14 @@
 // Pure. The room's strand owns it; bounded by the match's InputQueue::kMaxPending per player.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <utility>
 #include <vector>
 
-#include "server/room/clock.h"
 #include "server/room/subscriber.h"
+#include "server/timing/clock.h"
 #include "shared/match/match.h"
 
 namespace woodlouse::server {
@@ -16,7 +17,8 @@ namespace woodlouse::server {
 struct PendingAck {
   SessionId session = 0;
   match::PlayerId player = 0;
-  std::uint32_t seq = 0;
+  std::uint32_t seq = 0;    ///< as its player counts
+  std::uint32_t filed = 0;  ///< as the match does
   Time arrived{};
   bool late = false;
   bool clamped = false;
@@ -29,6 +31,17 @@ class PendingAcks {
     auto at = pending_.lower_bound(tick);
     if (at == pending_.end() || at->first != tick) at = pending_.insert(at, empty_list(tick));
     at->second.push_back(ack);
+  }
+
+  /// The one of that tick and player that was filed under that number; null: there is none.
+  PendingAck* find(std::uint64_t tick, match::PlayerId player, std::uint32_t filed) {
+    const auto at = pending_.find(tick);
+    if (at == pending_.end()) return nullptr;
+    // From the end: it is asked for by who comes next.
+    const auto found = std::find_if(at->second.rbegin(), at->second.rend(), [&](const PendingAck& ack) {
+      return ack.player == player && ack.filed == filed;
+    });
+    return found == at->second.rend() ? nullptr : &*found;
   }
 
   /// Moves those whose step is `tick` to `out` (cleared first).

@@ -24,15 +24,18 @@ class Room::RoomDoor final : public Door {
   explicit RoomDoor(const std::shared_ptr<Room>& room)
       : room_(room), name_(room->name()), map_(room->census().map) {}
 
-  void join(SessionId session, std::shared_ptr<Subscriber> subscriber, protocol::Join join) override {
-    if (const auto room = room_.lock()) return room->join(session, std::move(subscriber), std::move(join));
-    Members::refuse_closed(*subscriber);
+  void join(Arrival arrival) override {
+    if (const auto room = room_.lock()) return room->join(std::move(arrival));
+    Members::refuse_closed(*arrival.subscriber);
+  }
+  void vacate(SessionId session) override {
+    if (const auto room = room_.lock()) room->vacate(session);
   }
   void submit(SessionId session, protocol::ClientMessage message, Time arrived) override {
     if (const auto room = room_.lock()) room->submit(session, std::move(message), arrived);
   }
-  void leave(SessionId session) override {
-    if (const auto room = room_.lock()) room->leave(session);
+  void leave(SessionId session, Parting parting) override {
+    if (const auto room = room_.lock()) room->leave(session, parting);
   }
   [[nodiscard]] const std::string& name() const override { return name_; }
   [[nodiscard]] protocol::RoomEntry census() const override {
@@ -46,15 +49,15 @@ class Room::RoomDoor final : public Door {
   std::string map_;
 };
 
-std::shared_ptr<Room> Room::make(asio::io_context& ticks, asio::io_context& io, RoomSettings settings,
+std::shared_ptr<Room> Room::make(asio::io_context& ticks, const Lanes& lanes, RoomSettings settings,
                                  Start start, Watchers watchers, Timekeeper& timekeeper,
                                  std::shared_ptr<spdlog::logger> log) {
-  return std::shared_ptr<Room>(new Room(ticks, io, std::move(settings), std::move(start), std::move(watchers),
-                                        timekeeper, std::move(log)));
+  return std::shared_ptr<Room>(new Room(ticks, lanes, std::move(settings), std::move(start),
+                                        std::move(watchers), timekeeper, std::move(log)));
 }
 
-Room::Room(asio::io_context& ticks, asio::io_context& io, RoomSettings settings, Start start,
-           Watchers watchers, Timekeeper& timekeeper, std::shared_ptr<spdlog::logger> log)
+Room::Room(asio::io_context& ticks, const Lanes& lanes, RoomSettings settings, Start start, Watchers watchers,
+           Timekeeper& timekeeper, std::shared_ptr<spdlog::logger> log)
     : settings_(std::move(settings)),
       log_(std::move(log)),
       strand_(asio::make_strand(ticks)),
@@ -62,7 +65,7 @@ Room::Room(asio::io_context& ticks, asio::io_context& io, RoomSettings settings,
       alarm_(timekeeper.make_alarm(strand_)),
       game_(std::move(start.match)),
       watchers_(std::move(watchers)),
-      members_(io, settings_, *game_, watchers_, std::move(start.unclaimed), log_) {
+      members_(lanes, settings_, *game_, watchers_, std::move(start.unclaimed), timekeeper.now(), log_) {
   assert(game_ != nullptr);
 }
 
@@ -123,23 +126,74 @@ void Room::end() {
   for (const auto& stopped : std::exchange(awaiting_end_, {})) stopped();
 }
 
-void Room::join(SessionId session, std::shared_ptr<Subscriber> subscriber, protocol::Join join) {
-  asio::post(strand_, [self = shared_from_this(), this, session, subscriber = std::move(subscriber),
-                       join = std::move(join)]() mutable {
-    if (state_ == State::kStopped) return Members::refuse_closed(*subscriber);
-    members_.admit(session, std::move(subscriber), join);
-    if (state_ == State::kAsleep) wake();
+void Room::Queue::push(SessionId session, std::function<void()> job) {
+  jobs.emplace_back(session, std::move(job));
+  ++jobs_of[session];
+}
+
+std::function<void()> Room::Queue::pop() {
+  assert(!jobs.empty());
+  auto [session, job] = std::move(jobs.front());
+  jobs.pop_front();
+  const auto count = jobs_of.find(session);
+  if (--count->second == 0) jobs_of.erase(count);
+  return job;
+}
+
+/// Now, or, while a join of that session waits, behind it.
+template <typename Job>
+void Room::in_order(SessionId session, Job job) {
+  if (at_the_door_.jobs_of.empty() || !at_the_door_.jobs_of.contains(session)) return job();
+  at_the_door_.push(session, std::move(job));
+}
+
+void Room::join(Arrival arrival) {
+  assert(arrival.subscriber != nullptr);
+  asio::post(strand_, [self = shared_from_this(), this, arrival = std::move(arrival)]() mutable {
+    const SessionId session = arrival.session;
+    at_the_door_.push(session, [this, arrival = std::move(arrival)]() mutable { admit(std::move(arrival)); });
+    if (at_the_door_.jobs.size() == 1) serve_the_door();
+  });
+}
+
+void Room::serve_the_door() {
+  const Time until = timekeeper_.now() + kDoorSlice;
+  while (!at_the_door_.jobs.empty()) {
+    at_the_door_.pop()();
+    if (timekeeper_.now() < until || at_the_door_.jobs.empty()) continue;
+    return asio::post(strand_, [self = shared_from_this(), this] { serve_the_door(); });
+  }
+}
+
+void Room::admit(Arrival arrival) {
+  if (state_ == State::kStopped) return Members::refuse_closed(*arrival.subscriber);
+  members_.admit(std::move(arrival));
+  if (state_ == State::kAsleep) wake();
+}
+
+void Room::use(const protocol::Limits& limits) {
+  asio::post(strand_, [self = shared_from_this(), this, limits] {
+    settings_.limits = limits;
+    members_.renew_budgets(timekeeper_.now());
   });
 }
 
 void Room::submit(SessionId session, protocol::ClientMessage message, Time arrived) {
   asio::post(strand_, [self = shared_from_this(), this, session, message = std::move(message), arrived] {
-    members_.take(session, message, arrived);
+    in_order(session, [this, session, message, arrived] { members_.take(session, message, arrived); });
   });
 }
 
-void Room::leave(SessionId session) {
-  asio::post(strand_, [self = shared_from_this(), this, session] { members_.remove(session); });
+void Room::vacate(SessionId session) {
+  asio::post(strand_, [self = shared_from_this(), this, session] {
+    in_order(session, [this, session] { members_.vacate(session); });
+  });
+}
+
+void Room::leave(SessionId session, Parting parting) {
+  asio::post(strand_, [self = shared_from_this(), this, session, parting] {
+    in_order(session, [this, session, parting] { members_.remove(session, parting); });
+  });
 }
 
 void Room::await_tick() {
@@ -200,6 +254,7 @@ void Room::wake() {
 
 void Room::tick(Time now) {
   const std::uint64_t number = game_->tick();
+  members_.give_up_vacant();
   members_.steer_house_bots();
   const match::StepRecord& step = game_->advance();
   const std::span<const InputMargin> margins = members_.margins(number, now);

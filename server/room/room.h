@@ -1,11 +1,11 @@
 // One game: a strand, a timer on an absolute schedule, a match. Its ticks run in a context of their own, so
-// that they never queue behind the sockets' work; frames and events leave through the broadcaster.
+// that they never queue behind the sockets' work; frames and events leave through the outlet.
 //
 // A room in which nobody is stands still after kSleepAfter: no timer runs and no tick passes, until somebody
 // joins. Nothing is made up for then: the next tick is the one that was due.
 //
 // One tick: bots look, the match steps, the watchers see the step, inputs are acknowledged, every
-// tick_hz / state_hz ticks a frame is encoded and handed over.
+// tick_hz / state_hz ticks a picture of the lice is handed over.
 #pragma once
 
 #include <spdlog/logger.h>
@@ -14,20 +14,23 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "server/room/clock.h"
 #include "server/room/door.h"
 #include "server/room/figures.h"
 #include "server/room/members.h"
 #include "server/room/start.h"
-#include "server/room/tick_clock.h"
-#include "server/room/timekeeper.h"
+#include "server/timing/clock.h"
+#include "server/timing/tick_clock.h"
+#include "server/timing/timekeeper.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
 
@@ -38,12 +41,14 @@ class Room : public std::enable_shared_from_this<Room> {
  public:
   /// From the last moment on at which somebody was there, or a louse moved that is not the house's.
   static constexpr std::chrono::seconds kSleepAfter{10};
+  /// For which joins are dealt with before a tick or others may run: a crowd at the door delays none.
+  static constexpr std::chrono::milliseconds kDoorSlice{1};
 
-  /// ticks: where the room's strand lives; io: where its broadcaster lives; timekeeper: whose time its ticks
+  /// ticks: where the room's strand lives; lanes: where its members do; timekeeper: whose time its ticks
   /// keep. All outlive it.
-  static std::shared_ptr<Room> make(boost::asio::io_context& ticks, boost::asio::io_context& io,
-                                    RoomSettings settings, Start start, Watchers watchers,
-                                    Timekeeper& timekeeper, std::shared_ptr<spdlog::logger> log);
+  static std::shared_ptr<Room> make(boost::asio::io_context& ticks, const Lanes& lanes, RoomSettings settings,
+                                    Start start, Watchers watchers, Timekeeper& timekeeper,
+                                    std::shared_ptr<spdlog::logger> log);
 
   // Any thread. Calls of one thread take effect in their order.
 
@@ -54,6 +59,8 @@ class Room : public std::enable_shared_from_this<Room> {
   /// Ends the ticks, says bye to the members, finishes the watchers' work; then calls `stopped`, on the
   /// room's strand. A room that has stopped takes nobody more; whoever stops it again only hears of its end.
   void stop(const protocol::Bye& bye, const std::string& reason, std::function<void()> stopped);
+  /// From now on these hold; who is here stays.
+  void use(const protocol::Limits& limits);
   /// What sessions hold. It does not keep the room.
   [[nodiscard]] std::shared_ptr<Door> door();
 
@@ -66,13 +73,26 @@ class Room : public std::enable_shared_from_this<Room> {
  private:
   class RoomDoor;
   using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
+  /// Joins that are not dealt with yet, and what their sessions have said since, in its order.
+  struct Queue {
+    std::deque<std::pair<SessionId, std::function<void()>>> jobs;
+    std::map<SessionId, std::size_t> jobs_of;
+    void push(SessionId session, std::function<void()> job);
+    std::function<void()> pop();
+  };
 
-  Room(boost::asio::io_context& ticks, boost::asio::io_context& io, RoomSettings settings, Start start,
+  Room(boost::asio::io_context& ticks, const Lanes& lanes, RoomSettings settings, Start start,
        Watchers watchers, Timekeeper& timekeeper, std::shared_ptr<spdlog::logger> log);
 
-  void join(SessionId session, std::shared_ptr<Subscriber> subscriber, protocol::Join join);
+  void join(Arrival arrival);
+  void admit(Arrival arrival);
+  void vacate(SessionId session);
   void submit(SessionId session, protocol::ClientMessage message, Time arrived);
-  void leave(SessionId session);
+  void leave(SessionId session, Parting parting);
+
+  template <typename Job>
+  void in_order(SessionId session, Job job);
+  void serve_the_door();
 
   void begin_watching();
   void await_tick();
@@ -94,6 +114,7 @@ class Room : public std::enable_shared_from_this<Room> {
   Watchers watchers_;
   Members members_;
   // The strand's:
+  Queue at_the_door_;
   std::optional<TickClock> clock_;
   std::function<void()> ended_;
   enum class State { kWaiting, kRunning, kAsleep, kStopped } state_ = State::kWaiting;

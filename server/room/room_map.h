@@ -1,7 +1,7 @@
 // What a room tells of its map: made once, when the room opens.
 #pragma once
 
-#include "server/room/frame.h"
+#include "server/frames/frame.h"
 #include "shared/map/map_definition.h"
 
 namespace woodlouse::server {

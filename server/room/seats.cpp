@@ -4,6 +4,8 @@
 #include <cassert>
 #include <type_traits>
 
+#include "shared/protocol/text_cleaning.h"
+
 namespace woodlouse::server {
 namespace {
 
@@ -31,11 +33,26 @@ Seats::Seats(std::vector<Seat> unclaimed) {
 
 Seat& Seats::add(Seat seat) {
   assert(!seat.name.empty());
-  if (std::holds_alternative<SessionOccupant>(seat.occupant)) ++sessions_;
   const Place place = place_of(seat);
+  sessions_ += std::holds_alternative<SessionOccupant>(seat.occupant) ? 1 : 0;
+  vacant_ += std::holds_alternative<Vacant>(seat.occupant) ? 1 : 0;
+  names_.insert(seat.name);
+  if (seat.token) tokens_.emplace(*seat.token, place);
   const auto [at, is_new] = seats_.emplace(place, std::move(seat));
   assert(is_new);
   return at->second;
+}
+
+Seat Seats::take(std::map<Place, Seat>::iterator at) {
+  Seat seat = std::move(at->second);
+  seats_.erase(at);
+  sessions_ -= std::holds_alternative<SessionOccupant>(seat.occupant) ? 1 : 0;
+  vacant_ -= std::holds_alternative<Vacant>(seat.occupant) ? 1 : 0;
+  const auto name = names_.find(seat.name);
+  assert(name != names_.end());
+  names_.erase(name);
+  if (seat.token) tokens_.erase(*seat.token);
+  return seat;
 }
 
 std::optional<Seat> Seats::take_over(std::string_view name) {
@@ -43,26 +60,34 @@ std::optional<Seat> Seats::take_over(std::string_view name) {
     return std::holds_alternative<Nobody>(entry.second.occupant) && entry.second.name == name;
   });
   if (found == seats_.end()) return std::nullopt;
-  return std::move(seats_.extract(found).mapped());
+  return take(found);
+}
+
+std::optional<Seat> Seats::take_back(const ResumeToken& token) {
+  const auto place = tokens_.find(token);
+  if (place == tokens_.end()) return std::nullopt;
+  return take(seats_.find(place->second));
+}
+
+Seat Seats::take_vacant(match::PlayerId louse) {
+  const auto found = seats_.find({3, louse});
+  assert(found != seats_.end() && std::holds_alternative<Vacant>(found->second.occupant));
+  return take(found);
 }
 
 std::optional<Seat> Seats::take_away(SessionId session) {
-  auto node = seats_.extract(session_place(session));
-  if (node.empty()) return std::nullopt;
-  --sessions_;
-  return std::move(node.mapped());
+  const auto found = seats_.find(session_place(session));
+  if (found == seats_.end()) return std::nullopt;
+  return take(found);
 }
 
 std::vector<Seat> Seats::take_away_sessions() {
   std::vector<Seat> taken;
   for (auto at = seats_.begin(); at != seats_.end();) {
     const auto here = at++;
-    if (!std::holds_alternative<SessionOccupant>(here->second.occupant)) continue;
-    taken.push_back(std::move(here->second));
-    seats_.erase(here);
+    if (std::holds_alternative<SessionOccupant>(here->second.occupant)) taken.push_back(take(here));
   }
-  assert(taken.size() == sessions_);
-  sessions_ = 0;
+  assert(sessions_ == 0);
   return taken;
 }
 
@@ -73,9 +98,22 @@ Seat* Seats::find(SessionId session) {
 
 std::vector<protocol::PlayerEntry> Seats::entries() const {
   std::vector<protocol::PlayerEntry> entries;
-  entries.reserve(seats_.size());
-  for (const auto& [place, seat] : seats_) entries.push_back({seat.louse, seat.name, seat.role});
+  for (const auto& [place, seat] : seats_)
+    if (seat.louse != 0) entries.push_back({seat.louse, seat.name, seat.role});
   return entries;
+}
+
+std::string Seats::free_name(std::string_view name, std::uint64_t number) const {
+  constexpr std::uint64_t kTried = 9;  // of many of one name each would look through all of them
+  const auto numbered = [name](std::uint64_t n) {
+    const std::string tail = '#' + std::to_string(n);
+    return protocol::clean_text(name, protocol::kMaxNameBytes - tail.size()) + tail;
+  };
+  if (!names_.contains(name)) return std::string(name);
+  for (std::uint64_t n = 2; n <= kTried; ++n)
+    if (std::string other = numbered(n); !names_.contains(other)) return other;
+  for (std::uint64_t n = std::max(number, kTried + 1);; ++n)
+    if (std::string other = numbered(n); !names_.contains(other)) return other;
 }
 
 }  // namespace woodlouse::server

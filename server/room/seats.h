@@ -1,12 +1,14 @@
-// Who is in a room: sessions, the house's own bots, and lice whose player is only in the recording that the
-// game goes on from. Each has a seat. Pure. The room's strand owns it.
+// Who is in a room: sessions, the house's own bots, lice whose player is only in the recording that the game
+// goes on from, and those whose player may come back. Each has a seat. Pure. The room's strand owns it.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -14,15 +16,16 @@
 #include <variant>
 #include <vector>
 
-#include "server/room/channels.h"
+#include "server/frames/layouts.h"
 #include "server/room/house_bots.h"
+#include "server/room/resume_token.h"
 #include "server/room/subscriber.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::server {
 
-/// Its player is only in the recording. Whoever joins under its name takes it over.
+/// Its player is only in the recording.
 struct Nobody {};
 
 /// A connection.
@@ -39,14 +42,22 @@ struct BotOccupant {
   HouseBot bot;
 };
 
+/// Its player's connection has ended, and it may come back until that tick.
+struct Vacant {
+  std::uint64_t until = 0;
+};
+
 struct Seat {
   match::PlayerId louse = 0;  ///< 0: a spectator
   std::string name;           ///< cleaned, not empty
   protocol::Role role = protocol::Role::kPlayer;
-  /// What the match adds to its occupant's own count of inputs, as a louse taken over has used some; of a
-  /// bot, the last one it used.
-  std::uint32_t first_seq = 0;
-  std::variant<Nobody, BotOccupant, SessionOccupant> occupant;
+  /// Under which the match files its next input, whatever its occupants count: each begins anew.
+  std::uint32_t next_seq = 0;
+  std::variant<Nobody, BotOccupant, SessionOccupant, Vacant> occupant;
+  AddressId address = 0;                    ///< of its session, or of the one it had
+  std::optional<ResumeToken> token{};       ///< by which its player comes back; none: it never asked to
+  std::optional<std::uint32_t> last_seq{};  ///< of its session's own count
+  std::uint32_t dropped_below = 0;  ///< inputs that were filed under less, and not taken, never will be
 };
 
 class Seats {
@@ -59,6 +70,11 @@ class Seats {
   Seat& add(Seat seat);
   /// The first unclaimed seat of that name, which is gone from here; nothing where there is none.
   std::optional<Seat> take_over(std::string_view name);
+  /// The seat, of a session or vacant, of that token, which is gone from here; nothing where there is none.
+  std::optional<Seat> take_back(const ResumeToken& token);
+  /// The vacant seat of a louse that nobody comes back to, which is gone from here. REQUIRES that there is
+  /// one.
+  Seat take_vacant(match::PlayerId louse);
   /// The session's seat, which is gone from here; nothing where it has none.
   std::optional<Seat> take_away(SessionId session);
   /// Every session's.
@@ -67,15 +83,38 @@ class Seats {
   /// The session's, or null.
   [[nodiscard]] Seat* find(SessionId session);
   [[nodiscard]] std::size_t sessions() const { return sessions_; }
-  /// Unclaimed seats first, by louse, then the house's bots, then sessions by number.
+  [[nodiscard]] std::size_t vacant() const { return vacant_; }
+  struct VacantSeats {
+    std::size_t count = 0;
+    match::PlayerId oldest = 0;  ///< the louse of the one given up first
+  };
+  /// Those of which is_meant(const Seat&).
+  template <typename IsMeant>
+  [[nodiscard]] VacantSeats vacant_seats(const IsMeant& is_meant) {
+    VacantSeats found;
+    std::uint64_t until = 0;
+    if (vacant_ == 0) return found;
+    for_each<Vacant>([&](const Seat& seat, const Vacant& vacant) {
+      if (!is_meant(seat)) return;
+      if (found.count++ != 0 && vacant.until >= until) return;
+      until = vacant.until;
+      found.oldest = seat.louse;
+    });
+    return found;
+  }
+  /// Who has a louse: unclaimed seats first, by louse, then the house's bots, then sessions by number, then
+  /// vacant ones by louse.
   [[nodiscard]] std::vector<protocol::PlayerEntry> entries() const;
+  /// The name, or, where another one has it, that with a number behind: of `number` at the latest.
+  [[nodiscard]] std::string free_name(std::string_view name, std::uint64_t number) const;
 
   /// Calls visit(Seat&, Occupant&) for each that such an occupant has, in the order of entries().
   template <typename Occupant, typename Visit>
   void for_each(const Visit& visit) {
-    constexpr std::size_t kind = std::is_same_v<Occupant, Nobody>        ? 0
-                                 : std::is_same_v<Occupant, BotOccupant> ? 1
-                                                                         : 2;
+    constexpr std::size_t kind = std::is_same_v<Occupant, Nobody>            ? 0
+                                 : std::is_same_v<Occupant, BotOccupant>     ? 1
+                                 : std::is_same_v<Occupant, SessionOccupant> ? 2
+                                                                             : 3;
     static_assert(std::is_same_v<std::variant_alternative_t<kind, decltype(Seat::occupant)>, Occupant>);
     const auto end = seats_.lower_bound({kind + 1, 0});
     for (auto at = seats_.lower_bound({kind, 0}); at != end; ++at)
@@ -85,9 +124,13 @@ class Seats {
  private:
   using Place = std::pair<std::size_t, std::uint64_t>;  ///< kind of occupant, its number
   static Place place_of(const Seat& seat);
+  Seat take(std::map<Place, Seat>::iterator at);
 
   std::map<Place, Seat> seats_;
+  std::multiset<std::string, std::less<>> names_;
+  std::map<ResumeToken, Place> tokens_;
   std::size_t sessions_ = 0;
+  std::size_t vacant_ = 0;
 };
 
 }  // namespace woodlouse::server

@@ -1,10 +1,11 @@
 // Who receives what a room says: a session, or a test's stand-in. The room knows nothing of sockets.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
-#include "server/room/frame.h"
+#include "server/frames/frame.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::server {
@@ -16,6 +17,10 @@ using SessionId = std::uint64_t;
 class Subscriber {
  public:
   virtual ~Subscriber() = default;
+
+  /// Of the server's lanes (lanes.h), the one that it lives on; never changes. What is called there is done
+  /// within the call.
+  [[nodiscard]] virtual std::size_t lane() const = 0;
 
   /// An event or other lines that several share, one or more, whole.
   virtual void deliver(Line line) = 0;

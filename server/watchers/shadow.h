@@ -17,8 +17,8 @@
 #include <span>
 #include <string>
 
-#include "server/room/clock.h"
 #include "server/room/tick_watcher.h"
+#include "server/timing/clock.h"
 #include "shared/core/error.h"
 #include "shared/match/match.h"
 #include "shared/replay/rerun.h"

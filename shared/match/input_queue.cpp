@@ -1,15 +1,31 @@
 #include "shared/match/input_queue.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace woodlouse::match {
 
 void InputQueue::remove_player(state::LouseId player) {
+  drop_waiting(player);
   players_.erase(player);
-  std::erase_if(waiting_, [player](const auto& entry) { return entry.first.player == player; });
 }
 
-Filed InputQueue::file(const Input& input, std::uint64_t next_tick) {
+void InputQueue::drop_waiting(state::LouseId player) {
+  const auto found = players_.find(player);
+  if (found == players_.end()) return;
+  std::size_t& pending = found->second.pending;
+  for (auto at = waiting_.begin(); pending > 0 && at != waiting_.end();) {
+    const std::uint64_t tick = at->first.tick;
+    at = waiting_.lower_bound({tick, player, 0});
+    for (; at != waiting_.end() && at->first.tick == tick && at->first.player == player; --pending)
+      at = waiting_.erase(at);
+    if (at != waiting_.end() && at->first.tick == tick) at = waiting_.lower_bound({tick + 1, 0, 0});
+  }
+  assert(pending == 0);
+}
+
+Filed InputQueue::file(const Input& input, std::uint64_t next_tick, std::size_t per_tick) {
+  assert(per_tick >= 1);
   const auto found = players_.find(input.player);
   if (found == players_.end()) return {Filed::Outcome::kNoLouse, next_tick, false};
   Player& player = found->second;
@@ -17,12 +33,24 @@ Filed InputQueue::file(const Input& input, std::uint64_t next_tick) {
   const std::uint64_t tick = std::max(input.wanted_tick, next_tick);
   if (player.any && input.seq <= player.last_seq) return {Filed::Outcome::kStaleSeq, tick, late};
   if (tick - next_tick > horizon_) return {Filed::Outcome::kTooFar, tick, late};
-  if (player.pending >= kMaxPending) return {Filed::Outcome::kQueueFull, tick, late};
+  Filed filed{Filed::Outcome::kFiled, tick, late};
+  std::size_t of_tick = 0;
+  auto last = waiting_.lower_bound({tick, input.player, 0});
+  for (auto at = last; at != waiting_.end() && at->first.tick == tick && at->first.player == input.player;
+       ++at, ++of_tick)
+    last = at;
+  if (of_tick >= per_tick) {
+    filed.replaced = last->first.seq;
+    waiting_.erase(last);
+  } else if (player.pending >= kMaxPending) {
+    return {Filed::Outcome::kQueueFull, tick, late};
+  } else {
+    ++player.pending;
+  }
   player.any = true;
   player.last_seq = input.seq;
-  ++player.pending;
   wait({input.player, input.seq, input.thrust.value, input.thrust.kind, input.ticks, tick});
-  return {Filed::Outcome::kFiled, tick, late};
+  return filed;
 }
 
 bool InputQueue::file_applied(const AppliedInput& input) {

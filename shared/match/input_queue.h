@@ -45,6 +45,8 @@ struct Filed {
   Outcome outcome = Outcome::kFiled;
   std::uint64_t tick = 0;
   bool late = false;  ///< the wanted tick was past; the next step takes it
+  /// Of the player's input that gave way, as that step takes no more of his.
+  std::optional<std::uint32_t> replaced{};
 };
 
 /// Who may file inputs, and the highest seq of his that was filed; nothing: none yet.
@@ -63,8 +65,11 @@ class InputQueue {
 
   void add_player(state::LouseId player) { players_.try_emplace(player); }
   void remove_player(state::LouseId player);
-  /// next_tick: the step that will run next.
-  Filed file(const Input& input, std::uint64_t next_tick);
+  /// His inputs that wait are not applied. The cost is that of the ticks for which anything waits.
+  void drop_waiting(state::LouseId player);
+  /// next_tick: the step that will run next. per_tick: of a player's inputs for one step so many wait, the
+  /// next one takes the place of the last: it would be overridden by it anyway.
+  Filed file(const Input& input, std::uint64_t next_tick, std::size_t per_tick = kMaxPending);
   /// Files an input that a step of the past is known to have applied, under its own tick; who waits there
   /// already stays. False: the player has no louse.
   bool file_applied(const AppliedInput& input);

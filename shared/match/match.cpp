@@ -78,7 +78,7 @@ void Match::leave(PlayerId player) {
 
 void Match::respawn(PlayerId player) { pending_roster_.push_back({RosterAction::kRespawn, player, {}}); }
 
-Filed Match::file(const Input& input) { return inputs_.file(input, tick_); }
+Filed Match::file(const Input& input, std::size_t per_tick) { return inputs_.file(input, tick_, per_tick); }
 
 void Match::spawn(PlayerId player, double distance) {
   const auto& spawns = map_->definition.spawns;

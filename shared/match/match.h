@@ -76,8 +76,10 @@ class Match {
   void leave(PlayerId player);
   /// Queues a return to a spawn point, at rest, without thrust; the distance travelled stays.
   void respawn(PlayerId player);
-  /// Files an input for a tick; says which tick will take it.
-  Filed file(const Input& input);
+  /// Files an input for a tick; says which tick will take it. per_tick: of one player's (input_queue.h).
+  Filed file(const Input& input, std::size_t per_tick = InputQueue::kMaxPending);
+  /// A player's inputs that wait for their tick are not applied.
+  void drop_waiting(PlayerId player) { inputs_.drop_waiting(player); }
 
   /// Files an input that the next step is known to have applied, for replays: no rule of filing stands in its
   /// way. False: the player has no louse. REQUIRES input.tick == tick().

@@ -34,7 +34,7 @@ tl::expected<ServerMessage, DecodeError> decode_server(std::string_view line,
 
 /// One line each, newline included.
 std::string encode(const ClientMessage& message);
-/// REQUIRES no Frame: those are written once for all who see them (server/room/frame_encoder.h).
+/// REQUIRES no Frame: those are written once for all who see them (server/frames/frame_encoder.h).
 std::string encode(const ServerMessage& message);
 /// As encode(), onto `out`. An ack allocates nothing where it has room.
 void append(std::string& out, const ServerMessage& message);

@@ -38,6 +38,7 @@ inline constexpr std::string_view kNoLouse = "no_louse";
 // The end without a fault.
 inline constexpr std::string_view kLeft = "left";
 inline constexpr std::string_view kShutdown = "shutdown";
+inline constexpr std::string_view kReplaced = "replaced";
 // Notices.
 inline constexpr std::string_view kRateLowered = "rate_lowered";
 inline constexpr std::string_view kKeysOnly = "keys_only";

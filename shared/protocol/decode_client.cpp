@@ -59,6 +59,21 @@ void read_fields(FieldReader& reader, std::vector<Column>& columns) {
   columns.insert(columns.begin(), Column::kId);
 }
 
+/// true, or the token of an earlier welcome. A token asks for the next one too.
+void read_resume(FieldReader& reader, Join& join) {
+  constexpr std::string_view kWants = "true, false or the resume_token of a welcome";
+  const auto value = reader.field("resume", kWants, Presence::kOptional);
+  if (!value) return;
+  if (value->kind() == json::Kind::kBoolean) {
+    reader.boolean("resume", join.may_resume);
+  } else if (value->kind() == json::Kind::kString) {
+    reader.cleaned_text("resume", join.resume, {1, kMaxTokenBytes});
+    join.may_resume = true;
+  } else {
+    reader.refuse("resume", *value, kWants);
+  }
+}
+
 Decoded read_join(FieldReader& reader) {
   Join join;
   reader.integer("protocol", join.protocol, kAnyUint32);
@@ -72,6 +87,7 @@ Decoded read_join(FieldReader& reader) {
   read_fields(reader, join.fields);
   reader.choice("format", join.format, kFormatTexts, format_from_text, Presence::kOptional);
   reader.integer("state_hz", join.state_hz, {1, kMaxStateHz});
+  read_resume(reader, join);
   return reader.finish<ClientMessage>(std::move(join));
 }
 

@@ -34,15 +34,12 @@ Decoded read_hello(FieldReader& reader, const Context&) {
   read_strings(reader, "rooms", hello.rooms);
   read_strings(reader, "features", hello.features);
   reader.object("limits", [&](FieldReader& limits) {
-    limits.integer("line", hello.limits.line, {1, kMaxInteger});
-    limits.integer("depth", hello.limits.depth, {1, 0x7fff'ffff});
-    limits.integer("messages_per_s", hello.limits.messages_per_s, kPositiveUint32);
-    limits.integer("burst", hello.limits.burst, kPositiveUint32);
-    limits.integer("outbox_bytes", hello.limits.outbox_bytes, {1, kMaxInteger});
-    limits.integer("handshake_s", hello.limits.handshake_s, kPositiveUint32);
-    limits.integer("idle_s", hello.limits.idle_s, kPositiveUint32);
-    limits.integer("per_address", hello.limits.per_address, kPositiveUint32);
-    limits.integer("per_room", hello.limits.per_room, kPositiveUint32);
+    for (const LimitField& field : limit_fields()) {
+      std::uint32_t& limit = hello.limits.*field.member;
+      limit = 0;
+      limits.integer(field.name, limit, field.is_old ? kPositiveUint32 : kAnyUint32,
+                     field.is_old ? Presence::kRequired : Presence::kOptional);
+    }
   });
   return reader.finish<ServerMessage>(std::move(hello));
 }
@@ -94,7 +91,9 @@ void read_extent(FieldReader& reader, std::array<double, 4>& extent) {
 Decoded read_welcome(FieldReader& reader, const Context&) {
   Welcome welcome;
   reader.integer("id", welcome.id, kAnyUint32);
-  reader.cleaned_text("resume_token", welcome.resume_token, {0, kMaxRoomBytes});
+  reader.cleaned_text("name", welcome.name, kNameBytes, Presence::kOptional);
+  reader.cleaned_text("resume_token", welcome.resume_token, {0, kMaxTokenBytes});
+  reader.boolean("resumed", welcome.resumed, Presence::kOptional);
   reader.cleaned_text("room", welcome.room, kLabelBytes);
   reader.integer("tick", welcome.tick, kAnyTick);
   reader.integer("tick_hz", welcome.tick_hz, {1, 100'000});
@@ -134,6 +133,7 @@ Decoded read_welcome(FieldReader& reader, const Context&) {
     player.choice("role", entry.role, kRoleTexts, role_from_text);
     welcome.players.push_back(std::move(entry));
   });
+  reader.integer("spectators", welcome.spectators, kAnyUint32, Presence::kOptional);
   return reader.finish<ServerMessage>(std::move(welcome));
 }
 

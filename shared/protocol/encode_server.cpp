@@ -14,19 +14,16 @@ void append_line(std::string& out, const Hello& hello) {
   text.array("rooms", hello.rooms, json::append_string)
       .array("features", hello.features, json::append_string);
   text.object("limits", [&](json::ObjectText& limits) {
-    limits.integer("line", hello.limits.line).integer("depth", hello.limits.depth);
-    limits.integer("messages_per_s", hello.limits.messages_per_s).integer("burst", hello.limits.burst);
-    limits.integer("outbox_bytes", hello.limits.outbox_bytes)
-        .integer("handshake_s", hello.limits.handshake_s);
-    limits.integer("idle_s", hello.limits.idle_s).integer("per_address", hello.limits.per_address);
-    limits.integer("per_room", hello.limits.per_room);
+    for (const LimitField& field : limit_fields()) limits.integer(field.name, hello.limits.*field.member);
   });
   text.end_line();
 }
 
 void append_line(std::string& out, const Welcome& welcome) {
   json::ObjectText text(out, "welcome");
-  text.integer("id", welcome.id).text("resume_token", welcome.resume_token).text("room", welcome.room);
+  text.integer("id", welcome.id).text("name", welcome.name);
+  text.text("resume_token", welcome.resume_token).boolean("resumed", welcome.resumed);
+  text.text("room", welcome.room);
   text.integer("tick", welcome.tick)
       .integer("tick_hz", welcome.tick_hz)
       .integer("state_hz", welcome.state_hz);
@@ -55,6 +52,7 @@ void append_line(std::string& out, const Welcome& welcome) {
   text.objects("players", welcome.players, [](json::ObjectText& entry, const PlayerEntry& player) {
     entry.integer("id", player.id).text("name", player.name).text("role", to_text(player.role));
   });
+  text.integer("spectators", welcome.spectators);
   text.end_line();
 }
 

@@ -43,8 +43,8 @@ void FieldReader::number(std::string_view name, double& out, Presence presence) 
   out = value->number();
 }
 
-void FieldReader::boolean(std::string_view name, bool& out) {
-  const auto value = field(name, "true or false", Presence::kRequired);
+void FieldReader::boolean(std::string_view name, bool& out, Presence presence) {
+  const auto value = field(name, "true or false", presence);
   if (!value) return;
   if (value->kind() != json::Kind::kBoolean) return refuse(name, *value, "true or false");
   out = value->boolean();

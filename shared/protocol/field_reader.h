@@ -44,7 +44,7 @@ class FieldReader {
     if (const auto value = checked_integer(name, range, Presence::kOptional)) out = static_cast<T>(*value);
   }
   void number(std::string_view name, double& out, Presence presence = Presence::kRequired);
-  void boolean(std::string_view name, bool& out);
+  void boolean(std::string_view name, bool& out, Presence presence = Presence::kRequired);
   /// Two numbers.
   void pair(std::string_view name, core::Vec2& out);
   /// 16 lower-case hex digits.

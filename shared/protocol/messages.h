@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "shared/core/vec2.h"
+#include "shared/protocol/limits.h"
 #include "shared/state/louse.h"
 #include "shared/state/louse_fields.h"
 #include "shared/state/parameters.h"
@@ -28,6 +29,7 @@ inline constexpr int kMaxDepth = 8;                 ///< nesting of an inbound l
 inline constexpr std::size_t kMaxNameBytes = 24;    ///< after cleaning
 inline constexpr std::size_t kMaxChatBytes = 400;   ///< after cleaning
 inline constexpr std::size_t kMaxRoomBytes = 64;    ///< of a room's name
+inline constexpr std::size_t kMaxTokenBytes = 64;   ///< of a resume_token
 inline constexpr std::size_t kMaxTextBytes =
     2048;  ///< of an error's, a notice's or a bye's text, after cleaning
 inline constexpr std::uint32_t kMaxStateHz = 1000;
@@ -90,6 +92,8 @@ struct Join {
   std::vector<Column> fields;  ///< as asked, default_columns() when left out; the first is always id
   Format format = Format::kQuantized;
   std::optional<std::uint32_t> state_hz;  ///< frames a second; empty: the room's
+  bool may_resume = false;                ///< its louse is to wait for it when the connection breaks
+  std::string resume{};                   ///< the token of a louse that waits; empty: none
   friend bool operator==(const Join&, const Join&) = default;
 };
 
@@ -135,19 +139,6 @@ using ClientMessage = std::variant<Join, Input, Chat, List, GetMap, Resync, Resp
 
 // ---- server to client ----------------------------------------------------------------------------------
 
-struct Limits {
-  std::size_t line = kMaxLineBytes;  ///< bytes
-  int depth = kMaxDepth;
-  std::uint32_t messages_per_s = 60;  ///< sustained, per session
-  std::uint32_t burst = 120;
-  std::size_t outbox_bytes = 4u << 20;  ///< queued events and answers; frames are replaced, never queued
-  std::uint32_t handshake_s = 10;
-  std::uint32_t idle_s = 60;
-  std::uint32_t per_address = 256;
-  std::uint32_t per_room = 1024;
-  friend bool operator==(const Limits&, const Limits&) = default;
-};
-
 struct Hello {
   int protocol = kProtocolVersion;
   int behavior = 0;
@@ -168,7 +159,9 @@ struct PlayerEntry {
 
 struct Welcome {
   std::uint32_t id = 0;      ///< the louse's; 0 for a spectator
-  std::string resume_token;  ///< secret; hex; empty for a spectator
+  std::string name;          ///< yours: another one's gets a number behind it; empty: an older server
+  std::string resume_token;  ///< secret, hex; empty: not asked for, or a spectator
+  bool resumed = false;      ///< its token was known: the louse is the one it had
   std::string room;
   std::uint64_t tick = 0;
   std::uint32_t tick_hz = 60;
@@ -183,7 +176,8 @@ struct Welcome {
   /// definition; decoded, they are what a map has that does not name them.
   state::Parameters physics;
   std::string mode;                  ///< "roam"
-  std::vector<PlayerEntry> players;  ///< who is there already
+  std::vector<PlayerEntry> players;  ///< who is there already, spectators apart
+  std::uint32_t spectators = 0;      ///< how many there are
   friend bool operator==(const Welcome&, const Welcome&) = default;
 };
 

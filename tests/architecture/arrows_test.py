@@ -24,9 +24,11 @@ ARROWS = {
 LIBRARY = set(ARROWS)
 SHARED = LIBRARY - {"physics/lanes"}  # reached through physics/batch.h
 ARROWS |= {
-    "server/room": SHARED,
-    "server/watchers": SHARED | {"server/room"},
-    "server/net": SHARED | {"server/room"},
+    "server/timing": SHARED,
+    "server/frames": SHARED,
+    "server/room": SHARED | {"server/frames", "server/timing"},
+    "server/watchers": SHARED | {"server/room", "server/timing"},
+    "server/net": SHARED | {"server/frames", "server/room", "server/timing"},
     "server/commands": SHARED | {"server/room"},
     "client/drawing": SHARED,
     "client/terminal": SHARED | {"client/drawing"},

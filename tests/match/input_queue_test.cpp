@@ -83,3 +83,42 @@ TEST_CASE("who leaves takes his inputs along") {
   REQUIRE(out.size() == 1);
   CHECK(out[0].player == 2);
 }
+
+TEST_CASE("of a player's inputs for one step so many wait, and a later one takes the last one's place") {
+  InputQueue queue(100);
+  for (state::LouseId player = 1; player <= 3; ++player) queue.add_player(player);
+  for (std::uint32_t seq = 1; seq <= 4; ++seq) {
+    CHECK_FALSE(queue.file(input(2, seq, 7), 5, 4).replaced);
+    CHECK_FALSE(queue.file(input(1, seq, 7), 5, 4).replaced);
+  }
+  CHECK(queue.file(input(2, 5, 7), 5, 4).replaced == 4u);
+  CHECK(queue.file(input(2, 6, 7), 5, 4).replaced == 5u);
+  CHECK_FALSE(queue.file(input(2, 7, 8), 5, 4).replaced);
+  std::vector<AppliedInput> out;
+  queue.take(7, out);
+  REQUIRE(out.size() == 8);
+  CHECK(out[3].seq == 4);
+  CHECK(out[4].seq == 1);
+  CHECK(out[7].seq == 6);
+}
+
+TEST_CASE("what a player has waiting is dropped, and nothing of anybody else") {
+  InputQueue queue(1000);
+  for (state::LouseId player = 1; player <= 3; ++player) queue.add_player(player);
+  std::uint32_t seq = 0;
+  for (std::uint64_t tick = 10; tick < 200; tick += 7)
+    for (state::LouseId player = 1; player <= 3; ++player)
+      if ((tick + player) % 3 != 0) queue.file(input(player, ++seq, tick), 5);
+  const auto others = [](std::vector<AppliedInput> all) {
+    std::erase_if(all, [](const AppliedInput& one) { return one.player == 2; });
+    return all;
+  };
+  const auto before = queue.waiting();
+  queue.drop_waiting(2);
+  CHECK(queue.waiting() == others(before));
+  CHECK(queue.waiting().size() < before.size());
+  CHECK(queue.file(input(2, ++seq, 50), 5).outcome == Outcome::kFiled);
+  queue.drop_waiting(9);
+  queue.remove_player(2);
+  CHECK(queue.waiting() == others(before));
+}

@@ -42,10 +42,25 @@ TEST_CASE("every client message comes back as it was sent") {
              false,
              kMaxThrustTicks,
              std::uint64_t{1} << 53};
-  const std::vector<ClientMessage> messages = {
-      join,     plain,    number,    pair,    Chat{"hello, you"}, List{},
-      GetMap{}, Resync{}, Respawn{}, Leave{}, Ping{kMaxInteger},  Ping{-kMaxInteger},
-      Pong{0}};
+  Join hopeful = plain;
+  hopeful.may_resume = true;
+  Join back = hopeful;
+  back.resume = "5d1c0f";
+  const std::vector<ClientMessage> messages = {hopeful,
+                                               back,
+                                               join,
+                                               plain,
+                                               number,
+                                               pair,
+                                               Chat{"hello, you"},
+                                               List{},
+                                               GetMap{},
+                                               Resync{},
+                                               Respawn{},
+                                               Leave{},
+                                               Ping{kMaxInteger},
+                                               Ping{-kMaxInteger},
+                                               Pong{0}};
   for (const ClientMessage& message : messages) {
     INFO(line_of(message));
     CHECK(decoded(line_of(message)) == message);
@@ -81,7 +96,7 @@ TEST_CASE("every column can be asked for by its name") {
 }
 
 TEST_CASE("unknown fields are passed over, whatever they hold") {
-  CHECK(joined(R"(,"resume":null,"future":{"a":[1,{"b":[]}],"c":1e5})").name == "ann");
+  CHECK(joined(R"(,"later":null,"future":{"a":[1,{"b":[]}],"c":1e5})").name == "ann");
   CHECK(std::holds_alternative<List>(
       decoded(R"({"x":-1.5e-3,"type":"list","y":[[],{},true,false,"\u00e9"]})")));
 }
@@ -108,7 +123,9 @@ TEST_CASE("the largest lawful message of each kind fits a line") {
             std::string(kMaxRoomBytes, 'r'),
             {},
             Format::kQuantized,
-            kMaxStateHz};
+            kMaxStateHz,
+            true,
+            std::string(kMaxTokenBytes, 't')};
   for (std::size_t i = 0; i < kColumnCount; ++i) join.fields.push_back(static_cast<Column>(i));
   CHECK(line_of(join).size() <= kMaxLineBytes);
   CHECK(line_of(Chat{std::string(kMaxChatBytes, '"')}).size() <= kMaxLineBytes);

@@ -48,6 +48,20 @@ TEST_CASE("the table of codes in docs/protocol.md is the one in the code") {
   }
 }
 
+TEST_CASE("the table of limits in docs/protocol.md is the one in the code") {
+  const std::string text = document();
+  std::size_t at = 0;
+  for (const LimitField& field : limit_fields()) {
+    const std::string row = "| `" + std::string(field.name) + "` | " + std::string(field.unit) + " | " +
+                            std::string(field.meaning) + " |\n";
+    INFO(row);
+    const std::size_t found = text.find(row);
+    REQUIRE(found != std::string::npos);
+    CHECK(found > at);
+    at = found;
+  }
+}
+
 TEST_CASE("the table of columns in docs/protocol.md has each column with its quantum") {
   const std::string text = document();
   for (std::size_t i = 0; i < kColumnCount; ++i) {

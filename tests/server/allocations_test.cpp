@@ -24,7 +24,7 @@
 #include "server/net/session.h"
 #include "server/net/tcp_wire.h"
 #include "server/room/room.h"
-#include "server/room/steady_timekeeper.h"
+#include "server/timing/steady_timekeeper.h"
 #include "tests/server/counted_allocations.h"
 #include "tests/server/room/house.h"
 
@@ -38,20 +38,20 @@ class QuietWire final : public Wire {
  public:
   explicit QuietWire(asio::io_context& io) : io_(io) {}
 
-  [[nodiscard]] asio::any_io_executor executor() override { return io_.get_executor(); }
   void read_some(std::span<char> into, Handler handler) override {
     into_ = into;
     read_ = std::move(handler);
   }
-  void write(std::span<const Line> lines, Handler handler) override {
+  [[nodiscard]] std::size_t write_now(std::span<const Line> lines) override {
     std::size_t size = 0;
     for (const Line& line : lines) {
       size += line->size();
       acks += line->starts_with(R"({"type":"ack")") ? 1 : 0;
       deltas += line->starts_with(R"({"type":"delta")") ? 1 : 0;
     }
-    asio::post(io_, [done = std::move(handler), size] { done({}, size); });
+    return size;
   }
+  void write(std::span<const Line>, std::size_t, Handler) override { FAIL("all goes at once"); }
   [[nodiscard]] boost::system::error_code shut_down_sending() override { return {}; }
   [[nodiscard]] boost::system::error_code close() override {
     if (!read_.empty()) asio::post(io_, [done = std::exchange(read_, {})] { done(asio::error::eof, 0); });
@@ -98,7 +98,8 @@ class Pace {
     for (std::size_t k = 0; k <= watchers; ++k) {
       auto wire = std::make_unique<QuietWire>(io_);
       wires_.push_back(wire.get());
-      sessions_.push_back(std::make_shared<Session>(k + 1, std::move(wire), environment_));
+      sessions_.push_back(
+          std::make_shared<Session>(k + 1, std::move(wire), lanes_, 0, address_, environment_));
       sessions_.back()->start([this] { ++closed_; });
     }
     asio::post(io_, [this] { turn(); });
@@ -178,12 +179,15 @@ class Pace {
   }
 
   asio::io_context io_{1};
+  Lanes lanes_{io_, 1};
   std::shared_ptr<spdlog::logger> log_ =
       std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::null_sink_mt>());
   ManualTimekeeper timekeeper_;
   std::shared_ptr<Room> room_ =
-      Room::make(io_, io_, settings(), test::Contexts::open(), {}, timekeeper_, log_);
-  protocol::Limits limits_;
+      Room::make(io_, lanes_, settings(), test::Contexts::open(), {}, timekeeper_, log_);
+  LiveLimits limits_{{}};
+  std::shared_ptr<AddressAccount> address_ =
+      std::make_shared<AddressAccount>(1, "10.0.0.1", *limits_.now(), timekeeper_.now());
   TrafficMetrics traffic_;
   OneRoom directory_{room_->door()};
   SessionEnvironment environment_{directory_, limits_, traffic_, timekeeper_, "woodlouse", log_};
@@ -229,7 +233,7 @@ class TcpRounds {
 
  private:
   void write() {
-    wire_->write(lines_, [this](const boost::system::error_code&, std::size_t) { read(); });
+    wire_->write(lines_, 0, [this](const boost::system::error_code&, std::size_t) { read(); });
   }
   void read() {
     const std::size_t size = far_.read_some(asio::buffer(bytes_));

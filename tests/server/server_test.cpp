@@ -82,16 +82,17 @@ class Visitor {
 
 }  // namespace
 
-TEST_CASE("a room that hangs does not hold up the end: it is told, and the server stops without it") {
-  const auto log = std::make_shared<HoldingLog>("joined as player", "did not stop within 800 ms");
+TEST_CASE("a lane that hangs does not hold up the end: it is told, and the server stops without it") {
+  const auto log = std::make_shared<HoldingLog>("joined room", "did not stop within 800 ms");
   ServeConfig config;
   config.maps = {WOODLOUSE_SOURCE_DIR "/maps/volcano.json"};
   config.listen = {"127.0.0.1", 0};
-  auto server = Server::create(config, std::make_shared<spdlog::logger>("test", log));
+  auto server = Server::create(
+      config, [&config] { return config; }, std::make_shared<spdlog::logger>("test", log));
   REQUIRE(server);
   std::jthread runs([&] { (*server)->run(); });
   const Visitor visitor((*server)->address());
-  const bool hangs = log->wait_for("joined as player");  // its room's strand, in the middle of the join
+  const bool hangs = log->wait_for("joined room");  // its lane, in the middle of the welcome
   std::raise(SIGTERM);
   runs.join();
   CHECK(hangs);

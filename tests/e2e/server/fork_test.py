@@ -38,7 +38,7 @@ class Fork(unittest.TestCase):
     def test_a_recording_goes_on_live_its_player_moves_again_and_the_new_recording_verifies_by_itself(self):
         louse, tick = self.play()
         state = json.loads(run("inspect", self.game, "--tick", str(tick))[1])
-        with Server("--record", self.fork, "--bots", "1", "--shadow", fork=(self.game, tick)) as server:
+        with Server("--record", self.fork, "--bots", "1", "--shadow", "--adopt-by-name", fork=(self.game, tick)) as server:
             with server.player("eve", role="spectator", fields="all", format="exact") as eve:
                 self.assertGreaterEqual(eve.welcome["tick"], tick)
                 names = {player["id"]: player["name"] for player in eve.welcome["players"]}

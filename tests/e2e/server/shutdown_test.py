@@ -1,5 +1,6 @@
 """How a server ends: told to everyone, written down, in time."""
 
+import fcntl
 import os
 import re
 import signal
@@ -57,7 +58,9 @@ class Shutdown(unittest.TestCase):
 
     def test_a_log_that_nobody_reads_holds_up_neither_frames_nor_the_end(self):
         unread, log = os.pipe()
-        process = subprocess.Popen([PROGRAM, "--map", map_file("volcano"), "--listen", "127.0.0.1:0"],
+        fcntl.fcntl(log, fcntl.F_SETPIPE_SZ, 4096)
+        process = subprocess.Popen([PROGRAM, "--map", map_file("volcano"), "--listen", "127.0.0.1:0", "--log-level", "debug",
+                                    "--join-per-s-address", "1000"],
                                    stdout=subprocess.PIPE, stderr=log, text=True)
         os.close(log)
         try:
@@ -66,8 +69,8 @@ class Shutdown(unittest.TestCase):
             with Client(host, int(port)) as watcher:
                 watcher.join("eye", role="spectator")
                 reader = Reader(watcher)
-                # A pipe holds 64 KB; each of these is a line of some 80 bytes when it comes and when it goes.
-                for number in range(700):
+                # The pipe holds 4 KB; each of these is a line of some 80 bytes when it comes.
+                for number in range(300):
                     with Client(host, int(port)) as guest:
                         guest.join(f"guest {number}")
                 process.terminate()

@@ -103,7 +103,7 @@ TEST_CASE(
   REQUIRE(start->unclaimed.size() == 1);  // nobody named the other one
   CHECK(start->unclaimed[0].louse == 1);
   CHECK(start->unclaimed[0].name == "mara");
-  CHECK(start->unclaimed[0].first_seq == 394);
+  CHECK(start->unclaimed[0].next_seq == 0);
   CHECK(open_fork({played.file, 0})->unclaimed.empty());
 }
 

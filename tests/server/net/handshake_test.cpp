@@ -15,6 +15,13 @@ protocol::Join join(protocol::Role role) {
   return message;
 }
 
+/// What a session does with a message.
+std::optional<protocol::ErrorMessage> told(Handshake& handshake, const protocol::ClientMessage& message) {
+  auto refusal = handshake.why_not(message);
+  if (!refusal) handshake.take(message);
+  return refusal;
+}
+
 const protocol::DecodeError kNotJson{"bad_json", "not JSON", false};
 const protocol::DecodeError kBadField{"bad_field", "input.seq: missing", true};
 
@@ -22,14 +29,14 @@ const protocol::DecodeError kBadField{"bad_field", "input.seq: missing", true};
 
 TEST_CASE("before the join only join, list, ping, pong and leave are legal") {
   Handshake handshake;
-  CHECK_FALSE(handshake.judge(protocol::ClientMessage{protocol::List{}}));
-  CHECK_FALSE(handshake.judge(protocol::ClientMessage{protocol::Ping{1}}));
-  CHECK_FALSE(handshake.judge(protocol::ClientMessage{protocol::Pong{1}}));
+  CHECK_FALSE(told(handshake, protocol::ClientMessage{protocol::List{}}));
+  CHECK_FALSE(told(handshake, protocol::ClientMessage{protocol::Ping{1}}));
+  CHECK_FALSE(told(handshake, protocol::ClientMessage{protocol::Pong{1}}));
   for (const protocol::ClientMessage& early :
        {protocol::ClientMessage{protocol::Input{}}, protocol::ClientMessage{protocol::Chat{"hi"}},
         protocol::ClientMessage{protocol::GetMap{}}, protocol::ClientMessage{protocol::Resync{}},
         protocol::ClientMessage{protocol::Respawn{}}}) {
-    const auto error = handshake.judge(early);
+    const auto error = told(handshake, early);
     REQUIRE(error);
     CHECK(error->code == "not_joined");
     CHECK_FALSE(error->fatal);
@@ -39,25 +46,25 @@ TEST_CASE("before the join only join, list, ping, pong and leave are legal") {
 
 TEST_CASE("a session joins once, unless the room refused it") {
   Handshake handshake;
-  CHECK_FALSE(handshake.judge(protocol::ClientMessage{join(protocol::Role::kBot)}));
+  CHECK_FALSE(told(handshake, protocol::ClientMessage{join(protocol::Role::kBot)}));
   CHECK(handshake.state() == State::kPlaying);
-  const auto error = handshake.judge(protocol::ClientMessage{join(protocol::Role::kBot)});
+  const auto error = told(handshake, protocol::ClientMessage{join(protocol::Role::kBot)});
   REQUIRE(error);
   CHECK(error->code == "already_joined");
   handshake.refused();
-  CHECK_FALSE(handshake.judge(protocol::ClientMessage{join(protocol::Role::kPlayer)}));
+  CHECK_FALSE(told(handshake, protocol::ClientMessage{join(protocol::Role::kPlayer)}));
 }
 
 TEST_CASE("a player may do everything, a spectator everything that needs no louse") {
   const protocol::Role role =
       GENERATE(protocol::Role::kPlayer, protocol::Role::kBot, protocol::Role::kSpectator);
   Handshake handshake;
-  handshake.judge(protocol::ClientMessage{join(role)});
-  CHECK_FALSE(handshake.judge(protocol::ClientMessage{protocol::Chat{"hi"}}));
-  CHECK_FALSE(handshake.judge(protocol::ClientMessage{protocol::GetMap{}}));
-  CHECK_FALSE(handshake.judge(protocol::ClientMessage{protocol::Resync{}}));
-  const auto input = handshake.judge(protocol::ClientMessage{protocol::Input{}});
-  const auto respawn = handshake.judge(protocol::ClientMessage{protocol::Respawn{}});
+  told(handshake, protocol::ClientMessage{join(role)});
+  CHECK_FALSE(told(handshake, protocol::ClientMessage{protocol::Chat{"hi"}}));
+  CHECK_FALSE(told(handshake, protocol::ClientMessage{protocol::GetMap{}}));
+  CHECK_FALSE(told(handshake, protocol::ClientMessage{protocol::Resync{}}));
+  const auto input = told(handshake, protocol::ClientMessage{protocol::Input{}});
+  const auto respawn = told(handshake, protocol::ClientMessage{protocol::Respawn{}});
   CHECK(input.has_value() == (role == protocol::Role::kSpectator));
   CHECK(respawn.has_value() == (role == protocol::Role::kSpectator));
   if (input) CHECK(input->code == "no_louse");
@@ -65,7 +72,7 @@ TEST_CASE("a player may do everything, a spectator everything that needs no lous
 
 TEST_CASE("leave is the last word") {
   Handshake handshake;
-  CHECK_FALSE(handshake.judge(protocol::ClientMessage{protocol::Leave{}}));
+  CHECK_FALSE(told(handshake, protocol::ClientMessage{protocol::Leave{}}));
   CHECK(handshake.state() == State::kLeaving);
 }
 
@@ -73,7 +80,7 @@ TEST_CASE("three lines running that are no JSON are hopeless, two and a good one
   Handshake handshake;
   CHECK_FALSE(handshake.judge(kNotJson).fatal);
   CHECK_FALSE(handshake.judge(kNotJson).fatal);
-  handshake.judge(protocol::ClientMessage{protocol::Ping{}});
+  told(handshake, protocol::ClientMessage{protocol::Ping{}});
   CHECK_FALSE(handshake.judge(kNotJson).fatal);
   CHECK_FALSE(handshake.judge(kNotJson).fatal);
   CHECK_FALSE(handshake.judge(kBadField).fatal);

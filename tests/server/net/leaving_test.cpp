@@ -73,12 +73,14 @@ struct Visit {
 
   test::House house{test::settings(8)};
   OneRoom directory{house.door};
-  protocol::Limits limits;
+  LiveLimits limits{{}};
   TrafficMetrics traffic;
   SessionEnvironment environment{directory, limits, traffic, house.timekeeper, "woodlouse a.b.c", house.log};
-  std::shared_ptr<FarEnd> far = std::make_shared<FarEnd>(house.io.get_executor());
+  std::shared_ptr<FarEnd> far = std::make_shared<FarEnd>(house.lanes[0]);
+  std::shared_ptr<AddressAccount> address =
+      std::make_shared<AddressAccount>(1, "10.0.0.1", *limits.now(), house.timekeeper.now());
   std::shared_ptr<Session> session =
-      std::make_shared<Session>(7, std::make_unique<MemoryWire>(far), environment);
+      std::make_shared<Session>(7, std::make_unique<MemoryWire>(far), house.lanes, 0, address, environment);
   bool closed = false;
 };
 
@@ -233,7 +235,7 @@ TEST_CASE(
   visit.far->holds_writes = true;
   visit.say_and_end("{\"type\":\"get_map\"}\n", ending);
   CHECK(visit.house.room->census().players == 0);  // it waits outside
-  const auto most = seconds(visit.limits.idle_s);
+  const auto most = seconds(visit.limits.now()->idle_s);
   visit.house.timekeeper.advance(most - Duration(1));
   visit.house.settle();
   CHECK_FALSE(visit.closed);

@@ -26,6 +26,7 @@ class FarEnd : public std::enable_shared_from_this<FarEnd> {
 
   // What a test decides:
   bool holds_writes = false;          ///< writes stay in flight until let_go()
+  std::size_t takes_at_once = 0;      ///< bytes of each write that leave within the call
   std::optional<std::size_t> faulty;  ///< this call of the wire fails, counted from 0
   error_code write_error;             ///< of every write
   error_code shut_down_error;         ///< of shut_down_sending()
@@ -77,8 +78,10 @@ class FarEnd : public std::enable_shared_from_this<FarEnd> {
     if (!write_) return;
     std::size_t size = 0;
     for (const Line& line : lines_) {
-      received += *line;
-      size += line->size();
+      const std::size_t gone = std::min(skipped_, line->size());
+      skipped_ -= gone;
+      received += line->substr(gone);
+      size += line->size() - gone;
     }
     answer(write_, {}, size);
   }
@@ -89,14 +92,13 @@ class FarEnd : public std::enable_shared_from_this<FarEnd> {
   std::span<char> into_;
   Wire::Handler read_;
   std::span<const Line> lines_;
+  std::size_t skipped_ = 0;
   Wire::Handler write_;
 };
 
 class MemoryWire final : public Wire {
  public:
   explicit MemoryWire(std::shared_ptr<FarEnd> far) : far_(std::move(far)) {}
-
-  [[nodiscard]] boost::asio::any_io_executor executor() override { return far_->executor_; }
 
   void read_some(std::span<char> into, Handler handler) override {
     CHECK(far_->read_.empty());
@@ -107,13 +109,30 @@ class MemoryWire final : public Wire {
     far_->feed();
   }
 
-  void write(std::span<const Line> lines, Handler handler) override {
+  /// As a kernel that has no room, unless the test says that there is.
+  [[nodiscard]] std::size_t write_now(std::span<const Line> lines) override {
+    CHECK(far_->write_.empty());
+    CHECK_FALSE(far_->is_shut);
+    CHECK_FALSE(lines.empty());
+    std::size_t room = far_->takes_at_once;
+    std::size_t taken = 0;
+    for (const Line& line : lines) {
+      const std::size_t size = std::min(room, line->size());
+      far_->received += line->substr(0, size);
+      room -= size;
+      taken += size;
+    }
+    return taken;
+  }
+
+  void write(std::span<const Line> lines, std::size_t skipped, Handler handler) override {
     CHECK(far_->write_.empty());
     CHECK_FALSE(far_->is_shut);
     CHECK_FALSE(lines.empty());
     ++far_->writes;
     const bool fails = far_->begin_call();
     far_->lines_ = lines;
+    far_->skipped_ = skipped;
     far_->write_ = std::move(handler);
     if (fails) return far_->answer(far_->write_, boost::asio::error::broken_pipe, 0);
     if (far_->write_error) return far_->answer(far_->write_, far_->write_error, 0);

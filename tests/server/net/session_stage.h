@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -15,7 +16,7 @@
 #include "server/net/session.h"
 #include "shared/protocol/codec.h"
 #include "tests/server/net/memory_wire.h"
-#include "tests/server/room/manual_timekeeper.h"
+#include "tests/server/timing/manual_timekeeper.h"
 
 namespace woodlouse::server {
 
@@ -27,17 +28,19 @@ class FakeDoor final : public Door {
  public:
   explicit FakeDoor(std::string name) : name_(std::move(name)) {}
 
-  void join(SessionId, std::shared_ptr<Subscriber> subscriber, protocol::Join join) override {
-    member = std::move(subscriber);
-    joins.push_back(std::move(join));
+  void join(Arrival arrival) override {
+    member = std::move(arrival.subscriber);
+    joins.push_back(std::move(arrival.join));
   }
+  void vacate(SessionId session) override { vacated.push_back(session); }
   void submit(SessionId, protocol::ClientMessage message, Time arrived) override {
     if (std::holds_alternative<protocol::Leave>(message) && member) member->let_go();
     messages.emplace_back(std::move(message), arrived);
   }
-  void leave(SessionId session) override {
+  void leave(SessionId session, Parting how) override {
     member.reset();
     left.push_back(session);
+    parting = how;
   }
   [[nodiscard]] const std::string& name() const override { return name_; }
   [[nodiscard]] protocol::RoomEntry census() const override {
@@ -47,7 +50,8 @@ class FakeDoor final : public Door {
   std::shared_ptr<Subscriber> member;
   std::vector<protocol::Join> joins;
   std::vector<std::pair<protocol::ClientMessage, Time>> messages;
-  std::vector<SessionId> left;
+  std::vector<SessionId> left, vacated;
+  std::optional<Parting> parting;
 
  private:
   std::string name_;
@@ -142,15 +146,20 @@ struct Stage {
   boost::asio::io_context io{1};
   ManualTimekeeper timekeeper;
   protocol::Limits limits;
+  LiveLimits live_limits{limits};
   TrafficMetrics traffic;
   std::ostringstream log;
   std::shared_ptr<FakeDoor> volcano = std::make_shared<FakeDoor>("volcano");
   std::shared_ptr<FakeDoor> meadow = std::make_shared<FakeDoor>("meadow");
   FakeDirectory directory{{volcano, meadow}};
-  SessionEnvironment environment{directory, limits, traffic, timekeeper, "woodlouse a.b.c", make_log(log)};
-  std::shared_ptr<FarEnd> far = std::make_shared<FarEnd>(io.get_executor());
+  SessionEnvironment environment{directory,  live_limits,       traffic,
+                                 timekeeper, "woodlouse a.b.c", make_log(log)};
+  Lanes lanes{io, 1};
+  std::shared_ptr<AddressAccount> address =
+      std::make_shared<AddressAccount>(7, "10.0.0.1", limits, timekeeper.now());
+  std::shared_ptr<FarEnd> far = std::make_shared<FarEnd>(lanes[0]);
   std::shared_ptr<Session> session =
-      std::make_shared<Session>(kId, std::make_unique<MemoryWire>(far), environment);
+      std::make_shared<Session>(kId, std::make_unique<MemoryWire>(far), lanes, 0, address, environment);
   int closed = 0;  ///< how often the session said that it is
 
  private:

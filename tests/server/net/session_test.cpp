@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <string>
 #include <variant>
 
@@ -45,7 +46,7 @@ TEST_CASE("a session says hello first, and all of it") {
   hello.server = "woodlouse a.b.c";
   hello.session = core::to_hex(Stage::kId);
   hello.rooms = {"volcano", "meadow"};
-  hello.features = {"quantized", "exact", "fields", "delta", "get_map"};
+  hello.features = {"quantized", "exact", "fields", "delta", "get_map", "resume"};
   CHECK(stage.far->received == text_of(hello));
   CHECK(stage.log.str().empty());
 }
@@ -59,7 +60,8 @@ TEST_CASE("a session that is refused says why and bye, no hello, and hears nothi
   CHECK(stage.far->is_shut);
   stage.send(kJoin);
   CHECK(stage.volcano->joins.empty());
-  CHECK(stage.log.str() == "info: session 000000000000002a: ended: too_many_connections: close one first\n");
+  CHECK(stage.log.str() ==
+        "info: session 000000000000002a of 10.0.0.1: ended: too_many_connections: close one first\n");
 }
 
 TEST_CASE("a join reaches the first room's door, and what follows does with the time it came") {
@@ -172,14 +174,96 @@ TEST_CASE("a line past the rate is refused with the time to wait, who waits it o
   CHECK(stage.last_line() == text_of(protocol::Pong{1}));
 }
 
-TEST_CASE("what goes out to a room weighs ten lines, and who keeps flooding is ended") {
+TEST_CASE("what goes out to a room has a budget of the session and one of its address") {
+  protocol::Limits limits;
+  limits.chat_per_s = 1;
+  limits.chat_per_s_address = 2;
+  limits.respawn_per_s = 1;
+  Stage stage(limits);
+  stage.start_joined();
+  for (std::uint32_t k = 0; k < protocol::kSavedSeconds + 3; ++k) stage.send(kChat);
+  CHECK(stage.volcano->messages.size() == protocol::kSavedSeconds);
+  CHECK(stage.last_line().find("\"retry_after_ms\":1000") != std::string::npos);
+  // Others of that address talk too: what they use up is gone for this one.
+  stage.address->charge(Spending::kChat, 2.0 * protocol::kSavedSeconds, stage.timekeeper.now());
+  stage.pass(seconds(2));
+  stage.send(kChat);
+  CHECK(stage.volcano->messages.size() == protocol::kSavedSeconds);
+  stage.pass(seconds(4));
+  stage.send(kChat);
+  CHECK(stage.volcano->messages.size() == protocol::kSavedSeconds + 1);
+  stage.send("{\"type\":\"respawn\"}\n");
+  CHECK(stage.volcano->messages.size() == protocol::kSavedSeconds + 2);
+}
+
+TEST_CASE("joins are counted by address, and one that is too many may be tried again") {
+  protocol::Limits limits;
+  limits.join_per_s_address = 1;
+  Stage stage(limits);
+  stage.start();
+  stage.address->charge(Spending::kJoin, protocol::kSavedSeconds, stage.timekeeper.now());
+  stage.send(kJoin);
+  CHECK(stage.volcano->joins.empty());
+  CHECK(stage.last_line().find("rate_limited") != std::string::npos);
+  stage.pass(seconds(1));
+  stage.send(kJoin);
+  CHECK(stage.volcano->joins.size() == 1);
+}
+
+TEST_CASE("answers of too many bytes come late, one of each kind waits, and a list is refused") {
+  protocol::Limits limits;
+  limits.answer_bytes_per_s = 1000;
+  Stage stage(limits);
+  stage.start_joined();
+  const auto member = stage.volcano->member;
+  stage.send("{\"type\":\"get_map\"}\n");
+  REQUIRE(stage.volcano->messages.size() == 1);
+  member->deliver_map(as_line(std::string(10'999, 'm') + '\n'));  // 8,000 saved, 3,000 owed
+  stage.run();
+  stage.send("{\"type\":\"get_map\"}\n{\"type\":\"resync\"}\n{\"type\":\"get_map\"}\n{\"type\":\"list\"}\n");
+  CHECK(stage.volcano->messages.size() == 1);
+  CHECK(stage.has_got("you have asked for it already"));
+  CHECK_FALSE(stage.has_got("\"rooms\","));
+  stage.pass(seconds(3) - milliseconds(1));
+  CHECK(stage.volcano->messages.size() == 1);
+  stage.pass(milliseconds(2));
+  CHECK(stage.volcano->messages.size() == 3);
+}
+
+TEST_CASE("who leaves while answers wait is told that they are left out") {
+  protocol::Limits limits;
+  limits.answer_bytes_per_s = 1000;
+  Stage stage(limits);
+  stage.start_joined();
+  stage.address->charge(Spending::kAnswerBytes, 1e9, stage.timekeeper.now());
+  stage.send("{\"type\":\"get_map\"}\n{\"type\":\"resync\"}\n{\"type\":\"leave\"}\n");
+  REQUIRE(stage.volcano->messages.size() == 1);
+  CHECK(std::holds_alternative<protocol::Leave>(stage.volcano->messages[0].first));
+  const auto lines = stage.lines();
+  CHECK(std::count_if(lines.begin(), lines.end(), [](const std::string& line) {
+          return line.find("this one is left out") != std::string::npos;
+        }) == 2);
+}
+
+TEST_CASE("what the system takes at once is one write, the rest of it another, and all arrives in order") {
+  Stage stage;
+  stage.far->takes_at_once = GENERATE(0u, 1u, 700u, 1'000'000u);
+  stage.start_joined();
+  stage.volcano->member->deliver(as_line("one\n"));
+  stage.volcano->member->show_again(key(1));
+  stage.volcano->member->answer(protocol::Pong{3});
+  stage.run();
+  stage.volcano->member->show(key(2));
+  stage.run();
+  CHECK(stage.far->received.ends_with("one\n" + text_of(protocol::Pong{3}) + "key 1\nkey 2\n"));
+  CHECK(stage.traffic.bytes_sent == stage.far->received.size());
+  CHECK(stage.traffic.frames_sent == 2);
+  CHECK((stage.far->takes_at_once < 1'000'000 || stage.far->writes == 0));
+}
+
+TEST_CASE("who keeps flooding is ended") {
   Stage stage(limits_of_rate(10, 12));
   stage.start_joined();
-  stage.send(kChat);
-  CHECK(stage.volcano->messages.size() == 1);
-  stage.send(kChat);
-  CHECK(stage.volcano->messages.size() == 1);
-  CHECK(stage.has_got("rate_limited"));
   for (int i = 0; i < 100; ++i) stage.send(kPing);
   CHECK(stage.last_line() ==
         text_of(protocol::Bye{"flood", "messages kept coming long after rate_limited", false}));
@@ -214,6 +298,7 @@ TEST_CASE("a second map is refused while the first one waits") {
   stage.start_joined();
   stage.far->holds_writes = true;
   stage.volcano->member->deliver(as_line("busy\n"));
+  stage.run();
   stage.volcano->member->deliver_map(as_line("map\n"));
   stage.volcano->member->deliver_map(as_line("map\n"));
   stage.run();
@@ -272,6 +357,7 @@ TEST_CASE("a client that reads nothing is sent ever less, is told, and is ended 
   CHECK(stage.last_line() ==
         text_of(protocol::Bye{"slow", "you read too slowly, even for keys alone", false}));
   CHECK(stage.log.str() ==
-        "info: session 000000000000002a: too slow even for keys\n"
-        "info: session 000000000000002a: ended: slow: you read too slowly, even for keys alone\n");
+        "info: session 000000000000002a of 10.0.0.1: ended: slow: you read too slowly, even for keys "
+        "alone\n");
+  CHECK(stage.volcano->parting == Parting::kLost);
 }

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include <array>
+#include <chrono>
 #include <memory>
 #include <string>
 #include <utility>
@@ -52,10 +53,10 @@ Line line(const std::string& text) { return Line(text); }
 
 TEST_CASE("a wire over TCP carries lines in their order, then its end") {
   Pair pair;
-  CHECK_FALSE(pair.wire->set_options());
+  CHECK_FALSE(pair.wire->set_options(std::chrono::seconds(15)));
   const std::vector<Line> lines{line("one\n"), line("two\n"), line("three\n")};
   Outcome written;
-  pair.wire->write(lines, written.handler());
+  pair.wire->write(lines, 0, written.handler());
   CHECK(written.calls == 0);
   pair.run();
   CHECK(written.calls == 1);
@@ -95,9 +96,9 @@ TEST_CASE("closing a wire over TCP ends its read, afterwards every call fails") 
   CHECK(read.error == asio::error::operation_aborted);
   const std::vector<Line> lines{line("late\n")};
   Outcome written;
-  pair.wire->write(lines, written.handler());
+  pair.wire->write(lines, 0, written.handler());
   pair.run();
   CHECK(written.error);
-  CHECK(pair.wire->set_options());
+  CHECK(pair.wire->set_options(std::chrono::seconds(15)));
   CHECK(pair.wire->shut_down_sending());
 }

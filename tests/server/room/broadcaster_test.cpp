@@ -13,6 +13,7 @@ namespace {
 
 class Listener final : public Subscriber {
  public:
+  [[nodiscard]] std::size_t lane() const override { return 0; }
   void deliver(Line line) override {
     std::istringstream lines(*line);
     for (std::string one; std::getline(lines, one);) heard.push_back(one);
@@ -41,7 +42,7 @@ ChannelFrames frames(FrameKind kind, std::uint64_t tick, const std::string& text
 
 struct House {
   boost::asio::io_context io{1};
-  std::shared_ptr<Broadcaster> broadcaster = std::make_shared<Broadcaster>(io);
+  std::shared_ptr<Broadcaster> broadcaster = std::make_shared<Broadcaster>(boost::asio::make_strand(io));
   std::vector<std::shared_ptr<Listener>> listeners;
 
   void add(std::size_t count) {

@@ -5,6 +5,7 @@
 
 #include <spdlog/sinks/null_sink.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -12,13 +13,14 @@
 
 #include "server/room/room.h"
 #include "shared/map/map_file.h"
-#include "tests/server/room/manual_timekeeper.h"
+#include "tests/server/timing/manual_timekeeper.h"
 
 namespace woodlouse::server::test {
 
 /// Keeps what a room says to it.
 class Guest final : public Subscriber {
  public:
+  [[nodiscard]] std::size_t lane() const override { return 0; }
   void deliver(Line line) override {
     const std::string& text = *line;
     for (std::size_t at = 0, end = 0; at < text.size(); at = end) {
@@ -83,12 +85,15 @@ struct Contexts {
     auto guest = std::make_shared<Guest>();
     if (join.fields.empty()) join.fields = protocol::default_columns();
     if (join.name.empty()) join.name = "guest" + std::to_string(session);
-    door.join(session, guest, join);
+    door.join({session, guest, join, address_of(session), Time{}});
     settle();
     return guest;
   }
 
+  /// Each has one of its own, unless a test says otherwise.
+  std::function<AddressId(SessionId)> address_of = [](SessionId session) { return session; };
   boost::asio::io_context io{1}, ticks{1};  // rooms, which ticks may hold, end before io
+  Lanes lanes{io, 1};
   std::shared_ptr<spdlog::logger> log =
       std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::null_sink_mt>());
 };
@@ -96,7 +101,7 @@ struct Contexts {
 /// A room whose timer has not begun: what it does between two ticks.
 struct House : Contexts {
   explicit House(RoomSettings settings, Start start = open(), Watchers watchers = {})
-      : room(Room::make(ticks, io, std::move(settings), std::move(start), std::move(watchers), timekeeper,
+      : room(Room::make(ticks, lanes, std::move(settings), std::move(start), std::move(watchers), timekeeper,
                         log)),
         door(room->door()) {}
 
@@ -121,10 +126,12 @@ struct House : Contexts {
   bool ticked_ = false;
 };
 
+/// So many players, and as many of the other two.
 inline RoomSettings settings(std::uint32_t per_room) {
   RoomSettings result;
   result.name = "volcano";
-  result.per_room = per_room;
+  result.limits.max_players = result.limits.max_bots = result.limits.max_spectators = per_room;
+  result.adopts_by_name = true;
   return result;
 }
 

@@ -13,7 +13,7 @@
 #include <thread>
 #include <vector>
 
-#include "server/room/steady_timekeeper.h"
+#include "server/timing/steady_timekeeper.h"
 #include "server/watchers/recorder.h"
 #include "server/watchers/shadow.h"
 #include "shared/replay/source_file.h"
@@ -32,7 +32,8 @@ struct LobbyHouse : Contexts {
     RoomSettings settings;
     settings.name = name;
     settings.bots = watchers.empty() ? 0 : 2;
-    return Room::make(ticks, io, std::move(settings), std::move(start), std::move(watchers), timekeeper, log);
+    return Room::make(ticks, lanes, std::move(settings), std::move(start), std::move(watchers), timekeeper,
+                      log);
   }
   /// Recorded and shadowed, as the server makes one.
   std::shared_ptr<Room> make_watched(const std::string& name, const std::filesystem::path& file,
@@ -94,7 +95,7 @@ TEST_CASE("a room that closes says bye to its members, and the doors that are he
   CHECK(late->refusals[0].code == "shutdown");
   CHECK_FALSE(late->refusals[0].fatal);
   door->submit(1, protocol::Chat{"anybody?"}, {});
-  door->leave(1);
+  door->leave(1, Parting::kLeft);
   CHECK(door->census().players == 0);
   CHECK(door->census().map == "volcano");
   CHECK_FALSE(house.lobby.close("hills", {}, "closed", [] {}));
@@ -195,8 +196,8 @@ TEST_CASE("rooms open and close while others look, join and leave") {
             protocol::Join join;
             join.name = "guest";
             join.fields = protocol::default_columns();
-            door->join(session, guest, join);
-            door->leave(session);
+            door->join({session, guest, join, 1, Time{}});
+            door->leave(session, Parting::kLeft);
             ++visits;
           }
         }

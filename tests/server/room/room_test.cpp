@@ -21,12 +21,13 @@ TEST_CASE("a guest is welcomed with who is there, then shown a key, then hears o
   CHECK(mara->welcomes[0].players.empty());
   CHECK(mara->welcomes[0].id != 0);
   CHECK(mara->frames.front().kind == FrameKind::kKey);
-  CHECK(mara->lines.size() == 2);
+  CHECK(mara->lines.size() == 1);  // of a spectator nobody hears
   REQUIRE(spectator->welcomes.size() == 1);
   CHECK(spectator->welcomes[0].id == 0);
   REQUIRE(spectator->welcomes[0].players.size() == 1);
   CHECK(spectator->welcomes[0].players[0].name == "guest1");
-  CHECK(spectator->lines.size() == 1);
+  CHECK(spectator->lines.empty());
+  CHECK(spectator->welcomes[0].spectators == 1);
   const protocol::RoomEntry census = house.room->census();
   CHECK(census.players == 1);
   CHECK(census.spectators == 1);
@@ -41,7 +42,7 @@ TEST_CASE("a full room refuses, and takes again when one has left") {
   CHECK(third->refusals[0].code == "room_full");
   CHECK_FALSE(third->refusals[0].fatal);
   CHECK(third->welcomes.empty());
-  house.door->leave(1);
+  house.door->leave(1, Parting::kLeft);
   CHECK(house.join(4)->welcomes.size() == 1);
 }
 
@@ -50,7 +51,7 @@ TEST_CASE("who asks for one row layout too many is served a wider one, and told 
   protocol::Join join;
   join.fields = {protocol::Column::kId};
   std::vector<std::shared_ptr<Guest>> guests;
-  for (SessionId session = 1; session <= Channels::kMaxRareLayouts + 4; ++session) {
+  for (SessionId session = 1; session <= Layouts::kMostRare + 4; ++session) {
     if (session % 2 == 0) join.fields.push_back(static_cast<protocol::Column>(session / 2));
     join.format = session % 2 == 0 ? protocol::Format::kExact : protocol::Format::kQuantized;
     guests.push_back(house.join(session, join));
@@ -79,9 +80,9 @@ TEST_CASE("what a session says after it left, or after it was refused, changes n
   const auto refused = house.join(2);
   house.door->submit(2, protocol::Chat{"let me in"}, {});
   house.door->submit(2, protocol::Input{}, {});
-  house.door->leave(2);
-  house.door->leave(1);
-  house.door->leave(1);
+  house.door->leave(2, Parting::kLeft);
+  house.door->leave(1, Parting::kLeft);
+  house.door->leave(1, Parting::kLeft);
   house.door->submit(1, protocol::Chat{"still here"}, {});
   house.settle();
   CHECK(refused->answers.empty());
@@ -91,7 +92,9 @@ TEST_CASE("what a session says after it left, or after it was refused, changes n
 }
 
 TEST_CASE("more chat than the broadcaster hands out is refused with the time to wait, no event is lost") {
-  House house(settings(8));
+  RoomSettings talkative = settings(8);
+  talkative.limits.chat_per_s_room = 1'000'000;
+  House house(talkative);
   const auto mara = house.join(1);
   const std::size_t before = mara->lines.size();
   // The room works, the broadcaster does not get to run: its backlog grows.
@@ -134,7 +137,7 @@ TEST_CASE(
   CHECK(house.join(2, named("timo"))->welcomes.at(0).id == 3);
   const auto mara = house.join(3, named("mara"));
   CHECK(mara->welcomes.at(0).id == 1);
-  CHECK(mara->welcomes[0].players.size() == 3);  // Rolly, the spectator and timo
+  CHECK(mara->welcomes[0].players.size() == 2);  // Rolly and timo
   CHECK(house.join(4, named("mara"))->welcomes.at(0).id == 4);
 }
 
@@ -177,4 +180,69 @@ TEST_CASE("the house's bots take over the lice of bots of their name") {
   CHECK(players[1].name == name);
   CHECK(players[1].id == 2);
   CHECK(players[2].id == 3);
+}
+
+TEST_CASE("a room has a budget for what everybody hears") {
+  House house(settings(8));
+  const auto mara = house.join(1);
+  const std::size_t before = mara->lines.size();
+  const std::uint32_t most = protocol::Limits{}.chat_per_s_room * protocol::kSavedSeconds;
+  for (std::uint32_t k = 0; k < most + 10; ++k) house.door->submit(1, protocol::Chat{"spam"}, Time{});
+  house.settle();
+  CHECK(mara->lines.size() - before == most);
+  CHECK(mara->answers.size() == 10);
+  house.door->submit(1, protocol::Respawn{}, Time{});
+  house.settle();
+  CHECK(mara->lines.back().find("respawned") != std::string::npos);
+}
+
+TEST_CASE("of two of a name the second is told another, and so is everybody") {
+  House house(settings(8));
+  const auto first = house.join(1, named("ann"));
+  CHECK(house.join(2, named("ann", protocol::Role::kSpectator))->welcomes.at(0).name == "ann#2");
+  CHECK(house.join(3, named("ann"))->welcomes.at(0).name == "ann#3");
+  CHECK(first->lines.back().find("\"ann#3\"") != std::string::npos);
+}
+
+TEST_CASE("of a player's inputs a step takes so many, a later one takes the last one's place, told at once") {
+  House house(settings(8));
+  const auto mara = house.join(1);
+  const std::uint32_t most = protocol::Limits{}.inputs_per_tick;
+  protocol::Input input;
+  for (input.seq = 1; input.seq <= most + 3; ++input.seq) {
+    input.thrust.value = {input.seq == most + 3 ? -0.5 : 0.25, 0.0};
+    house.door->submit(1, input, house.timekeeper.now());
+  }
+  house.settle();
+  REQUIRE(mara->answers.size() == 6);  // an error and an ack each
+  CHECK(std::get<protocol::ErrorMessage>(mara->answers[0]).code == "queue_full");
+  CHECK(std::get<protocol::Ack>(mara->answers[1]).seq == most);
+  CHECK(std::get<protocol::Ack>(mara->answers[1]).dropped);
+  house.room->start([] {});
+  house.tick();
+  REQUIRE(mara->answers.size() == 6 + most);
+  const auto& last = std::get<protocol::Ack>(mara->answers.back());
+  CHECK(last.seq == most + 3);
+  CHECK(last.you->louse.thrust.x == -0.5);
+}
+
+TEST_CASE("what a session says behind its join is heard, however many come before it") {
+  House house(settings(2000));
+  std::vector<std::shared_ptr<Guest>> guests;
+  for (SessionId session = 1; session <= 300; ++session) {
+    guests.push_back(std::make_shared<Guest>());
+    protocol::Join join = named("eye", protocol::Role::kSpectator);
+    join.fields = protocol::default_columns();
+    house.door->join({session, guests.back(), join, session, Time{}});
+    house.door->submit(session, protocol::GetMap{}, Time{});
+    house.door->leave(session, Parting::kLeft);
+    // Each look at the clock is a millisecond: a slice ends after every join.
+    house.timekeeper.advance(std::chrono::milliseconds(1));
+  }
+  house.settle();
+  for (const auto& guest : guests) {
+    REQUIRE(guest->welcomes.size() == 1);
+    REQUIRE(guest->maps.size() == 1);
+  }
+  CHECK(house.room->census().spectators == 0);
 }

@@ -85,13 +85,13 @@ TEST_CASE("a room sleeps again when its last guest has gone and his louse is out
   const auto eve = house.join(1, named("eve", protocol::Role::kSpectator));
   house.tick(3 * kTenSeconds);
   CHECK(watched.seen.turns.empty());
-  house.door->leave(1);
+  house.door->leave(1, Parting::kLeft);
   house.settle();
   house.tick(kTenSeconds);
   REQUIRE(watched.seen.turns.size() == 1);
   const auto ada = house.join(2, named("ada"));
   house.tick(10);
-  house.door->leave(2);
+  house.door->leave(2, Parting::kLeft);
   house.settle();
   house.tick(kTenSeconds + 10);
   CHECK(watched.seen.turns.size() == 3);

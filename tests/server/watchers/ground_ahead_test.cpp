@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "server/room/room.h"
-#include "server/room/steady_timekeeper.h"
+#include "server/timing/steady_timekeeper.h"
 #include "shared/map/map_file.h"
 #include "tests/support/big_map_files.h"
 
@@ -103,7 +103,8 @@ TEST_CASE("a room whose map can't be read any more says so once, loudly, counts 
   SteadyTimekeeper timekeeper;
   Watchers watchers;
   watchers.push_back(GroundAhead::make("alps", *map, "hills.flt", worker, log));
-  const auto room = Room::make(ticks, io, settings, std::move(start), std::move(watchers), timekeeper, log);
+  const auto room =
+      Room::make(ticks, Lanes(io, 1), settings, std::move(start), std::move(watchers), timekeeper, log);
   room->start([&] { room->stop({}, "done", [&] { ticks.stop(); }); });
   ticks.run_for(std::chrono::seconds(60));
   worker.join();

@@ -1,0 +1,63 @@
+// Turns the lice of a room into keys and deltas, once per (room, format, fields, tick).
+//
+//   key    {"type":"key","tick":n,"louse":[[...],...],"hash":"16 hex digits"}
+//   delta  {"type":"delta","tick":n,"base":k,"louse":[[...],...],"gone":[id,...]}
+// A delta is cumulative against the last key: the rows whose text differs from the key's, and the ids that
+// are in the key and no longer there. Cost: one comparison for a louse that is as in the key, else one row of
+// text. Pure: no socket. The room's strand owns it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "server/frames/frame.h"
+#include "server/frames/row_table.h"
+#include "shared/state/louse.h"
+#include "shared/state/state_hash.h"
+#include "shared/terrain/terrain.h"
+
+namespace woodlouse::server {
+
+/// What there is to see at one tick.
+struct Scene {
+  std::uint64_t tick = 0;
+  std::uint64_t index = 0;             ///< of the frame (frame.h)
+  std::span<const state::Louse> lice;  ///< ascending id
+  const terrain::Terrain& terrain;
+  std::uint64_t hash = 0;  ///< of the state at `tick`
+  state::HashLink link;    ///< what went into the hash besides the lice
+};
+
+class FrameEncoder {
+ public:
+  explicit FrameEncoder(RowLayout layout);
+
+  Frame key(const Scene& scene);
+  /// REQUIRES a key() before. Its base is the last key.
+  Frame delta(const Scene& scene);
+  [[nodiscard]] const RowLayout& layout() const { return rows_.layout(); }
+
+ private:
+  void write_key(std::string& text, const Scene& scene);
+  void write_delta(std::string& text, const Scene& scene);
+
+  struct KeyRow {
+    state::Louse louse;
+    std::size_t begin = 0;  ///< of its text in key_text_
+    std::size_t end = 0;
+  };
+
+  RowTable rows_;
+  bool proves_hash_ = false;  ///< exact and `all`: keys carry what else went into the hash
+  LinePool lines_;
+  Line key_text_;
+  std::uint64_t key_tick_ = 0;
+  std::vector<KeyRow> key_rows_;
+  std::string row_;   ///< being compared with the key's
+  std::string gone_;  ///< of the delta being written
+};
+
+}  // namespace woodlouse::server

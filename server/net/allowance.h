@@ -1,0 +1,57 @@
+// What a session may ask for: lines a second, what costs others, and answers of many bytes, which come late
+// where too many have gone. Pure: time is an argument. One owner, no locking; its address's account is
+// shared.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/net/address_account.h"
+#include "server/net/rate_limiter.h"
+#include "server/timing/budgets.h"
+#include "server/timing/clock.h"
+#include "shared/protocol/messages.h"
+
+namespace woodlouse::server {
+
+/// Whose budget a message is paid from; nothing: it costs nobody else.
+std::optional<Spending> spending_of(const protocol::ClientMessage& message);
+
+class Allowance {
+ public:
+  using Refusal = std::optional<protocol::ErrorMessage>;
+
+  Allowance(const protocol::Limits& limits, std::shared_ptr<AddressAccount> address, Time now);
+
+  /// A line has come. Nothing: it may be looked at. A fatal refusal ends the session.
+  Refusal take_line(Time now);
+  /// Of what costs others, by the session's own budget and its address's. Nothing: it is granted and paid,
+  /// but for an answer, which is charged when it is made.
+  Refusal spend(Spending what, Time now);
+  void charge_answer(std::size_t bytes, Time now);
+
+  /// get_map or resync, answered as soon as due() gives it; refused where one of its kind waits.
+  Refusal ask(protocol::ClientMessage question);
+  /// Those whose turn it is: all that wait, or none yet.
+  std::vector<protocol::ClientMessage> due(Time now);
+  /// When that will be; nothing: none waits.
+  [[nodiscard]] std::optional<Time> next(Time now);
+  /// The session leaves and waits for none: the errors that say so.
+  std::vector<protocol::ErrorMessage> refuse_waiting();
+
+  [[nodiscard]] AddressAccount& address() { return *address_; }
+
+ private:
+  [[nodiscard]] Duration wait(Spending what, Time now);
+
+  std::uint32_t messages_per_s_;
+  RateLimiter lines_;
+  Budgets own_;
+  std::shared_ptr<AddressAccount> address_;
+  std::vector<protocol::ClientMessage> waiting_;  ///< at most one of each kind
+};
+
+}  // namespace woodlouse::server
