@@ -1,21 +1,15 @@
 #include "bench/swarm/report.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include "bench/swarm/report_text.h"
+
 namespace woodlouse::swarm {
 namespace {
-
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-  char line[200];
-  std::snprintf(line, sizeof line, format, values...);
-  return line;
-}
 
 std::string percentiles(const char* title, Samples& samples) {
   samples.sort();
