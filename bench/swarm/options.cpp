@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "bench/option_failure.h"
+#include "bench/swarm/profile.h"
 #include "server/option_checks.h"
 
 namespace woodlouse::swarm {
@@ -111,6 +112,11 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   const std::size_t colon = address.rfind(':');
   if (colon == std::string::npos || colon == 0 || colon + 1 == address.size()) {
     std::cerr << "woodlouse-swarm: the address \"" << address << "\" is not HOST:PORT\n"
+              << "try: woodlouse-swarm --bots 20 --seconds 5 127.0.0.1:7777\n";
+    return 2;
+  }
+  if (load_profiles(options).empty() && options.healthy == 0 && options.churn_per_second == 0.0) {
+    std::cerr << "woodlouse-swarm: nobody is to connect\n"
               << "try: woodlouse-swarm --bots 20 --seconds 5 127.0.0.1:7777\n";
     return 2;
   }
