@@ -10,7 +10,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr auto kLook = 10ms;  // between looks at all clients
+constexpr auto kLook = 10ms;           // between looks at all clients
+constexpr auto kBetweenJoins = 100us;  // at least: those who are in have to be read meanwhile
 constexpr auto kJoinPatience = 15s;
 constexpr auto kSettling = 1s;  // the first key of each is sent out of turn
 constexpr auto kAway = 1s;      // of those whose connections are cut
@@ -73,8 +74,8 @@ void Swarm::let_in(const std::vector<Bot::Tcp::endpoint>& servers) {
   const auto begin = Clock::now();
   if (options_.churn_per_second > 0.0) churn_.start(servers);
   for (std::size_t i = 0; i < bots_.size(); ++i) {
-    context_.run_until(begin + in_seconds(static_cast<double>(i) / options_.joins_per_second));
-    context_.poll();
+    const auto due = begin + in_seconds(static_cast<double>(i) / options_.joins_per_second);
+    context_.run_until(std::max(due, Clock::now() + kBetweenJoins));
     bots_[i]->start(servers);
   }
   run_until(kJoinPatience, [this] { return count(bots_, Bot::State::kJoining) == 0; });
