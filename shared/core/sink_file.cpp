@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cassert>
@@ -99,12 +100,21 @@ Expected<NewFile> create_file(const fs::path& file) {
     fs::path name = number == 0 ? file : numbered(file, number);
     const int descriptor = open_for_writing(name);
     if (descriptor >= 0) {
+      ::flock(descriptor, LOCK_EX | LOCK_NB);  // for is_being_written(); where none can be had, it says no
       auto sink = std::make_unique<FileSink>(descriptor, name.string());
-      return NewFile{std::move(sink), std::move(name)};
+      return NewFile{std::move(sink), std::move(name), number > 0};
     }
     if (errno != EEXIST) return not_created(name, number);
   }
   return fail(file.string(), "is there, and so is every numbered one of it");
+}
+
+bool is_being_written(const fs::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) return false;
+  const bool is_locked = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return is_locked;
 }
 
 }  // namespace woodlouse::core

@@ -12,6 +12,7 @@ namespace woodlouse::core {
 struct NewFile {
   std::unique_ptr<ByteSink> sink;
   std::filesystem::path path;  ///< what it is called: as asked for, or numbered
+  bool is_numbered = false;
 };
 
 inline constexpr std::size_t kMaxFileNumber = 9999;
@@ -25,5 +26,9 @@ std::filesystem::path numbered(const std::filesystem::path& file, std::size_t nu
 /// is; a pipe that is full and not read from for half a second is an error of the sink's. Errors: where = the
 /// file, what = the system's words, or that all numbers are taken.
 Expected<NewFile> create_file(const std::filesystem::path& file);
+
+/// Whether a sink of create_file() has it open, in this process or another. The system forgets it with the
+/// process.
+bool is_being_written(const std::filesystem::path& file);
 
 }  // namespace woodlouse::core
