@@ -187,6 +187,7 @@ void Members::seat(Seat seat, const Arrival& arrival, bool is_back) {
   arrival.subscriber->welcome(std::move(welcome), settings_.state_hz / state_hz);
   if (acquired.is_new) outlet_->open(acquired.channel, layouts_.layout(acquired.channel));
   outlet_->show_newest(acquired.channel, arrival.subscriber, snapshot());
+  for (const protocol::Notice& notice : notices_) arrival.subscriber->answer(notice);
   outlet_->add({arrival.session, arrival.subscriber, acquired.channel, events_.next()});
   const Seat& added = seats_.add(std::move(seat));
   if (!is_back && added.louse != 0) send(events_.joined(game_.tick(), added));
@@ -239,6 +240,7 @@ void Members::end(const Seat& seat) {
 }
 
 void Members::announce(const protocol::Notice& notice) {
+  notices_.push_back(notice);
   seats_.for_each<SessionOccupant>(
       [&](const Seat&, const SessionOccupant& occupant) { occupant.subscriber->answer(notice); });
 }

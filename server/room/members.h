@@ -53,6 +53,7 @@ class Members {
   /// The lice go whose players have not come back in time.
   void give_up_vacant();
   void take(SessionId session, const protocol::ClientMessage& message, Time arrived);
+  /// To who is here, and to whoever joins later, behind the welcome.
   void announce(const protocol::Notice& notice);
   /// Says bye to every session; they are members no more.
   void dismiss(const protocol::Bye& bye);
@@ -110,6 +111,7 @@ class Members {
   Layouts layouts_;
   std::multimap<std::uint64_t, SessionId>
       leaving_;  ///< by the tick from which on all their inputs are acknowledged
+  std::vector<protocol::Notice> notices_;  ///< announced so far; a watcher has one or two
   SharedPool<Snapshot> snapshots_;
   SharedSnapshot snapshot_;  ///< of its tick, for all who ask within that
   Events events_;

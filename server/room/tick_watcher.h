@@ -25,7 +25,7 @@ struct InputMargin {
 /// once.
 class TickWatcher {
  public:
-  /// Tells every session of the room; any thread.
+  /// Tells every session of the room, those that join later too; any thread.
   using Announce = std::function<void(const protocol::Notice&)>;
 
   TickWatcher() = default;

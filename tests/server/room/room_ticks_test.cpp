@@ -137,6 +137,9 @@ TEST_CASE(
   REQUIRE(eve->answers.size() == 1);
   CHECK(std::get<protocol::Notice>(eve->answers[0]).text == "hi");
   house.tick();
+  const auto late = house.join(2, named("late"));
+  REQUIRE(late->answers.size() == 1);  // what was announced is told to whoever joins later
+  CHECK(std::get<protocol::Notice>(late->answers[0]).text == "hi");
   house.room->stop({"shutdown", "the server stops", false}, "test", [] {});
   house.settle();
   CHECK(seen == std::vector<std::string>{"begin", "step 1 margins 0", "rest 2", "chat 2 hi", "player 3 eve",
