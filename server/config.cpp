@@ -10,6 +10,7 @@
 #include "server/config_file.h"
 #include "server/limit_options.h"
 #include "server/option_checks.h"
+#include "server/record_options.h"
 #include "server/version.h"
 #include "shared/core/thread_team.h"
 
@@ -22,10 +23,12 @@ constexpr std::uint64_t kMaxJobs = 256;
 
 constexpr const char* kExamples = R"(Examples:
   woodlouse-server --map maps/volcano.json --bots 3 --record game.ndjson --shadow
+  woodlouse-server --map volcano hills --record /var/games/ --record-every 1h --record-keep 10G
   woodlouse-server verify game.ndjson
   woodlouse-server fork game.ndjson --tick 1200 --listen :7778
 
-Exit: 0 fine; 1 a recording that differs, or what can't be read or served; 2 usage.)";
+Exit: 0 fine; 1 a recording that differs or ended before its game, or what can't
+be read or served; 2 usage.)";
 
 constexpr const char* kForkExamples =
     R"(Its lice go on as they were; with --adopt-by-name who joins under a recorded name
@@ -41,6 +44,7 @@ struct TypedServe {
   std::string listen = "127.0.0.1:7777";
   std::string bots_alone = "stand";
   std::string log_format = "text";
+  TypedRecord record;
   std::string config_file;
 };
 
@@ -77,10 +81,7 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
       ->envname("WOODLOUSE_STATE_HZ")
       ->check(whole_number(1, kMaxTickHz))
       ->capture_default_str();
-  app.add_option("--record", serve.record,
-                 "Write a recording; with several rooms one file each, by room. One that is there is never "
-                 "written over")
-      ->envname("WOODLOUSE_RECORD");
+  add_record_options(app, typed.record);
   app.add_flag("--shadow", serve.shadow,
                "Re-run every tick beside the game and compare; a difference is logged and kept")
       ->envname("WOODLOUSE_SHADOW");
@@ -205,6 +206,9 @@ core::Expected<Config> checked(CLI::App& app, TypedServe& typed) {
   auto listen = parse_listen_address(typed.listen);
   if (!listen) return tl::unexpected(listen.error());
   serve.listen = std::move(*listen);
+  auto record = checked_record(typed.record, serve.maps.size());
+  if (!record) return tl::unexpected(record.error());
+  serve.record = std::move(*record);
   serve.bots_alone_play = typed.bots_alone == "play";
   serve.log_format = typed.log_format == "json" ? LogFormat::kJson : LogFormat::kText;
   return Config{std::move(serve)};

@@ -15,6 +15,7 @@
 #include "server/commands/verify.h"
 #include "server/log.h"
 #include "server/net/listen_address.h"
+#include "server/watchers/recordings.h"
 #include "shared/core/error.h"
 #include "shared/protocol/limits.h"
 
@@ -29,7 +30,7 @@ struct ServeConfig {
   ListenAddress listen;
   std::uint32_t tick_hz = 60;   ///< 1..1000
   std::uint32_t state_hz = 20;  ///< divides tick_hz
-  std::optional<std::filesystem::path> record;
+  std::optional<RecordSettings> record;
   bool shadow = false;                 ///< re-run and compare each tick beside the game
   std::optional<std::uint64_t> ticks;  ///< stop after so many
   std::optional<std::uint64_t> seed;   ///< empty: from the machine's entropy

@@ -2,6 +2,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 #include <system_error>
 #include <type_traits>
 #include <utility>
@@ -57,14 +58,16 @@ void end_when_signalled() {
 
 int run(const ServeConfig& config, const Server::Reread& reread) {
   end_when_signalled();
+  std::optional<KeptSignals> kept;  // until the log is written
   const Log log(config.log_format);
   log.logger()->set_level(spdlog::level::from_str(config.log_level));
   auto server = Server::create(config, reread, log.logger());
   if (!server) return report(server.error(), kFailed);
+  kept.emplace(taken_signals());
   std::cout << "listening " << (*server)->address() << std::endl;
   (*server)->run();
   (*server)->print_summary(std::cout);
-  return kOk;
+  return printed((*server)->lost_recordings().empty() ? kOk : kFailed);
 }
 
 }  // namespace

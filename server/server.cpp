@@ -22,7 +22,6 @@
 #include "server/signals.h"
 #include "server/version.h"
 #include "server/watchers/ground_ahead.h"
-#include "server/watchers/recorder.h"
 #include "server/watchers/shadow.h"
 #include "shared/core/joined.h"
 #include "shared/core/printable.h"
@@ -38,25 +37,9 @@ namespace {
 namespace asio = boost::asio;
 namespace fs = std::filesystem;
 
-/// A room's name as a part of a file's.
-std::string file_part(std::string room) {
-  std::replace_if(
-      room.begin(), room.end(), [](char c) { return c == '/' || c == '\\' || c == '.' || c == ' '; }, '_');
-  return room;
-}
-
-/// game.ndjson, for one room of several: game.volcano.ndjson
-fs::path recording_of(const fs::path& file, const std::string& room, std::size_t rooms) {
-  if (rooms <= 1) return file;
-  const std::string packed = file.extension() == ".zst" ? ".zst" : "";
-  const fs::path plain = packed.empty() ? file : fs::path(file).replace_extension();
-  return fs::path(file).replace_filename(plain.stem().string() + '.' + file_part(room) +
-                                         plain.extension().string() + packed);
-}
-
 /// Beside the recording, or where the server was started.
 fs::path dump_of_shadow(const ServeConfig& config, const std::string& room) {
-  return config.record.value_or(fs::path()).replace_filename("shadow." + file_part(room));
+  return (config.record ? config.record->pattern.folder() : fs::path()) / ("shadow." + file_part(room));
 }
 
 std::size_t tick_threads(std::size_t rooms) {
@@ -128,6 +111,7 @@ core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config, Rerea
   if (!endpoint) return tl::unexpected(endpoint.error());
   server->address_ = to_text(*endpoint);
   if (config.step_threads > 1) server->step_team_ = std::make_shared<core::ThreadTeam>(config.step_threads);
+  if (config.record) server->recordings_.emplace(*config.record, server->log_);
   if (config.shadow) server->shadows_.emplace(tick_threads(std::max<std::size_t>(1, config.maps.size())));
   const auto opened = fork ? server->open_fork_room(config, std::move(*fork)) : server->open_rooms(config);
   if (!opened) return tl::unexpected(opened.error());
@@ -212,11 +196,10 @@ core::Expected<Watchers> Server::make_watchers(const ServeConfig& config, const 
                                                const Start& start) {
   Watchers watchers;
   replay::Header header = replay::make_header(*start.match, kServerName, start.map_file);
-  if (config.record) {
+  if (recordings_) {
     replay::Header recorded = header;
     recorded.parent = start.parent;
-    auto opened = Recorder::open(recording_of(*config.record, room, config.maps.size()), std::move(recorded),
-                                 disk_, log_);
+    auto opened = recordings_->open(room, std::move(recorded));
     if (!opened) return tl::unexpected(opened.error());
     watchers.push_back(std::move(*opened));
   }
@@ -247,7 +230,7 @@ void Server::run() {
     throw;
   }
   threads.clear();
-  disk_.join();
+  if (recordings_) recordings_->end(Clock::now() + kLastMoment);
   if (shadows_) shadows_->join();
 }
 
@@ -259,8 +242,9 @@ void Server::await_signal() {
 
 void Server::on_signal(int signal) {
   const bool lost_terminal = signal == SIGHUP && had_terminal_ && !has_terminal();
-  if (signal == SIGHUP && !lost_terminal) {
-    reload();
+  if (signal == SIGUSR1 || (signal == SIGHUP && !lost_terminal)) {
+    if (signal == SIGUSR1) reopen();
+    if (signal == SIGHUP) reload();
     return await_signal();
   }
   const std::string name = core::joined({"SIG", ::sigabbrev_np(signal)});
@@ -281,6 +265,15 @@ void Server::reload() {
   for (const auto& room : lobby_.rooms()) room->use(limits);
   log_->warn(
       "SIGHUP: limits and log level are read again; limits of a session hold for who comes from now on");
+}
+
+void Server::reopen() {
+  const std::size_t rooms = recordings_ ? recordings_->ask_for_next_files() : 0;
+  log_->info(rooms == 0
+                 ? std::string("SIGUSR1: no room is recorded: no recording begins")
+                 : fmt::format("SIGUSR1: the recordings of {} rooms go on in new files from their next "
+                               "keyframe on",
+                               rooms));
 }
 
 void Server::room_ended() {
@@ -316,11 +309,17 @@ void Server::stop_contexts() {
   io_.stop();
 }
 
+std::vector<std::string> Server::lost_recordings() const {
+  return recordings_ ? recordings_->lost() : std::vector<std::string>();
+}
+
 void Server::print_summary(std::ostream& out) const {
   for (const auto& room : lobby_.rooms())
     out << core::printable(summary(room->name(), *room->figures())) << '\n';
   out << "frames sent " << traffic_.frames_sent << ", bytes sent " << traffic_.bytes_sent
       << ", lines received " << traffic_.lines_received << '\n';
+  for (const std::string& lost : lost_recordings())
+    out << "RECORDING LOST: " << core::printable(lost) << '\n';
 }
 
 }  // namespace woodlouse::server

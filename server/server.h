@@ -1,10 +1,11 @@
 // The whole server: rooms, port, threads, signals, and the order in which they start and stop.
 //
 // Threads: rooms tick in a context of their own (one thread for each room, at most one a core), sockets and
-// broadcasts run in another (kIoThreads, a lane each), recordings are written on one more, tiles of big maps
-// are built ahead of lice on another, shadows re-run games on as many as rooms tick on. A tick so never waits
-// for a socket, and for a disk only where a louse outruns the tiles. With --step-threads there is one team of
-// threads more, which a room with many lice has for its tick; a room that finds it taken goes without.
+// broadcasts run in another (kIoThreads, a lane each), recordings are written on a thread each, tiles of big
+// maps are built ahead of lice on another, shadows re-run games on as many as rooms tick on. A tick so never
+// waits for a socket, and for a disk only where a louse outruns the tiles. With --step-threads there is one
+// team of threads more, which a room with many lice has for its tick; a room that finds it taken goes
+// without.
 #pragma once
 
 #include <spdlog/logger.h>
@@ -32,6 +33,7 @@
 #include "server/room/start.h"
 #include "server/timing/live_limits.h"
 #include "server/timing/steady_timekeeper.h"
+#include "server/watchers/recordings.h"
 #include "shared/core/error.h"
 #include "shared/core/team.h"
 
@@ -44,6 +46,8 @@ class Server {
   static constexpr std::size_t kIoThreads = 2;
   /// From the signal to the exit at most.
   static constexpr Duration kStopWithin = std::chrono::milliseconds(800);
+  /// For what of a recording is still on its way then: one whose disk stands still is left behind.
+  static constexpr Duration kLastMoment = std::chrono::milliseconds(30);
 
   /// Loads the maps or the recording to go on from, opens the port, creates the recordings.
   /// reread: the configuration once more, at each HUP.
@@ -58,7 +62,15 @@ class Server {
   /// returns.
   void run();
 
-  /// Ticks, lateness, moves of the clock, frames; one line a room and one for all. After run().
+  /// New files for what is written all the time: the recordings. On reopen_signals(), on the server's strand;
+  /// files are not opened here, as a disk may stand still.
+  void reopen();
+
+  /// "FILE: why", of each recording that ended before its time. After run().
+  [[nodiscard]] std::vector<std::string> lost_recordings() const;
+
+  /// Ticks, lateness, moves of the clock, frames; one line a room, one for all, and one a lost
+  /// recording. After run().
   void print_summary(std::ostream& out) const;
 
  private:
@@ -82,7 +94,6 @@ class Server {
   void stop_contexts();
 
   std::shared_ptr<spdlog::logger> log_;
-  boost::asio::thread_pool disk_{1};
   std::optional<boost::asio::thread_pool> ground_;  ///< once a map is too big for the memory
   std::optional<boost::asio::thread_pool> shadows_;
   std::shared_ptr<core::Team> step_team_;  ///< null: each tick on one thread
@@ -107,6 +118,8 @@ class Server {
   std::size_t rooms_running_ = 0;  ///< that have not reached the tick limit
   std::size_t parts_running_ = 0;  ///< once stopping: rooms and the acceptor
   bool stopping_ = false;
+
+  std::optional<Recordings> recordings_;  ///< goes first: what it leaves behind touches nothing of the others
 };
 
 }  // namespace woodlouse::server

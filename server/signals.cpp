@@ -9,8 +9,8 @@
 namespace woodlouse::server {
 
 std::vector<int> taken_signals() {
-  std::vector<int> result = {SIGINT, SIGTERM};
-  for (const int signal : {SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM}) {
+  std::vector<int> result;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM}) {
     struct sigaction now {};
     if (::sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN) result.push_back(signal);
   }

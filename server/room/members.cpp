@@ -274,10 +274,6 @@ void Members::take(SessionId session, const protocol::ClientMessage& message, Ti
       message);
 }
 
-void Members::on_message(Seat& seat, SessionOccupant& occupant, const protocol::Input& input, Time arrived) {
-  inputs_.file(seat, occupant, input, arrived);
-}
-
 bool Members::refuse_when_busy(SessionOccupant& occupant, Spending what, Time arrived) {
   std::optional<Duration> wait;
   if (outlet_->backlog() > Broadcaster::kMaxBacklog) wait = std::chrono::seconds(1);

@@ -84,7 +84,9 @@ class Members {
   void hold(Seat seat);
   void end(const Seat& seat);
   void unsubscribe(const SessionOccupant& occupant);
-  void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Input& input, Time arrived);
+  void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Input& input, Time arrived) {
+    inputs_.file(seat, occupant, input, arrived);
+  }
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Chat& chat, Time arrived);
   void on_message(Seat& seat, const SessionOccupant& occupant, const protocol::Leave&, Time);
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::GetMap&, Time);
@@ -110,7 +112,7 @@ class Members {
   Budgets budgets_;
   Layouts layouts_;
   std::multimap<std::uint64_t, SessionId>
-      leaving_;  ///< by the tick from which on all their inputs are acknowledged
+      leaving_;                            ///< by the tick from which on all their inputs are acknowledged
   std::vector<protocol::Notice> notices_;  ///< announced so far; a watcher has one or two
   SharedPool<Snapshot> snapshots_;
   SharedSnapshot snapshot_;  ///< of its tick, for all who ask within that

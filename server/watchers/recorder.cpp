@@ -2,14 +2,11 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <boost/asio/post.hpp>
-
 #include <cassert>
-#include <chrono>
 #include <utility>
+#include <vector>
 
-#include "shared/core/sink_file.h"
-#include "shared/protocol/codes.h"
+#include "shared/replay/writer.h"
 
 namespace woodlouse::server {
 namespace {
@@ -21,68 +18,75 @@ std::uint64_t seconds_since_1970() {
   return since > 0 ? static_cast<std::uint64_t>(since) : 0;
 }
 
-constexpr std::size_t kWriteAt = 256u << 10;  // bytes that are not kept back for the next flush
-
 }  // namespace
 
-core::Expected<std::unique_ptr<Recorder>> Recorder::open(const std::filesystem::path& file,
-                                                         replay::Header header,
-                                                         boost::asio::thread_pool& disk,
+core::Expected<std::unique_ptr<Recorder>> Recorder::open(std::shared_ptr<RecordingFiles> files,
+                                                         const std::string& room, replay::Header header,
+                                                         std::optional<Duration> every,
                                                          std::shared_ptr<spdlog::logger> log) {
-  auto out = core::create_file(file);
+  auto out = files->create(room);
   if (!out)
     return core::fail(
-        "cannot write the recording " + file.string(), out.error().what,
+        "cannot write the recording " + out.error().where, out.error().what,
         out.error().hint.empty() ? "does its folder exist, and may you write there?" : out.error().hint);
-  if (out->path != file)
-    log->warn(fmt::format("{} is there already: recording to {}", file.string(), out->path.string()));
-  return std::make_unique<Recorder>(std::move(out->sink), out->path.string(), std::move(header), disk,
-                                    std::move(log));
+  if (out->is_numbered)
+    log->warn(
+        fmt::format("{} is there already: recording to {}", files->file(room).string(), out->path.string()));
+  const replay::Header first = header;
+  return std::unique_ptr<Recorder>(
+      new Recorder(std::make_shared<RecordingWriter>(std::move(out->sink), out->path.string(), room,
+                                                     std::move(header), std::move(files), std::move(log)),
+                   first, every));
 }
 
 Recorder::Recorder(std::unique_ptr<core::ByteSink> out, std::string name, replay::Header header,
-                   boost::asio::thread_pool& disk, std::shared_ptr<spdlog::logger> log)
-    : name_(std::move(name)),
-      disk_(disk),
-      log_(std::move(log)),
-      header_(std::move(header)),
-      keyframe_ticks_(replay::keyframe_ticks(header_.tick_hz)),
-      out_(std::move(out)),
-      writer_(replay::encoding_of(name_)),
-      flush_timer_(disk.get_executor()) {
-  assert(out_ != nullptr);
-}
+                   std::shared_ptr<spdlog::logger> log)
+    : Recorder(std::make_shared<RecordingWriter>(std::move(out), std::move(name), "", header, nullptr,
+                                                 std::move(log)),
+               header, std::nullopt) {}
+
+Recorder::Recorder(std::shared_ptr<RecordingWriter> writer, const replay::Header& header,
+                   std::optional<Duration> every)
+    : writer_(std::move(writer)),
+      thread_(std::make_shared<JobThread>(kMaxQueued, kFlushEvery, [writer = writer_] { writer->flush(); })),
+      tick_hz_(header.tick_hz),
+      keyframe_ticks_(replay::keyframe_ticks(header.tick_hz)),
+      every_(every) {}
+
+Recorder::~Recorder() { thread_->close(); }
 
 void Recorder::begin(const match::Match& game) {
-  assert(game.settings().tick_hz == header_.tick_hz);
-  enqueue([this, first = game.state()](std::string& out) {
-    writer_.append_header(out, header_);
-    writer_.append_keyframe(out, first);
-  });
+  assert(game.settings().tick_hz == tick_hz_);
+  file_began_ = Clock::now();
+  enqueue([writer = writer_, first = game.state()] { writer->begin(first); });
 }
 
 void Recorder::chat(std::uint64_t tick, match::PlayerId player, const std::string& name,
                     const std::string& text) {
-  enqueue([this, tick, player, name, text](std::string& out) {
-    const bool fits = writer_.append_chat(out, tick, player, name, text);
-    if (!fits && std::exchange(left_out_at_, tick) != tick)
-      log_->warn(fmt::format(
-          "{}: more was said at tick {} than a recording holds, the rest of it is left out", name_, tick));
-  });
+  enqueue([writer = writer_, tick, player, name, text] { writer->chat(tick, player, name, text); });
 }
 
 void Recorder::step(const match::StepRecord& record, std::span<const InputMargin> margins,
                     const match::Match& game) {
-  if (failed_) return;
+  if (writer_->has_failed()) return;
   std::shared_ptr<const match::MatchState> keyframe;
   if (game.tick() % keyframe_ticks_ == 0) keyframe = std::make_shared<const match::MatchState>(game.state());
-  enqueue([this, record, margins = std::vector(margins.begin(), margins.end()),
-           keyframe = std::move(keyframe)](std::string& out) {
-    for (const InputMargin& margin : margins)
-      writer_.note_margin(margin.player, margin.seq, margin.microseconds);
-    writer_.append_step(out, record);
-    if (keyframe) writer_.append_keyframe(out, *keyframe);
+  const bool next_file = keyframe != nullptr && is_next_file_due();
+  enqueue([writer = writer_, record, margins = std::vector(margins.begin(), margins.end()),
+           keyframe = std::move(keyframe), next_file] {
+    writer->step(record, margins);
+    if (keyframe) writer->keyframe(*keyframe, next_file);
   });
+}
+
+/// The nearest keyframe: a tick's delay must not make a file of 10 s one of 15 s.
+bool Recorder::is_next_file_due() {
+  constexpr Duration kHalf = std::chrono::seconds(replay::kKeyframeSeconds) / 2;
+  const Time now = Clock::now();
+  const bool is_asked = writer_->take_request();
+  if (!is_asked && (!every_ || now - file_began_ + kHalf < *every_)) return false;
+  file_began_ = now;
+  return true;
 }
 
 void Recorder::fall_asleep(const match::Match& game) { pause_ = {game.tick(), seconds_since_1970(), 0}; }
@@ -90,66 +94,21 @@ void Recorder::fall_asleep(const match::Match& game) { pause_ = {game.tick(), se
 void Recorder::wake(const match::Match&) {
   assert(pause_);
   pause_->until = seconds_since_1970();
-  enqueue([this, pause = *std::exchange(pause_, std::nullopt)](std::string& out) {
-    writer_.append_pause(out, pause);
-  });
+  enqueue([writer = writer_, pause = *std::exchange(pause_, std::nullopt)] { writer->pause(pause); });
 }
 
 void Recorder::finish(const std::string& reason, std::function<void()> done) {
   if (pause_) pause_->until = seconds_since_1970();
-  boost::asio::post(disk_,
-                    [this, reason, pause = std::exchange(pause_, std::nullopt), done = std::move(done)] {
-                      flush_timer_.cancel();
-                      finished_ = true;
-                      if (!failed_) {
-                        if (pause) writer_.append_pause(bytes_, *pause);
-                        writer_.append_end(bytes_, reason);
-                        write_out();
-                        if (!failed_) judge(out_->close());
-                      }
-                      // Behind the cancelled timer's handler: whoever is told may let go of the recording.
-                      boost::asio::post(disk_, done);
-                    });
-}
-
-void Recorder::enqueue(Job job) {
-  if (failed_) return;
-  if (queued_.fetch_add(1) >= kMaxQueued) return give_up("the disk is too slow");
-  boost::asio::post(disk_, [this, job = std::move(job)] {
-    if (!failed_) {
-      job(bytes_);
-      if (bytes_.size() >= kWriteAt) write_out();
-      if (!std::exchange(will_flush_, true)) await_flush();
-    }
-    queued_.fetch_sub(1);
+  // Not with the job: a thread that stands still would keep what `done` holds.
+  writer_->when_finished(std::move(done));
+  thread_->post_last([writer = writer_, reason, pause = std::exchange(pause_, std::nullopt)] {
+    if (pause) writer->pause(*pause);
+    writer->finish(reason);
   });
 }
 
-void Recorder::await_flush() {
-  flush_timer_.expires_after(kFlushEvery);
-  flush_timer_.async_wait([this](const boost::system::error_code& error) {
-    will_flush_ = false;
-    if (error || failed_ || finished_) return;
-    writer_.flush(bytes_);
-    write_out();
-  });
-}
-
-void Recorder::write_out() {
-  judge(out_->write(bytes_));
-  bytes_.clear();
-}
-
-void Recorder::judge(const core::Expected<void>& outcome) {
-  if (!outcome) give_up(outcome.error().what);
-}
-
-void Recorder::give_up(const std::string& why) {
-  if (failed_.exchange(true)) return;
-  log_->error(fmt::format(
-      "RECORDING ENDED: cannot write {}: {}; the game goes on, what follows is not recorded", name_, why));
-  if (announce_)
-    announce_({std::string(protocol::code::kRecordingEnded), "the game is no longer recorded: " + why});
+void Recorder::enqueue(JobThread::Job job) {
+  if (!writer_->has_failed() && !thread_->post(std::move(job))) writer_->give_up("the disk is too slow");
 }
 
 }  // namespace woodlouse::server

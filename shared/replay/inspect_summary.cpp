@@ -101,7 +101,7 @@ std::string head(const ReplayArchive& archive, const Reading& reading) {
        "\nplayed   by ", shown(header.build), ", behavior ", std::to_string(header.behavior), ", seed ",
        std::to_string(header.seed), ", ", std::to_string(header.tick_hz), " ticks/s\n"});
   if (header.parent) {
-    out += core::joined({"forked   from ", shown(header.parent->file), " at tick ",
+    out += core::joined({"goes on  from ", shown(header.parent->file), " at tick ",
                          std::to_string(header.parent->tick), "\n"});
   }
   const std::uint64_t first = lines.keyframes.front().tick;

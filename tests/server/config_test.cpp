@@ -98,7 +98,7 @@ TEST_CASE("flags are read, several maps make several rooms") {
   CHECK(config.listen == ListenAddress{"::1", 0});
   CHECK(config.tick_hz == 120);
   CHECK(config.state_hz == 40);
-  CHECK(config.record == std::filesystem::path("game.ndjson"));
+  CHECK(config.record->pattern.file("x", 0) == "game.x.ndjson");
   CHECK(config.ticks == 7u);
   CHECK(config.seed == 18446744073709551615u);
   CHECK(config.bots == 3);
@@ -117,7 +117,7 @@ TEST_CASE("a flag goes over a variable, a variable over the file, the file over 
   CHECK(config.tick_hz == 50);
   CHECK(config.state_hz == 10);
   CHECK(config.seed == 5u);
-  CHECK(config.record == std::filesystem::path("r"));
+  CHECK(config.record->pattern.file("f", 0) == "r.f.ndjson.zst");
   CHECK(config.maps == std::vector<std::filesystem::path>{"f.json", "g.json"});
 }
 
@@ -143,12 +143,25 @@ TEST_CASE("a wrong option is refused by its name") {
       {{"--map", "a", "--step-threads", "65"}, "--step-threads"},
       {{"--map", "a", "--log-format", "xml"}, "--log-format"},
       {{"--map", "a", "--listen", "host:seven"}, "--listen"},
+      {{"--map", "a", "--record", "%Q"}, "--record"},
+      {{"--map", "a", "--record-every", "1h"}, "--record-every"},
+      {{"--map", "a", "--record-keep", "1G"}, "--record-keep"},
+      {{"--map", "a", "--record", "r", "--record-every", "9s"}, "--record-every"},
+      {{"--map", "a", "--record", "r", "--record-keep", "much"}, "--record-keep"},
       {{"--map", "a", "--frobnicate"}, "--frobnicate"},
       {{"--map", "a", "--config", "/no/such/file.json"}, "/no/such/file.json"},
   }));
   const auto config = parse(arguments);
   REQUIRE_FALSE(config);
   CHECK_THAT(config.error().text(), Catch::Contains(names));
+}
+
+TEST_CASE("recordings may be cut and bounded") {
+  const ServeConfig config =
+      serve({"--map", "a", "--record", "r", "--record-every", "90m", "--record-keep", "10G"});
+  REQUIRE(config.record);
+  CHECK(config.record->every == std::chrono::minutes(90));
+  CHECK(config.record->keep_bytes == std::uint64_t{10} << 30);
 }
 
 TEST_CASE("a server opens as many rooms as it says, and no more") {
@@ -195,7 +208,7 @@ TEST_CASE("a fork takes a server's options but what its recording decides") {
   CHECK(config.fork->recording == "game.ndjson");
   CHECK(config.fork->tick == 600);
   CHECK(config.bots == 2);
-  CHECK(config.record == std::filesystem::path("other.ndjson"));
+  CHECK(config.record->pattern.file("x", 0) == "other.ndjson");
   CHECK(config.shadow);
   CHECK(config.ticks == 7u);
   CHECK(config.state_hz == 25);

@@ -52,7 +52,7 @@ class Leaving(unittest.TestCase):
         with Server(maps=("maunga_whau",)) as server, server.client(receive_buffer=4096) as client:
             client.send(JOIN, {"type": "get_map"}, *[{"type": "ping", "t": t} for t in range(150)])
             client.socket.shutdown(socket.SHUT_WR)
-            server.wait_for_log(": left")
+            server.wait_for_log(": connection ended")
             answers = [{"type": "map"}, *[{"type": "pong", "t": t} for t in range(150)]]
             self.assert_answered(client.until_end(), answers)
 

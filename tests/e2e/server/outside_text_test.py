@@ -128,9 +128,9 @@ class OutsideText(unittest.TestCase):
     def recording(self):
         """The lines of a short game."""
         code, printed = run(PROGRAM, "--map", map_file("volcano"), "--listen", "127.0.0.1:0", "--bots", "1", "--ticks", "30",
-                            "--record", self.path("game"))
+                            "--record", self.path("game.ndjson"))
         self.assertEqual(code, 0, printed)
-        with open(self.path("game"), encoding="utf-8") as lines:
+        with open(self.path("game.ndjson"), encoding="utf-8") as lines:
             return lines.read().splitlines()
 
     def test_recordings(self):

@@ -97,13 +97,15 @@ class Recording(unittest.TestCase):
         pipe = os.path.join(self.folder.name, "pipe.ndjson")
         os.mkfifo(pipe)
         disk = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
-        with Server("--record", pipe, "--bots", "2") as server, server.player() as player:
+        with Server("--record", pipe, "--bots", "2", ends_with=1) as server, server.player() as player:
             player.expect("delta")
             os.close(disk)
             player.expect("notice", code="recording_ended")
             for _ in range(30):
                 player.expect("delta")
-            self.assertEqual(server.stop()[0], 0)
+            code, _, printed = server.stop()
+            self.assertEqual(code, 1)
+            self.assertEqual(printed.splitlines()[-1], f"RECORDING LOST: {pipe}: Broken pipe")
             self.assertEqual(server.log().count("RECORDING ENDED"), 1)
 
     def test_a_packed_recording_is_inspected_at_any_tick_and_tells_who_was_late(self):

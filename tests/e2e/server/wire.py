@@ -35,9 +35,10 @@ def run(*arguments, **options):
 
 class Server:
     """A running woodlouse-server on a free loopback port; ended with the `with` block. fork: a recording and a tick to
-    go on from, instead of maps."""
+    go on from, instead of maps. ends_with: the exit code it is to have."""
 
-    def __init__(self, *arguments, maps=("volcano",), listen="127.0.0.1:0", fork=None):
+    def __init__(self, *arguments, maps=("volcano",), listen="127.0.0.1:0", fork=None, ends_with=0):
+        self.ends_with = ends_with
         games = ["fork", fork[0], "--tick", str(fork[1])] if fork else ["--map", *map(map_file, maps)]
         command = [PROGRAM, *games, "--listen", listen, *arguments]
         self.errors = tempfile.TemporaryFile("w+")
@@ -59,7 +60,7 @@ class Server:
         try:
             code = self.process.wait(PATIENCE)
             # However the test went, the server itself must have ended well (or have been killed by the test).
-            if code not in (0, -signal.SIGKILL):
+            if code not in (self.ends_with, -signal.SIGKILL):
                 raise AssertionError(f"the server ended with {code}:\n{self.log()}")
         finally:
             self.process.kill()

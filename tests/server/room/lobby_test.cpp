@@ -37,11 +37,12 @@ struct LobbyHouse : Contexts {
   }
   /// Recorded and shadowed, as the server makes one.
   std::shared_ptr<Room> make_watched(const std::string& name, const std::filesystem::path& file,
-                                     boost::asio::thread_pool& disk, boost::asio::thread_pool& shadows) {
+                                     boost::asio::thread_pool& shadows) {
     Start start = open();
     const replay::Header header = replay::make_header(*start.match, "test", start.map_file);
     Watchers watchers;
-    auto recorder = Recorder::open(file, header, disk, log);
+    auto recorder = Recorder::open(std::make_shared<RecordingFiles>(*RecordPattern::parse(file.string(), 1)),
+                                   name, header, {}, log);
     REQUIRE(recorder);
     watchers.push_back(std::move(*recorder));
     watchers.push_back(std::make_unique<Shadow>(name, start.map, header, file, shadows, log));
@@ -123,11 +124,10 @@ TEST_CASE(
   LobbyHouse house;
   const auto file = std::filesystem::temp_directory_path() /
                     ("woodlouse_lobby_test_" + std::to_string(::getpid()) + ".ndjson");
-  boost::asio::thread_pool disk(1);
   boost::asio::thread_pool shadows(1);
   std::weak_ptr<Room> room;
   {
-    const auto made = house.make_watched("hills", file, disk, shadows);
+    const auto made = house.make_watched("hills", file, shadows);
     room = made;
     REQUIRE(house.lobby.open(made, [] {}));
   }
@@ -139,7 +139,6 @@ TEST_CASE(
   REQUIRE(house.lobby.close("hills", {}, "closed", [&] { closed = true; }));
   CHECK(house.lobby.stop({}, "test", [&] { stopped = true; }) == 1);  // it is closing still
   while (!closed || !stopped || !room.expired()) house.settle();
-  disk.join();
   shadows.join();
   const auto verdict = replay::verify(replay::source_of_file(file));
   REQUIRE(verdict);

@@ -34,9 +34,14 @@ std::unique_ptr<match::Match> new_match() {
 
 replay::Header header() { return replay::make_header(*new_match(), "test", "maps/volcano.json"); }
 
+core::Expected<std::unique_ptr<Recorder>> open(const std::string& file, const Log& log) {
+  const auto pattern = RecordPattern::parse(file, 1);
+  REQUIRE(pattern);
+  return Recorder::open(std::make_shared<RecordingFiles>(*pattern), "volcano", header(), {}, log.logger);
+}
+
 /// Plays a short game into a recording, as a room does. What it announces is kept.
-std::vector<protocol::Notice> play(Recorder& recorder, boost::asio::thread_pool& disk, int ticks,
-                                   int chats = 1) {
+std::vector<protocol::Notice> play(Recorder& recorder, int ticks, int chats = 1) {
   std::vector<protocol::Notice> announced;
   const auto game = new_match();
   match::Match& match = *game;
@@ -54,7 +59,7 @@ std::vector<protocol::Notice> play(Recorder& recorder, boost::asio::thread_pool&
   for (int k = 1; k < chats; ++k) recorder.chat(match.tick(), player, "mara", std::string(4000, 'x'));
   recorder.chat(match.tick(), player, "mara", "over \"and\" out");
   recorder.finish("test over", [] {});
-  disk.join();
+  REQUIRE(recorder.thread()->wait_until(Clock::now() + std::chrono::seconds(60)));
   return announced;
 }
 
@@ -64,11 +69,10 @@ TEST_CASE("a recorded game with joins, inputs, keyframes and chat verifies") {
   const std::filesystem::path file = std::filesystem::temp_directory_path() /
                                      ("woodlouse_recorder_test_" + std::to_string(::getpid()) + ".ndjson");
   Log log;
-  boost::asio::thread_pool disk(1);
   {
-    auto recorder = Recorder::open(file, header(), disk, log.logger);
+    auto recorder = open(file.string(), log);
     REQUIRE(recorder);
-    play(**recorder, disk, 700);
+    play(**recorder, 700);
   }
   const auto result = replay::verify(replay::source_of_file(file));
   REQUIRE(result);
@@ -84,11 +88,10 @@ TEST_CASE("a recording named .zst is packed and verifies") {
       std::filesystem::temp_directory_path() /
       ("woodlouse_recorder_test_" + std::to_string(::getpid()) + ".ndjson.zst");
   Log log;
-  boost::asio::thread_pool disk(1);
   {
-    auto recorder = Recorder::open(file, header(), disk, log.logger);
+    auto recorder = open(file.string(), log);
     REQUIRE(recorder);
-    play(**recorder, disk, 700);
+    play(**recorder, 700);
   }
   const auto result = replay::verify(replay::source_of_file(file), 2);
   REQUIRE(result);
@@ -99,10 +102,9 @@ TEST_CASE("a recording named .zst is packed and verifies") {
 
 TEST_CASE("a full disk ends the recording with one log line, a word to who asked, and nothing else") {
   Log log;
-  boost::asio::thread_pool disk(1);
-  auto recorder = Recorder::open("/dev/full", header(), disk, log.logger);
+  auto recorder = open("/dev/full", log);
   REQUIRE(recorder);
-  const std::vector<protocol::Notice> told = play(**recorder, disk, 700);
+  const std::vector<protocol::Notice> told = play(**recorder, 700);
   REQUIRE(told.size() == 1);
   CHECK(told[0] ==
         protocol::Notice{"recording_ended", "the game is no longer recorded: No space left on device"});
@@ -139,13 +141,12 @@ class FailingSink final : public core::ByteSink {
 TEST_CASE("a recording whose sink fails at any call is given up once, and what was written before stands") {
   for (const int failing_write : {0, 1, 2}) {
     Log log;
-    boost::asio::thread_pool disk(1);
     std::string kept;
     const bool fails_to_close = failing_write == 0;
     Recorder recorder(std::make_unique<FailingSink>(kept, failing_write, fails_to_close), "game.ndjson",
-                      header(), disk, log.logger);
+                      header(), log.logger);
     // So much that it is written in several parts.
-    const std::vector<protocol::Notice> told = play(recorder, disk, 300, 200);
+    const std::vector<protocol::Notice> told = play(recorder, 300, 200);
     INFO("write " << failing_write);
     REQUIRE(told.size() == 1);
     CHECK_THAT(told[0].text, Catch::Contains("the disk is gone"));
@@ -165,9 +166,8 @@ TEST_CASE("a recording whose sink fails at any call is given up once, and what w
 
 TEST_CASE("a recording that cannot be created is told with the reason") {
   Log log;
-  boost::asio::thread_pool disk(1);
-  const auto recorder = Recorder::open("/no/such/folder/game.ndjson", header(), disk, log.logger);
+  const auto recorder = open("/no/such/folder/game.ndjson", log);
   REQUIRE_FALSE(recorder);
   CHECK_THAT(recorder.error().text(),
-             Catch::Contains("/no/such/folder/game.ndjson") && Catch::Contains("No such file"));
+             Catch::Contains("/no/such/folder/game.ndjson") && Catch::Contains("mkdir -p /no/such/folder/"));
 }

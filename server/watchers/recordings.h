@@ -1,0 +1,62 @@
+// All recordings of a server: how they are asked for, and what is left of them at its end.
+#pragma once
+
+#include <spdlog/logger.h>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/timing/clock.h"
+#include "server/watchers/record_pattern.h"
+#include "server/watchers/recorder.h"
+#include "server/watchers/recording_files.h"
+#include "shared/core/error.h"
+#include "shared/replay/format.h"
+
+namespace woodlouse::server {
+
+struct RecordSettings {
+  RecordPattern pattern;
+  std::optional<std::chrono::seconds> every{};  ///< a file's length; none: one file a game
+  std::optional<std::uint64_t> keep_bytes{};    ///< of all files of the pattern; none: no bound
+};
+
+/// One thread at a time. It outlives the rooms' run.
+class Recordings {
+ public:
+  Recordings(const RecordSettings& settings, std::shared_ptr<spdlog::logger> log);
+  Recordings(const Recordings&) = delete;
+  Recordings& operator=(const Recordings&) = delete;
+  /// end(), without waiting.
+  ~Recordings();
+
+  /// Errors: where = the recording that can't be written.
+  core::Expected<std::unique_ptr<Recorder>> open(const std::string& room, replay::Header header);
+  /// Every room begins a new file at its next keyframe, one that stands still when it goes on. How many will.
+  std::size_t ask_for_next_files();
+  /// When the rooms have stopped, or are waited for no longer: waits until `latest` for what is still to be
+  /// written. A recording that has no end then is left behind, and the log says which.
+  void end(Time latest);
+
+  /// "FILE: why", of each that ended before its time. After end().
+  [[nodiscard]] std::vector<std::string> lost() const;
+
+ private:
+  /// Of a room; both outlive its recorder.
+  struct Entry {
+    std::shared_ptr<RecordingWriter> writer;
+    std::shared_ptr<JobThread> thread;
+  };
+
+  const std::optional<Duration> every_;
+  const std::shared_ptr<RecordingFiles> files_;
+  const std::shared_ptr<spdlog::logger> log_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace woodlouse::server

@@ -1,0 +1,90 @@
+// What a session may ask for, and what happens past that.
+#include "server/net/allowance.h"
+
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <string>
+#include <variant>
+
+#include "tests/server/net/session_stage.h"
+
+using namespace woodlouse;
+using namespace woodlouse::server;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+namespace {
+constexpr std::string_view kChat = "{\"type\":\"chat\",\"text\":\"hi\"}\n";
+}
+
+TEST_CASE("what goes out to a room has a budget of the session and one of its address") {
+  protocol::Limits limits;
+  limits.chat_per_s = 1;
+  limits.chat_per_s_address = 2;
+  limits.respawn_per_s = 1;
+  Stage stage(limits);
+  stage.start_joined();
+  for (std::uint32_t k = 0; k < protocol::kSavedSeconds + 3; ++k) stage.send(kChat);
+  CHECK(stage.volcano->messages.size() == protocol::kSavedSeconds);
+  CHECK(stage.last_line().find("\"retry_after_ms\":1000") != std::string::npos);
+  // Others of that address talk too: what they use up is gone for this one.
+  stage.address->charge(Spending::kChat, 2.0 * protocol::kSavedSeconds, stage.timekeeper.now());
+  stage.pass(seconds(2));
+  stage.send(kChat);
+  CHECK(stage.volcano->messages.size() == protocol::kSavedSeconds);
+  stage.pass(seconds(4));
+  stage.send(kChat);
+  CHECK(stage.volcano->messages.size() == protocol::kSavedSeconds + 1);
+  stage.send("{\"type\":\"respawn\"}\n");
+  CHECK(stage.volcano->messages.size() == protocol::kSavedSeconds + 2);
+}
+
+TEST_CASE("joins are counted by address, and one that is too many may be tried again") {
+  protocol::Limits limits;
+  limits.join_per_s_address = 1;
+  Stage stage(limits);
+  stage.start();
+  stage.address->charge(Spending::kJoin, protocol::kSavedSeconds, stage.timekeeper.now());
+  stage.send(kJoin);
+  CHECK(stage.volcano->joins.empty());
+  CHECK(stage.last_line().find("rate_limited") != std::string::npos);
+  stage.pass(seconds(1));
+  stage.send(kJoin);
+  CHECK(stage.volcano->joins.size() == 1);
+}
+
+TEST_CASE("answers of too many bytes come late, one of each kind waits, and a list is refused") {
+  protocol::Limits limits;
+  limits.answer_bytes_per_s = 1000;
+  Stage stage(limits);
+  stage.start_joined();
+  const auto member = stage.volcano->member;
+  stage.send("{\"type\":\"get_map\"}\n");
+  REQUIRE(stage.volcano->messages.size() == 1);
+  member->deliver_map(as_line(std::string(10'999, 'm') + '\n'));  // 8,000 saved, 3,000 owed
+  stage.run();
+  stage.send("{\"type\":\"get_map\"}\n{\"type\":\"resync\"}\n{\"type\":\"get_map\"}\n{\"type\":\"list\"}\n");
+  CHECK(stage.volcano->messages.size() == 1);
+  CHECK(stage.has_got("you have asked for it already"));
+  CHECK_FALSE(stage.has_got("\"rooms\","));
+  stage.pass(seconds(3) - milliseconds(1));
+  CHECK(stage.volcano->messages.size() == 1);
+  stage.pass(milliseconds(2));
+  CHECK(stage.volcano->messages.size() == 3);
+}
+
+TEST_CASE("who leaves while answers wait is told that they are left out") {
+  protocol::Limits limits;
+  limits.answer_bytes_per_s = 1000;
+  Stage stage(limits);
+  stage.start_joined();
+  stage.address->charge(Spending::kAnswerBytes, 1e9, stage.timekeeper.now());
+  stage.send("{\"type\":\"get_map\"}\n{\"type\":\"resync\"}\n{\"type\":\"leave\"}\n");
+  REQUIRE(stage.volcano->messages.size() == 1);
+  CHECK(std::holds_alternative<protocol::Leave>(stage.volcano->messages[0].first));
+  const auto lines = stage.lines();
+  CHECK(std::count_if(lines.begin(), lines.end(), [](const std::string& line) {
+          return line.find("this one is left out") != std::string::npos;
+        }) == 2);
+}
