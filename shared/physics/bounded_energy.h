@@ -72,6 +72,15 @@ Motion energy_bounded(const S& surface, const Rim& rim, const state::Parameters&
   return {end.position, most / std::sqrt(speed2) * end.velocity};
 }
 
+/// The length in space of a step that is no more than its two ends: between them it may have had any speed,
+/// and the middle of one that was slowed down says nothing.
+template <typename S, typename Start>
+double way_of_ends(const S& surface, const Rim& rim, const Start& start, const Motion& end, double h) {
+  const core::Vec2 place = rim.inside(end.position);
+  const auto s = surface.sample(place.x, place.y);
+  return 0.5 * h * (std::sqrt(start.speed2) + std::sqrt(squared_length_in_space(s, end.velocity)));
+}
+
 /// What becomes of a step.
 enum class Verdict {
   kTaken,

@@ -140,8 +140,8 @@ class Stepper {
       const StepResult result = I{}.step(start, Field{ground_, start, way.drive}, way.remaining);
       ++way.counters.sub_steps;
       way.counters.samples += I::kSamples;
-      way.louse.distance += way.remaining * std::sqrt(start.speed2);
       way.at = bounded(start, way.drive, {way.remaining, 0.0, true}, result.end);
+      way.louse.distance += way_of_ends(surface_, rim_, start, way.at, way.remaining);
       lag(way.drive, way.at.velocity, way.remaining);
       if (rim_.wraps()) carry_home(way);
       way.at.position = rim_.inside(way.at.position);
@@ -222,6 +222,7 @@ class Stepper {
     if (hits || flies) ++way.events;
     if constexpr (requires { way.integrator.accept(hits); })
       way.integrator.accept(hits || step.capped || flies);
+    if (step.capped) result.way = way_of_ends(surface_, rim_, field.start, result.end, step.h);
     way.louse.distance += result.way;
     way.remaining = step.h == way.remaining ? 0.0 : way.remaining - step.h;
     way.at = result.end;

@@ -137,6 +137,29 @@ TEST_CASE("nobody makes energy among dents that a step leads over, by any method
   }
 }
 
+TEST_CASE("however fast it goes over whatever dents, a louse's distance is that of a way it can have gone") {
+  constexpr double kSpeed = 1000.0;
+  for (const Method method : kMethodsTold) {
+    Parameters p{.gravity = 9.81, .drag = 0.0, .friction = 0.1, .thrust_max = 4.0};
+    p.edge_restitution = 0.9;
+    p.method = method;
+    World world(dented(0.01, 0.03, 4), p, 1.0 / 15);
+    core::Random random(2);
+    for (LouseId id = 1; id <= 40; ++id) {
+      state::Louse louse = anywhere(random, world.terrain().domain(), kSpeed * random.uniform());
+      louse.id = id;
+      world.insert(louse);
+      push(world, id, static_cast<int>(id % 4));
+    }
+    for (int tick = 1; tick <= 60; ++tick) {
+      world.step();
+      // As fast as its slope lets it be at the start, and as it is pushed.
+      for (const state::Louse& louse : world.lice()) REQUIRE(louse.distance <= 4.0 * kSpeed * tick / 15);
+    }
+    CHECK(world.counters().capped > 0);
+  }
+}
+
 TEST_CASE("nobody makes energy on a function that has no cells to shorten steps by") {
   const auto ground = std::make_shared<const Terrain>(FunctionSurface(FunctionName::kWaves, 0.1));
   for (const Method method : kMethodsTold) {
