@@ -36,6 +36,9 @@ core::Expected<std::vector<FileOption>> read_config_file(const std::filesystem::
     FileOption option{std::string(value.key()), {}};
     std::replace(option.first.begin(), option.first.end(), '_', '-');
     const std::string where = file.string() + ": " + std::string(value.key());
+    const auto same = [&option](const FileOption& other) { return other.first == option.first; };
+    if (std::any_of(options.begin(), options.end(), same))
+      return core::fail(where, "stands twice: - and _ are the same in a name");
     const bool is_list = value.is(json::Kind::kArray);
     for (const json::Value& element : is_list ? value.children() : std::vector{value}) {
       auto text = as_typed(element, where);

@@ -4,6 +4,7 @@
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/base_sink.h>
 
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -52,6 +53,11 @@ class StandardError final : public spdlog::sinks::base_sink<std::mutex> {
     for (std::string_view left(line.data(), line.size()); !left.empty();) {
       const ssize_t count = ::write(STDERR_FILENO, left.data(), left.size());
       if (count < 0 && errno == EINTR) continue;
+      if (count < 0 && errno == EAGAIN) {  // whoever started the server has it so
+        pollfd out{STDERR_FILENO, POLLOUT, 0};
+        ::poll(&out, 1, -1);
+        continue;
+      }
       if (count < 0) return;  // closed, or full: nobody is left to be told
       left.remove_prefix(static_cast<std::size_t>(count));
     }

@@ -1,4 +1,7 @@
 // woodlouse-server: parses, wires, runs.
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <csignal>
 #include <cstdlib>
 #include <iostream>
@@ -70,9 +73,19 @@ int run(const ServeConfig& config, const Server::Reread& reread) {
   return printed((*server)->lost_recordings().empty() ? kOk : kFailed);
 }
 
+/// Where one of the three is closed, the next file opened would take its place, and what is printed go there.
+void open_standard_descriptors() {
+  int opened = 0;
+  do {
+    opened = ::open("/dev/null", O_RDWR);
+  } while (opened >= 0 && opened <= STDERR_FILENO);
+  if (opened >= 0) ::close(opened);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_descriptors();
   // A closed pipe behind standard output or error is no reason to end a game, nor is a recording that grows
   // past what its user may write: then writing fails.
   std::signal(SIGPIPE, SIG_IGN);

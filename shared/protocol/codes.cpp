@@ -49,7 +49,8 @@ constexpr std::array kCodes = {
     CodeEntry{code::kRateRestored, "notice", Ends::kNo, "frames come at the full rate again"},
     CodeEntry{code::kDraining, "notice", Ends::kNo, "the server will stop soon"},
     CodeEntry{code::kRecordingEnded, "notice", Ends::kNo,
-              "the game goes on, but is no longer recorded: the disk is full or too slow"},
+              "the game goes on, but is no longer recorded: the disk is full or too slow, or its share is "
+              "used up. Whoever joins later hears it behind the welcome"},
 };
 
 }  // namespace

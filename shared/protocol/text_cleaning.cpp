@@ -5,6 +5,7 @@
 
 #include "shared/core/printable.h"
 #include "shared/core/utf8.h"
+#include "shared/protocol/combining_marks.h"
 
 namespace woodlouse::protocol {
 namespace {
@@ -21,6 +22,8 @@ constexpr std::array kBlanks = {
     Span{0x3164, 0x3164}, Span{0xffa0, 0xffa0},
 };
 
+constexpr int kMaxMarks = 2;  // over one character
+
 bool is_blank(char32_t c) {
   return std::any_of(kBlanks.begin(), kBlanks.end(), [c](Span s) { return c >= s.first && c <= s.last; });
 }
@@ -29,6 +32,7 @@ bool is_blank(char32_t c) {
 
 std::string clean_text(std::string_view text, std::size_t max_bytes) {
   std::string out;
+  int marks = 0;       // running
   bool blank = false;  // one is due before the next character, unless that is the first
   while (!text.empty()) {
     const core::Utf8Character character = core::first_character(text);
@@ -40,6 +44,8 @@ std::string clean_text(std::string_view text, std::size_t max_bytes) {
       continue;
     }
     if (!core::is_printable(character.code)) continue;
+    marks = is_combining_mark(character.code) ? marks + 1 : 0;
+    if (marks > kMaxMarks) continue;
     if (out.size() + (blank ? 1 : 0) + bytes.size() > max_bytes) break;
     if (blank) out += ' ';
     blank = false;

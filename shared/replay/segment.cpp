@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "shared/core/joined.h"
+#include "shared/replay/writer.h"
 
 namespace woodlouse::replay {
 namespace {
@@ -45,10 +46,15 @@ core::Expected<Segment> run_segment(ReplayReader& reader, const std::shared_ptr<
       if (!difference) return tl::unexpected(difference.error());
       ++segment.steps;
       lines.add(*step);
+      const bool is_first = !segment.difference && difference->has_value();
       if (!segment.difference) segment.difference = std::move(*difference);
-      // What is known to do nothing, or known to be wrong, is not worth its time.
-      if (segment.difference && reader.quiet_steps() > 0) {
-        segment.difference->detail = "the recording says that nothing moved then, nor in the steps behind it";
+      // What is known to be wrong is worth as many steps as lie before a keyframe, which may say of whom.
+      const std::uint64_t quiet_ones = reader.quiet_steps();
+      if (segment.difference && quiet_ones > 0 &&
+          (is_first || quiet_ones > keyframe_ticks(settings.tick_hz))) {
+        segment.difference->detail =
+            is_first ? "the recording says that nothing moved then, nor in the steps behind it"
+                     : "no keyframe follows soon that could say which louse";
         return segment;
       }
       const std::uint64_t quiet = (*rerun)->stand_still(reader.quiet_steps());

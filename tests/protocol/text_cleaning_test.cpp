@@ -62,3 +62,11 @@ TEST_CASE(
     }
   }
 }
+
+TEST_CASE("of marks over one character two stay, and writing that needs them is left alone") {
+  std::string zalgo = "a";
+  for (int k = 0; k < 10; ++k) zalgo += "\u0301\u0489";
+  CHECK(clean_text(zalgo + "b\u0308", 100) == "a\u0301\u0489b\u0308");
+  CHECK(clean_text("\u0e01\u0e34\u0e49", 100) == "\u0e01\u0e34\u0e49");
+  CHECK(clean_text(clean_text(zalgo, 100), 100) == clean_text(zalgo, 100));
+}

@@ -307,4 +307,25 @@ TEST_CASE("a line of many steps in which something moves is told at once, not re
   CHECK(found.ticks == 1);
 }
 
+TEST_CASE("what was altered before a quiet stretch is told by the keyframe behind it") {
+  match::Match match(small_map("spline"), {60, 3});
+  std::string text;
+  append_header(text, make_header(match, "tests", "small.json"));
+  append_keyframe(text, match.state());
+  match.join({"ada", state::Role::kPlayer});
+  while (!match.stands_still()) {
+    match::StepRecord step = match.advance();
+    if (step.tick == 1) step.hash ^= 1;
+    append_step(text, step, {});
+  }
+  append_quiet_steps(text, match.tick(), 100, match.hash());
+  match.stand_still(100);
+  append_keyframe(text, match.state());
+  append_quiet_steps(text, match.tick(), 100, match.hash());
+  const Verification found = verdict(text);
+  REQUIRE(found.difference);
+  CHECK(found.difference->tick == 2);
+  CHECK(found.difference->detail.find("the same lice, so what was altered moved none") != std::string::npos);
+}
+
 }  // namespace woodlouse::replay

@@ -193,6 +193,7 @@ TEST_CASE("a wrong config file is refused by its key or place") {
       {R"({"map": )" + std::string(400000, '[') + std::string(400000, ']') + "}", "nested more than 3 deep"},
       {R"({"bots": )", ":1"},
       {R"({"ticks": 5, "ticks": 600000})", "ticks"},
+      {R"({"tick-hz": 60, "tick_hz": 30})", "tick_hz: stands twice"},
   }));
   const File file(text);
   const auto config = parse({"--map", "a", "--config", file.path()});
