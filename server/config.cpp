@@ -103,10 +103,13 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
       ->envname("WOODLOUSE_STEP_THREADS")
       ->check(whole_number(1, core::ThreadTeam::kMostThreads))
       ->capture_default_str();
-  app.add_option("--log-format", typed.log_format, "On standard error")
+  app.add_option("--log-format", typed.log_format, "Of the log")
       ->envname("WOODLOUSE_LOG_FORMAT")
       ->check(CLI::IsMember({"text", "json"}))
       ->capture_default_str();
+  app.add_option("--log-file", serve.log_file,
+                 "Log to the end of this file instead of standard error; SIGUSR1 opens it anew")
+      ->envname("WOODLOUSE_LOG_FILE");
   app.add_option("--log-level", serve.log_level, "Least severe of what is logged; SIGHUP reads it again")
       ->envname("WOODLOUSE_LOG_LEVEL")
       ->check(CLI::IsMember(log_levels()))

@@ -38,8 +38,9 @@ struct ServeConfig {
   bool bots_alone_play = false;        ///< they keep a room awake in which nobody is
   std::uint32_t step_threads = 1;      ///< 1..core::ThreadTeam::kMostThreads; of a big room's tick
   LogFormat log_format = LogFormat::kText;
-  std::string log_level = "info";  ///< of log_levels()
-  protocol::Limits limits;         ///< messages_per_s and burst 0: by the tick rate (limit_options.h)
+  std::optional<std::filesystem::path> log_file;  ///< empty: standard error
+  std::string log_level = "info";                 ///< of log_levels()
+  protocol::Limits limits;  ///< messages_per_s and burst 0: by the tick rate (limit_options.h)
 };
 
 struct CheckConfig {

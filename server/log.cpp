@@ -4,12 +4,15 @@
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/base_sink.h>
 
+#include <fcntl.h>
 #include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <cerrno>
+#include <cstring>
 #include <future>
 #include <mutex>
 #include <string>
@@ -44,17 +47,35 @@ std::unique_ptr<spdlog::formatter> formatter(const char* pattern, spdlog::patter
   return result;
 }
 
-/// Standard error, not by way of stdio: whose lock a thread that stands in a write would keep, and exit()
-/// wants.
-class StandardError final : public spdlog::sinks::base_sink<std::mutex> {
+/// Standard error or a file, not by way of stdio: whose lock a thread that stands in a write would keep, and
+/// exit() wants.
+class DescriptorSink final : public spdlog::sinks::base_sink<std::mutex> {
+ public:
+  DescriptorSink() = default;
+  DescriptorSink(std::string file, int descriptor) : file_(std::move(file)), descriptor_(descriptor) {
+    assert(descriptor_ >= 0);
+  }
+  ~DescriptorSink() override {
+    if (!file_.empty()) ::close(descriptor_);
+  }
+  static int open(const std::string& file) {
+    return ::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+  }
+  void reopen() { is_moved_ = true; }
+
+ private:
   void sink_it_(const spdlog::details::log_msg& message) override {
+    if (!file_.empty() && is_moved_.exchange(false)) {
+      const int next = open(file_);
+      if (next >= 0) ::close(std::exchange(descriptor_, next));
+    }
     spdlog::memory_buf_t line;
     formatter_->format(message, line);
     for (std::string_view left(line.data(), line.size()); !left.empty();) {
-      const ssize_t count = ::write(STDERR_FILENO, left.data(), left.size());
+      const ssize_t count = ::write(descriptor_, left.data(), left.size());
       if (count < 0 && errno == EINTR) continue;
       if (count < 0 && errno == EAGAIN) {  // whoever started the server has it so
-        pollfd out{STDERR_FILENO, POLLOUT, 0};
+        pollfd out{descriptor_, POLLOUT, 0};
         ::poll(&out, 1, -1);
         continue;
       }
@@ -63,6 +84,10 @@ class StandardError final : public spdlog::sinks::base_sink<std::mutex> {
     }
   }
   void flush_() override {}
+
+  const std::string file_;  ///< empty: standard error
+  int descriptor_ = STDERR_FILENO;
+  std::atomic<bool> is_moved_{false};
 };
 
 /// Hands on to another sink, and tells in a line of its own how many lines were lost before the next.
@@ -120,7 +145,16 @@ std::unique_ptr<spdlog::formatter> formatter_of(LogFormat format) {
                                  spdlog::pattern_time_type::utc);
 }
 
-Log::Log(LogFormat format) : Log(format, std::make_shared<StandardError>()) {}
+Log::Log(LogFormat format) : Log(format, std::make_shared<DescriptorSink>()) {}
+
+core::Expected<std::unique_ptr<Log>> Log::open(LogFormat format, const std::filesystem::path& file) {
+  const int descriptor = DescriptorSink::open(file.string());
+  if (descriptor < 0) return core::fail("--log-file " + file.string(), std::strerror(errno));
+  const auto sink = std::make_shared<DescriptorSink>(file.string(), descriptor);
+  auto log = std::make_unique<Log>(format, sink);
+  log->reopen_ = [sink] { sink->reopen(); };
+  return log;
+}
 
 Log::Log(LogFormat format, spdlog::sink_ptr sink)
     : thread_(std::make_shared<spdlog::details::thread_pool>(kMostWaiting, 1)),

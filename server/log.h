@@ -1,6 +1,6 @@
-// The server's log: on standard error, as text for people or one JSON object a line for machines. Whoever
-// logs never waits for who reads it: a thread of its own writes, of what it does not come to the oldest is
-// lost, and counted.
+// The server's log: on standard error or in a file, as text for people or one JSON object a line for
+// machines. Whoever logs never waits for who reads it: a thread of its own writes, of what it does not come
+// to the oldest is lost, and counted.
 #pragma once
 
 #include <spdlog/logger.h>
@@ -8,10 +8,14 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "shared/core/error.h"
 
 namespace spdlog::details {
 class thread_pool;
@@ -34,11 +38,17 @@ class Log {
   static constexpr std::chrono::milliseconds kLongest{2000};
 
   explicit Log(LogFormat format);
+  /// Appends to a file. Errors: it can't be opened.
+  static core::Expected<std::unique_ptr<Log>> open(LogFormat format, const std::filesystem::path& file);
   /// To another sink than standard error. Nothing but the log's thread calls it.
   Log(LogFormat format, spdlog::sink_ptr sink);
   Log(const Log&) = delete;
   Log& operator=(const Log&) = delete;
   ~Log();
+
+  /// A file is opened anew for the next line, as it was moved away; where that fails the old one serves on.
+  /// Standard error stays. Any thread.
+  void reopen() const { reopen_(); }
 
   /// Thread safe; REQUIRES that the log lives. What is logged is formatted first,
   /// log->info(fmt::format(...)), by fmt's library: the logger's own templates compile fmt again in each file
@@ -46,6 +56,7 @@ class Log {
   [[nodiscard]] const std::shared_ptr<spdlog::logger>& logger() const { return logger_; }
 
  private:
+  std::function<void()> reopen_ = [] {};
   std::shared_ptr<spdlog::details::thread_pool> thread_;
   std::shared_ptr<spdlog::logger> logger_;
 };

@@ -4,7 +4,9 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <functional>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <system_error>
 #include <type_traits>
@@ -59,12 +61,16 @@ void end_when_signalled() {
   for (const int signal : taken_signals()) std::signal(signal, kEnd);
 }
 
-int run(const ServeConfig& config, const Server::Reread& reread) {
+int run(const ServeConfig& config, const std::function<core::Expected<ServeConfig>()>& reread) {
   end_when_signalled();
   std::optional<KeptSignals> kept;  // until the log is written
-  const Log log(config.log_format);
+  auto opened = config.log_file
+                    ? Log::open(config.log_format, *config.log_file)
+                    : core::Expected<std::unique_ptr<Log>>(std::make_unique<Log>(config.log_format));
+  if (!opened) return report(opened.error(), kFailed);
+  const Log& log = **opened;
   log.logger()->set_level(spdlog::level::from_str(config.log_level));
-  auto server = Server::create(config, reread, log.logger());
+  auto server = Server::create(config, {reread, [&log] { log.reopen(); }}, log.logger());
   if (!server) return report(server.error(), kFailed);
   kept.emplace(taken_signals());
   std::cout << "listening " << (*server)->address() << std::endl;

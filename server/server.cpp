@@ -82,14 +82,14 @@ protocol::Limits limits_of(const ServeConfig& config) {
 
 }  // namespace
 
-Server::Server(const ServeConfig& config, Reread reread, std::shared_ptr<spdlog::logger> log)
+Server::Server(const ServeConfig& config, Outside outside, std::shared_ptr<spdlog::logger> log)
     : log_(std::move(log)),
       io_(static_cast<int>(kIoThreads)),
       lanes_(io_, kIoThreads),
       strand_(asio::make_strand(io_)),
       signals_(strand_),
       deadline_(strand_),
-      reread_(std::move(reread)),
+      outside_(std::move(outside)),
       had_terminal_(has_terminal()),
       limits_(limits_of(config)),
       environment_{lobby_, limits_, traffic_, timekeeper_, kServerName, log_},
@@ -97,7 +97,7 @@ Server::Server(const ServeConfig& config, Reread reread, std::shared_ptr<spdlog:
 
 Server::~Server() = default;
 
-core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config, Reread reread,
+core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config, Outside outside,
                                                        std::shared_ptr<spdlog::logger> log) {
   std::optional<Start> fork;
   if (config.fork) {
@@ -105,7 +105,7 @@ core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config, Rerea
     if (!start) return tl::unexpected(start.error());
     fork = std::move(*start);
   }
-  std::unique_ptr<Server> server(new Server(config, std::move(reread), std::move(log)));
+  std::unique_ptr<Server> server(new Server(config, std::move(outside), std::move(log)));
   // The port first: a busy one must not cost somebody his recording.
   const auto endpoint = server->acceptor_.open(config.listen);
   if (!endpoint) return tl::unexpected(endpoint.error());
@@ -254,7 +254,7 @@ void Server::on_signal(int signal) {
 
 /// What may change while games go on: limits and the log's level.
 void Server::reload() {
-  const auto config = reread_();
+  const auto config = outside_.reread();
   if (!config) {
     log_->error(fmt::format("SIGHUP: nothing is changed: {}: {}", config.error().where, config.error().what));
     return;
@@ -268,6 +268,7 @@ void Server::reload() {
 }
 
 void Server::reopen() {
+  outside_.reopen_log();
   const std::size_t rooms = recordings_ ? recordings_->ask_for_next_files() : 0;
   log_->info(rooms == 0
                  ? std::string("SIGUSR1: no room is recorded: no recording begins")

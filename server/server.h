@@ -41,7 +41,11 @@ namespace woodlouse::server {
 
 class Server {
  public:
-  using Reread = std::function<core::Expected<ServeConfig>()>;
+  /// What a signal asks of those around it.
+  struct Outside {
+    std::function<core::Expected<ServeConfig>()> reread;  ///< HUP: the configuration once more
+    std::function<void()> reopen_log;                     ///< USR1
+  };
 
   static constexpr std::size_t kIoThreads = 2;
   /// From the signal to the exit at most.
@@ -50,8 +54,7 @@ class Server {
   static constexpr Duration kLastMoment = std::chrono::milliseconds(30);
 
   /// Loads the maps or the recording to go on from, opens the port, creates the recordings.
-  /// reread: the configuration once more, at each HUP.
-  static core::Expected<std::unique_ptr<Server>> create(ServeConfig config, Reread reread,
+  static core::Expected<std::unique_ptr<Server>> create(ServeConfig config, Outside outside,
                                                         std::shared_ptr<spdlog::logger> log);
   ~Server();
 
@@ -74,7 +77,7 @@ class Server {
   void print_summary(std::ostream& out) const;
 
  private:
-  Server(const ServeConfig& config, Reread reread, std::shared_ptr<spdlog::logger> log);
+  Server(const ServeConfig& config, Outside outside, std::shared_ptr<spdlog::logger> log);
   core::Expected<void> open_rooms(const ServeConfig& config);
   core::Expected<void> open_fork_room(const ServeConfig& config, Start start);
   /// From here on a signal waits for run(), which writes down and says bye. Before, nothing is begun that it
@@ -105,7 +108,7 @@ class Server {
   boost::asio::signal_set signals_;
   boost::asio::steady_timer deadline_;
 
-  Reread reread_;
+  Outside outside_;
   bool had_terminal_;
   LiveLimits limits_;
   TrafficMetrics traffic_;

@@ -1,5 +1,7 @@
 #include "server/log.h"
 
+#include <unistd.h>
+
 #include <spdlog/details/log_msg.h>
 #include <spdlog/formatter.h>
 #include <spdlog/sinks/base_sink.h>
@@ -7,7 +9,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <future>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -100,4 +105,33 @@ TEST_CASE("neither log shows a terminal anything but one line of text") {
   CHECK(line_of(LogFormat::kJson, evil)
             .ends_with(R"("message":"map a\u001b[2J\u000a\u007f\u009b\u202e!"})"
                        "\n"));
+}
+
+TEST_CASE("a log in a file goes on in a new one when the old is moved away and it is told so") {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("woodlouse_log_" + std::to_string(::getpid()));
+  std::filesystem::create_directory(folder);
+  const auto file = folder / "server.log", moved = folder / "server.log.1";
+  const auto text_of = [](const std::filesystem::path& path) {
+    std::ifstream in(path);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  {
+    auto log = Log::open(LogFormat::kText, file);
+    REQUIRE(log);
+    (*log)->logger()->info("one");
+    for (int k = 0; k < 2000 && text_of(file).empty(); ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    std::filesystem::rename(file, moved);
+    (*log)->logger()->info("two");
+    for (int k = 0; k < 2000 && text_of(moved).find("two") == std::string::npos; ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    (*log)->reopen();
+    (*log)->logger()->info("three");
+  }
+  CHECK(text_of(moved).find("two\n") != std::string::npos);
+  CHECK(text_of(moved).find("three") == std::string::npos);
+  CHECK(text_of(file).find("three\n") != std::string::npos);
+  std::filesystem::remove_all(folder);
+  CHECK_FALSE(Log::open(LogFormat::kText, folder / "nowhere" / "server.log"));
 }

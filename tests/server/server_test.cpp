@@ -87,8 +87,8 @@ TEST_CASE("a lane that hangs does not hold up the end: it is told, and the serve
   ServeConfig config;
   config.maps = {WOODLOUSE_SOURCE_DIR "/maps/volcano.json"};
   config.listen = {"127.0.0.1", 0};
-  auto server = Server::create(
-      config, [&config] { return config; }, std::make_shared<spdlog::logger>("test", log));
+  auto server = Server::create(config, {[&config] { return config; }, [] {}},
+                               std::make_shared<spdlog::logger>("test", log));
   REQUIRE(server);
   std::jthread runs([&] { (*server)->run(); });
   const Visitor visitor((*server)->address());
