@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -12,6 +13,13 @@ namespace woodlouse::server {
 namespace {
 
 namespace code = protocol::code;
+
+constexpr double kPausesPerSecond = 60.0;
+
+/// Lines that are looked at one behind the other: eight, or as many as are allowed in the time of a pause.
+double at_once(const protocol::Limits& limits) {
+  return std::max(8.0, std::ceil(limits.messages_per_s / kPausesPerSecond));
+}
 
 protocol::ErrorMessage limited(std::string text, Duration wait) {
   return {std::string(code::kRateLimited), std::move(text), false, retry_after_ms(wait)};
@@ -30,12 +38,20 @@ std::optional<Spending> spending_of(const protocol::ClientMessage& message) {
 Allowance::Allowance(const protocol::Limits& limits, std::shared_ptr<AddressAccount> address, Time now)
     : messages_per_s_(limits.messages_per_s),
       lines_(limits.messages_per_s, limits.burst, now),
+      pace_(kPausesPerSecond * at_once(limits), at_once(limits), now),
       own_(session_rates(limits), now),
       address_(std::move(address)) {
   assert(address_ != nullptr);
 }
 
+Duration Allowance::wait_for_line(Time now) {
+  pace_.charge(0.0, now);
+  // Not for each of them: a pause is worth half of what goes at once.
+  return pace_.wait(1.0) == Duration{} ? Duration{} : pace_.wait(4.0);
+}
+
 Allowance::Refusal Allowance::take_line(Time now) {
+  pace_.charge(1.0, now);
   switch (lines_.take(now)) {
     case RateLimiter::Verdict::kPass:
       return std::nullopt;
@@ -92,7 +108,7 @@ std::optional<Time> Allowance::next(Time now) {
 std::vector<protocol::ErrorMessage> Allowance::refuse_waiting() {
   return {std::exchange(waiting_, {}).size(),
           {std::string(code::kRateLimited),
-           "you leave, and too many bytes of answers have gone to you or your address: this one is left out",
+           "too many bytes of answers have gone to you or your address: what you asked for is left out",
            false,
            {}}};
 }

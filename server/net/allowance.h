@@ -26,6 +26,9 @@ class Allowance {
 
   Allowance(const protocol::Limits& limits, std::shared_ptr<AddressAccount> address, Time now);
 
+  /// How long until another line may be looked at; zero: now. Of many that come at once the rest waits,
+  /// unread: a room's tick is not behind all that its members can say in a burst.
+  [[nodiscard]] Duration wait_for_line(Time now);
   /// A line has come. Nothing: it may be looked at. A fatal refusal ends the session.
   Refusal take_line(Time now);
   /// Of what costs others, by the session's own budget and its address's. Nothing: it is granted and paid,
@@ -49,6 +52,7 @@ class Allowance {
 
   std::uint32_t messages_per_s_;
   RateLimiter lines_;
+  TokenBucket pace_;
   Budgets own_;
   std::shared_ptr<AddressAccount> address_;
   std::vector<protocol::ClientMessage> waiting_;  ///< at most one of each kind

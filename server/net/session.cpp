@@ -73,23 +73,22 @@ void Session::on_read(const error_code& error, std::size_t size) {
   if (state_ == State::kClosed) return;
   if (error == asio::error::eof) return on_input_ended();
   if (error) return close();  // the client has gone, in whatever way
-  if (is_listening()) {
-    const Time read_at = now();
-    framer_.append({incoming_.data(), size});
-    while (is_listening()) {
-      const auto line = framer_.next();
-      if (!line) break;
-      on_line(*line, read_at);
-    }
-  }
-  if (state_ != State::kClosed) read();
+  if (is_listening()) framer_.append({incoming_.data(), size});
+  take_lines(now());
 }
 
-/// It may have gone, or only say nothing more.
-void Session::on_input_ended() {
-  input_ended_ = true;
-  if (state_ == State::kDraining) return close();
-  if (is_listening()) on_message(protocol::Leave{}, now());
+/// Those that have come, then reads on.
+void Session::take_lines(Time now) {
+  while (is_listening()) {
+    if (const Duration wait = allowance_.wait_for_line(now); wait > Duration{}) {
+      goes_on_at_ = now + wait;
+      return watch_next(now);
+    }
+    const auto line = framer_.next();
+    if (!line) break;
+    on_line(*line, now);
+  }
+  if (state_ != State::kClosed) read();
 }
 
 void Session::on_line(const protocol::LineFramer::Line& line, Time now) {
@@ -133,12 +132,6 @@ void Session::join(protocol::Join join, Time now) {
   if (door_) return door_->join({id_, shared_from_this(), std::move(join), allowance_.address().id(), now});
   handshake_.refused();
   say(unknown_room(join.room, environment_.directory.names()));
-}
-
-void Session::ask(protocol::ClientMessage question, Time now) {
-  if (const auto refusal = allowance_.ask(std::move(question))) return say(*refusal);
-  pass_on_due(now);
-  if (const auto next = allowance_.next(now)) watch(std::min(pulse_.next(), *next));
 }
 
 /// Goes out with what else comes by then.
@@ -224,7 +217,7 @@ void Session::welcome(protocol::Welcome welcome, std::uint32_t divisor) {
     if (self->state_ != State::kOpen) return;
     self->divisor_ = divisor;
     self->say(welcome);
-    self->watch(self->pulse_.next());
+    self->watch_next(self->now());
     self->log(
         spdlog::level::info,
         fmt::format("{} room {} as {} \"{}\"", welcome.resumed ? "came back to" : "joined", welcome.room,
@@ -238,6 +231,7 @@ void Session::refuse_join(protocol::ErrorMessage error) {
     const bool leaves = self->handshake_.state() == Handshake::State::kLeaving;
     self->handshake_.refused();
     self->say(error);
+    for (const auto& refusal : self->allowance_.refuse_waiting()) self->say(refusal);
     if (leaves) self->say_goodbye();
   });
 }
@@ -277,6 +271,7 @@ void Session::say_bye(const std::optional<protocol::ErrorMessage>& error, const 
   sender_.outbox().push_last(Line(std::move(text)), replaceable);
   state_ = State::kSayingBye;
   sender_.write();
+  if (std::exchange(goes_on_at_, std::nullopt) && state_ != State::kClosed) read();
 }
 
 void Session::close() {
@@ -291,12 +286,6 @@ void Session::close() {
 
 // ---- timeouts ------------------------------------------------------------------------------------------
 
-void Session::watch(Time until) {
-  watch_->set(until, [self = shared_from_this()](bool cancelled) {
-    if (!cancelled) self->on_watch();
-  });
-}
-
 void Session::on_watch() {
   if (state_ == State::kClosed) return;
   if (state_ != State::kOpen) {
@@ -304,15 +293,27 @@ void Session::on_watch() {
     return watch(linger_until_);
   }
   const Time at = now();
-  if (handshake_.state() != Handshake::State::kGreeting) return check_pulse(at);
-  if (at < handshake_until_) return watch(handshake_until_);
-  fail(code::kHandshakeTimeout, "no join within " + std::to_string(limits_->handshake_s) + " s");
+  if (goes_on_at_ && at >= *goes_on_at_) {
+    goes_on_at_.reset();
+    take_lines(at);
+  }
+  if (handshake_.state() != Handshake::State::kGreeting)
+    check_pulse(at);
+  else if (at >= handshake_until_)
+    fail(code::kHandshakeTimeout, "no join within " + std::to_string(limits_->handshake_s) + " s");
+  if (state_ == State::kOpen) watch_next(at);
+}
+
+void Session::watch_next(Time now) {
+  const bool has_joined = handshake_.state() != Handshake::State::kGreeting;
+  const Time until =
+      has_joined ? std::min(pulse_.next(), allowance_.next(now).value_or(Time::max())) : handshake_until_;
+  watch(std::min(until, goes_on_at_.value_or(Time::max())));
 }
 
 void Session::check_pulse(Time now) {
+  if (state_ != State::kOpen) return;
   pass_on_due(now);
-  // Before what may end it.
-  watch(std::min(pulse_.next(), allowance_.next(now).value_or(Time::max())));
   for (;;) switch (pulse_.due(now)) {
       case Pulse::Sign::kNone:
         return;

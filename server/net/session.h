@@ -97,15 +97,25 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
 
   void read();
   void on_read(const boost::system::error_code& error, std::size_t size);
-  void on_input_ended();
+  /// It may have gone, or only say nothing more.
+  void on_input_ended() {
+    input_ended_ = true;
+    if (state_ == State::kDraining) return close();
+    if (is_listening()) on_message(protocol::Leave{}, now());
+  }
   /// What comes after a `leave` or while a bye is said is thrown away.
   [[nodiscard]] bool is_listening() const {
     return state_ == State::kOpen && handshake_.state() != Handshake::State::kLeaving;
   }
+  void take_lines(Time now);
   void on_line(const protocol::LineFramer::Line& line, Time now);
   void on_message(protocol::ClientMessage message, Time now);
   void join(protocol::Join join, Time now);
-  void ask(protocol::ClientMessage question, Time now);
+  void ask(protocol::ClientMessage question, Time now) {
+    if (const auto refusal = allowance_.ask(std::move(question))) return say(*refusal);
+    pass_on_due(now);
+    watch_next(now);
+  }
   void pass_on_due(Time now) {
     for (protocol::ClientMessage& question : allowance_.due(now))
       door_->submit(id_, std::move(question), now);
@@ -139,7 +149,12 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   void close();
 
   [[nodiscard]] Time now() const { return environment_.timekeeper.now(); }
-  void watch(Time until);
+  void watch(Time until) {
+    watch_->set(until, [self = shared_from_this()](bool cancelled) {
+      if (!cancelled) self->on_watch();
+    });
+  }
+  void watch_next(Time now);
   void on_watch();
   void check_pulse(Time now);
   void log(spdlog::level::level_enum level, const std::string& what);
@@ -171,6 +186,7 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   std::uint64_t pings_ = 0;
   bool is_end_told_ = false;  ///< in the log
   Time handshake_until_;
+  std::optional<Time> goes_on_at_;  ///< with lines that came at once with too many; nothing is read till then
   Time linger_until_{};
 };
 
