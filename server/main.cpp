@@ -2,6 +2,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <boost/system/system_error.hpp>
+
 #include <csignal>
 #include <cstdlib>
 #include <functional>
@@ -26,6 +28,11 @@ namespace {
 
 namespace core = woodlouse::core;
 using namespace woodlouse::server;
+
+/// First of all: what other files make before main begins needs memory, too.
+[[gnu::constructor(101)]] void prepare_for_no_memory() {
+  core::end_when_out_of_memory("woodlouse-server: out of memory\n");
+}
 
 constexpr int kOk = 0;
 constexpr int kFailed = 1;
@@ -96,7 +103,6 @@ int main(int argc, char** argv) {
   // past what its user may write: then writing fails.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  core::end_when_out_of_memory("woodlouse-server: out of memory\n");
   const auto config = parse_config(argc, argv);
   if (!config) return report(config.error(), kUsage);
   const auto reread = [argc, argv]() -> woodlouse::core::Expected<ServeConfig> {
@@ -115,5 +121,7 @@ int main(int argc, char** argv) {
         *config);
   } catch (const std::system_error& error) {  // of what no error can be returned from: a thread
     return report({"", error.what(), "has the system no more threads for it?"}, kFailed);
+  } catch (const boost::system::system_error& error) {  // asio's own descriptors
+    return report({"", error.what(), "has the system no more descriptors for it?   see  ulimit -n"}, kFailed);
   }
 }
