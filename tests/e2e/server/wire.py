@@ -93,22 +93,28 @@ class Server:
     def client(self, **options):
         return Client(self.host, self.port, **options)
 
-    def player(self, name="mara", role="player", **fields):
-        client = self.client()
+    def player(self, name="mara", role="player", source=None, **fields):
+        client = self.client(source=source)
         client.join(name, role, **fields)
         return client
 
 
 class Client:
-    """A connection. Every message that came is kept in `seen`."""
+    """A connection. Every message that came is kept in `seen`. source: the address it comes from."""
 
-    def __init__(self, host, port, receive_buffer=None):
+    def __init__(self, host, port, receive_buffer=None, source=None):
         family = socket.AF_INET6 if ":" in host else socket.AF_INET
         self.socket = socket.socket(family, socket.SOCK_STREAM)
         if receive_buffer:
             self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_buffer)
         self.socket.settimeout(PATIENCE)
-        self.socket.connect((host, port))
+        if source:
+            self.socket.bind((source, 0))
+        try:
+            self.socket.connect((host, port))
+        except OSError:
+            self.socket.close()
+            raise
         self.pending = b""
         self.seen = []
         self.rows = {}
