@@ -77,7 +77,15 @@ void draw_you(const Scene& scene, const Styles& styles, PanelWriter& out) {
 void draw_room(const Scene& scene, const Styles& styles, PanelWriter& out) {
   out.line(formatted("lice   %d", scene.hud.players), styles.text);
   out.line(formatted("bots   %d", scene.hud.bots), styles.text);
-  out.line("you are watching", styles.dim);
+  const int others = scene.hud.spectators - 1;
+  out.line(others > 0 ? formatted("you and %d more are watching", others) : "you are watching", styles.dim);
+}
+
+std::string players_title(const Scene& scene) {
+  const HudNumbers& hud = scene.hud;
+  std::string text = formatted("PLAYERS %d (%d %s)", hud.players, hud.bots, hud.bots == 1 ? "bot" : "bots");
+  if (hud.spectators > 0 && !scene.spectating) text += formatted(" +%d watching", hud.spectators);
+  return text;
 }
 
 /// Whose numbers a recording shows: "a ada".
@@ -150,7 +158,12 @@ void draw_status_line(const Scene& scene, CellBuffer& cells) {
   Style title = styles.bar;
   title.attributes = kBold;
   int at = cells.text(1, 0, "WOODLOUSE", title);
+  if (scene.lost)
+    at = cells.text(at + 2, 0,
+                    formatted("connection lost: coming back ... %.0f", std::ceil(scene.lost->seconds_left)),
+                    styles.warning);
   at = cells.text(at + 2, 0, printable(scene.map_name, scene.look.glyphs), styles.bar, 24);
+  if (scene.lost) return;  // the numbers are those of before
   if (columns >= 80) at = cells.text(at + 2, 0, view_text(scene), styles.dim_bar);
   std::string middle = scene.spectating ? "watching"
                        : hud.rank > 0   ? formatted("#%d of %d", hud.rank, hud.players)
@@ -186,8 +199,10 @@ void draw_key_line(const Scene& scene, const Layout& layout, CellBuffer& cells) 
   } else {
     cells.text(0, layout.key_row, keys_text(scene, columns), styles.bar);
   }
-  if (scene.notice.empty()) return;
-  const std::u32string notice = printable(scene.notice, scene.look.glyphs);
+  const std::string& said =
+      scene.notice.empty() && scene.lost ? scene.lost->reason : scene.notice;  // a notice passes
+  if (said.empty()) return;
+  const std::u32string notice = printable(said, scene.look.glyphs);
   const int row = layout.map.row + layout.map.size.rows - 1;
   cells.put(0, row, U' ', styles.warning);
   const int end = cells.text(1, row, notice, styles.warning, layout.map.size.columns - 2);
@@ -203,8 +218,7 @@ void draw_panel(const Scene& scene, const Badges& badges, const Viewport& panel,
   constexpr int kLeastChat = 3;
   const int most = std::max(1, panel.size.rows - kFrames - you_rows - kLeastChat);
   const int players = std::clamp(static_cast<int>(scene.scores.size()), 1, std::min(most, 16));
-  out.title(formatted("PLAYERS %d (%d %s)", scene.hud.players, scene.hud.bots,
-                      scene.hud.bots == 1 ? "bot" : "bots"));
+  out.title(players_title(scene));
   draw_players(scene, badges, styles, out, players);
   out.skip_to(1 + players);
   out.title(shows_room ? "THE ROOM" : scene.replay ? followed_text(scene, badges) : "YOU");

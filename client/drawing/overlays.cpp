@@ -125,20 +125,6 @@ void draw_quit_question(const Scene& scene, const Styles& styles, CellBuffer& ce
   cells.text(box.column + 3, box.row + 3, "Y leave     any other key: stay", styles.strong);
 }
 
-void draw_connection_lost(const Scene& scene, const Styles& styles, CellBuffer& cells) {
-  const Viewport box = centred({56, 7}, cells.size());
-  draw_box(box, "CONNECTION LOST", scene.look, styles, cells);
-  const int left = box.column + 3;
-  const int width = box.size.columns - 6;
-  cells.text(left, box.row + 2, printable(scene.lost.reason, scene.look.glyphs), styles.text, width);
-  const std::string when = scene.lost.retry_seconds > 0.0
-                               ? formatted("trying again in %.0f s", std::ceil(scene.lost.retry_seconds))
-                               : std::string("trying now ...");
-  cells.text(left, box.row + 3, when + formatted("   (attempt %d)", scene.lost.attempt), styles.warning,
-             width);
-  cells.text(left, box.row + 5, "Q leaves", styles.dim, width);
-}
-
 }  // namespace
 
 void draw_overlay(const Scene& scene, const Badges& badges, CellBuffer& cells) {
@@ -150,8 +136,6 @@ void draw_overlay(const Scene& scene, const Badges& badges, CellBuffer& cells) {
       return draw_scoreboard(scene, badges, styles, cells);
     case Mode::kQuitQuestion:
       return draw_quit_question(scene, styles, cells);
-    case Mode::kConnectionLost:
-      return draw_connection_lost(scene, styles, cells);
     case Mode::kPlay:
     case Mode::kChatEntry:
       return;

@@ -38,7 +38,6 @@ enum class Mode : std::uint8_t {
   kScoreboard,
   kChatEntry,
   kQuitQuestion,
-  kConnectionLost,
 };
 
 enum class LouseKind : std::uint8_t { kPlayer, kBot };
@@ -71,6 +70,7 @@ struct HudNumbers {
   int players = 0;  ///< lice in the room, bots included
   int bots = 0;     ///< of these
   int rank = 0;     ///< 1 = first; 0: none
+  int spectators = 0;
 };
 
 /// A line of the scoreboard, best first.
@@ -117,9 +117,8 @@ struct ReplayBar {
 };
 
 struct ConnectionLost {
-  std::string reason;        ///< one line
-  double retry_seconds = 0;  ///< until the next attempt; 0: trying now
-  int attempt = 0;           ///< how often it was tried
+  std::string reason;       ///< one line
+  double seconds_left = 0;  ///< for which coming back is still tried
 };
 
 struct Scene {
@@ -138,12 +137,12 @@ struct Scene {
   std::vector<LouseMark> lice;                      ///< ascending id
   HudNumbers hud;
   std::vector<ScoreRow> scores;
-  std::vector<ChatLine> chat;       ///< the newest 50 or so
-  std::string chat_entry;           ///< what is being typed, UTF-8 (Mode::kChatEntry)
-  std::string notice;               ///< one line over the key line; empty: none
-  ConnectionLost lost;              ///< Mode::kConnectionLost
-  std::optional<StateProof> proof;  ///< empty: nothing is verified
-  std::optional<ReplayBar> replay;  ///< a recording is watched; empty: a game
+  std::vector<ChatLine> chat;          ///< the newest 50 or so
+  std::string chat_entry;              ///< what is being typed, UTF-8 (Mode::kChatEntry)
+  std::string notice;                  ///< one line over the key line; empty: none
+  std::optional<ConnectionLost> lost;  ///< empty: the line is up
+  std::optional<StateProof> proof;     ///< empty: nothing is verified
+  std::optional<ReplayBar> replay;     ///< a recording is watched; empty: a game
 };
 
 /// The smallest terminal that can be played on.

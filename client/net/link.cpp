@@ -31,12 +31,12 @@ Link::Link(boost::asio::io_context& context, protocol::Join join, LinkListener& 
       socket_(context),
       watchdog_(context) {}
 
-void Link::open(const Address& address) {
-  watch(kHandshake, "no answer within " + std::to_string(kHandshake.count()) + " s");
+void Link::open(const Address& address, std::chrono::seconds patience) {
+  watch(patience, "no answer within " + std::to_string(patience.count()) + " s");
   resolver_.async_resolve(
       address.host, std::to_string(address.port),
       [self = shared_from_this()](error_code error, const Tcp::resolver::results_type& endpoints) {
-        if (error) return self->end(in_words(error));
+        if (error) return self->end({in_words(error)});
         self->on_resolved(endpoints);
       });
 }
@@ -46,7 +46,7 @@ void Link::on_resolved(const Tcp::resolver::results_type& endpoints) {
   boost::asio::async_connect(socket_, endpoints,
                              [self = shared_from_this()](error_code error, const Tcp::endpoint&) {
                                if (self->listener_ == nullptr) return;
-                               if (error) return self->end(in_words(error));
+                               if (error) return self->end({in_words(error)});
                                error_code ignored_where_unsupported;  // without it inputs are only later
                                self->socket_.set_option(Tcp::no_delay(true), ignored_where_unsupported);
                                self->read();
@@ -60,8 +60,7 @@ void Link::read() {
                             self->framer_.append({self->incoming_.data(), size});
                             self->take_lines();
                             if (self->listener_ == nullptr) return;
-                            if (error)
-                              return self->end(self->farewell_.empty() ? in_words(error) : self->farewell_);
+                            if (error) return self->end(self->farewell_.value_or(Closing{in_words(error)}));
                             if (self->joined_) self->watch(kSilence, "the server has fallen silent");
                             self->read();
                           });
@@ -72,12 +71,13 @@ void Link::take_lines() {
     const auto line = framer_.next();
     if (!line) return;
     if (line->oversize)
-      return end("the server sent a line of more than " + std::to_string(kMaxLineBytes) + " bytes");
+      return end({"the server sent a line of more than " + std::to_string(kMaxLineBytes) + " bytes",
+                  kNoServerOfOurs});
     const auto message = protocol::decode_server(line->text, welcome_.fields, welcome_.format);
     if (message) {
       take(*message);
     } else if (message.error().code != "unknown_type") {  // a newer server may say things we need not know
-      end("no woodlouse server answers there: " + message.error().text);
+      end({"no woodlouse server answers there: " + message.error().text, kNoServerOfOurs});
     }
   }
 }
@@ -85,8 +85,9 @@ void Link::take_lines() {
 void Link::take(const protocol::ServerMessage& message) {
   if (const auto* hello = std::get_if<protocol::Hello>(&message)) {
     if (hello->protocol != protocol::kProtocolVersion) {
-      return end("the server speaks protocol " + std::to_string(hello->protocol) + ", this client " +
-                 std::to_string(protocol::kProtocolVersion));
+      return end({"the server speaks protocol " + std::to_string(hello->protocol) + ", this client " +
+                      std::to_string(protocol::kProtocolVersion),
+                  kNoServerOfOurs});
     }
     write(protocol::encode(protocol::ClientMessage(join_)));
   } else if (const auto* welcome = std::get_if<protocol::Welcome>(&message)) {
@@ -94,10 +95,11 @@ void Link::take(const protocol::ServerMessage& message) {
     joined_ = true;
   } else if (const auto* error = std::get_if<protocol::ErrorMessage>(&message);
              error != nullptr && (error->fatal || !joined_)) {
-    farewell_ = error->text;
-    if (!joined_) return end(farewell_);
+    farewell_ = Closing{error->text, error->code};
+    if (error->retry_after_ms) farewell_->retry_after = std::chrono::milliseconds(*error->retry_after_ms);
+    if (!joined_) return end(*farewell_);
   } else if (const auto* bye = std::get_if<protocol::Bye>(&message)) {
-    if (farewell_.empty()) farewell_ = bye->text;
+    if (!farewell_) farewell_ = Closing{bye->text, bye->code};
   }
   if (listener_ != nullptr) listener_->on_message(message, std::chrono::steady_clock::now());
 }
@@ -108,7 +110,7 @@ void Link::send(const protocol::ClientMessage& message) {
 
 void Link::write(const std::string& line) {
   if (listener_ == nullptr) return;
-  if (unsent_.size() + line.size() > kMaxUnsentBytes) return end("the server takes nothing any more");
+  if (unsent_.size() + line.size() > kMaxUnsentBytes) return end({"the server takes nothing any more"});
   unsent_ += line;
   if (sending_.empty()) flush();
 }
@@ -128,14 +130,18 @@ void Link::flush() {
 void Link::watch(std::chrono::seconds patience, std::string reason) {
   watchdog_.expires_after(patience);
   watchdog_.async_wait([self = shared_from_this(), reason = std::move(reason)](error_code error) {
-    if (!error) self->end(reason);
+    if (error) return;
+    // Who was asleep wakes up with the alarm, and with all that has come meanwhile.
+    error_code gone;
+    if (self->joined_ && self->socket_.available(gone) > 0) return self->watch(kSilence, reason);
+    self->end({reason});
   });
 }
 
-void Link::end(const std::string& reason) {
+void Link::end(Closing closing) {
   LinkListener* const listener = listener_;
   close();
-  if (listener != nullptr) listener->on_closed(reason);
+  if (listener != nullptr) listener->on_closed(closing);
 }
 
 void Link::close() {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "client/net/address.h"
+#include "client/net/closing.h"
 #include "shared/core/clock.h"
 #include "shared/protocol/framing.h"
 #include "shared/protocol/messages.h"
@@ -21,8 +22,8 @@ class LinkListener {
  public:
   virtual ~LinkListener() = default;
   virtual void on_message(const protocol::ServerMessage& message, core::Time arrival) = 0;
-  /// The link has ended, for this reason; nothing comes after it.
-  virtual void on_closed(const std::string& reason) = 0;
+  /// The link has ended; nothing comes after it.
+  virtual void on_closed(const Closing& closing) = 0;
 };
 
 /// Held by shared_ptr: its pending operations keep it alive. Single thread.
@@ -30,13 +31,13 @@ class Link : public std::enable_shared_from_this<Link> {
  public:
   static constexpr std::size_t kMaxLineBytes = 160u << 20;  ///< the largest map fits
   static constexpr std::size_t kMaxUnsentBytes =
-      256u << 10;  ///< beyond it the link ends: the server takes nothing
-  static constexpr std::chrono::seconds kHandshake{10};
-  static constexpr std::chrono::seconds kSilence{10};  ///< an open link says something at least every second
+      256u << 10;                                     ///< beyond it the link ends: the server takes nothing
+  static constexpr std::chrono::seconds kSilence{5};  ///< an open link says something at least every second
 
   Link(boost::asio::io_context& context, protocol::Join join, LinkListener& listener);
 
-  void open(const Address& address);
+  /// patience: for the time until the welcome.
+  void open(const Address& address, std::chrono::seconds patience);
   /// Queues a message; nothing before the welcome and after the end.
   void send(const protocol::ClientMessage& message);
   /// Ends it without a report. The listener is not called again.
@@ -52,7 +53,7 @@ class Link : public std::enable_shared_from_this<Link> {
   void write(const std::string& line);
   void flush();
   void watch(std::chrono::seconds patience, std::string reason);
-  void end(const std::string& reason);
+  void end(Closing closing);
 
   protocol::Join join_;
   LinkListener* listener_;  ///< null once closed
@@ -65,7 +66,7 @@ class Link : public std::enable_shared_from_this<Link> {
   std::string unsent_;
   bool joined_ = false;
   protocol::Welcome welcome_;
-  std::string farewell_;  ///< what a fatal error or a bye gave as the reason
+  std::optional<Closing> farewell_;  ///< what a fatal error or a bye gave as the reason
 };
 
 }  // namespace woodlouse::client

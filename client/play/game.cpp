@@ -42,6 +42,7 @@ void Game::on_input(const TerminalInput& input) {
 }
 
 void Game::on_key(const Key& key) {
+  if (session_.is_trying() && !interface_.chatting && is_leaving(key)) return loop_.finish({});
   if (interface_.chatting && !control_action(key)) {
     bindings_.observe(key);
     // A push begun before the chat was opened still ends with its key.
@@ -60,7 +61,10 @@ void Game::on_key(const Key& key) {
 
 void Game::close_chat(ChatEntry::Outcome outcome) {
   if (outcome == ChatEntry::Outcome::kTyping) return;
-  if (outcome == ChatEntry::Outcome::kSend) session_.room().say(chat_.text());
+  if (outcome == ChatEntry::Outcome::kSend) {
+    if (session_.is_trying()) return;  // it stands there until it can be said
+    session_.room().say(chat_.text());
+  }
   interface_.chatting = false;
   chat_.clear();
 }

@@ -108,6 +108,11 @@ std::optional<Action> control_action(const Key& key) {
   }
 }
 
+bool is_leaving(const Key& key) {
+  if (key.action == KeyAction::kRelease || key.control || key.alt) return false;
+  return key.code == KeyCode::kEscape || (key.code == KeyCode::kCharacter && letter(key) == U'q');
+}
+
 std::optional<Action> KeyBindings::on_key(const Key& key, Overlay overlay) {
   observe(key);
   if (const auto action = control_action(key)) return action;

@@ -57,6 +57,9 @@ class KeyBindings {
 /// What works over everything, the chat included: Ctrl-C, Ctrl-Z, Ctrl-L.
 std::optional<Action> control_action(const Key& key);
 
+/// Q or Escape: leaves unasked where there is nothing to leave, the connection being lost.
+bool is_leaving(const Key& key);
+
 /// What changes only the picture, in the game as in a recording: V, L, P, + and -, Tab, help.
 std::optional<Action> picture_action(const Key& key);
 

@@ -21,6 +21,11 @@ struct Overloaded : Cases... {
 template <typename... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
 
+std::string what_became(const protocol::Welcome& welcome) {
+  if (welcome.id == 0) return "watching again";
+  return welcome.resumed ? "back in your louse" : "your louse is gone: this is a new one";
+}
+
 std::int64_t microseconds(core::Time time) {
   return std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch()).count();
 }
@@ -31,6 +36,7 @@ protocol::Join make_join(protocol::Role role, const std::string& name, const std
                          Hashes hashes) {
   protocol::Join join;
   join.role = role;
+  join.may_resume = role != protocol::Role::kSpectator;
   join.name = name;
   join.room = room;
   join.fields = wanted_columns();
@@ -44,7 +50,9 @@ protocol::Join make_join(protocol::Role role, const std::string& name, const std
 core::Expected<void> RoomView::on_message(const protocol::ServerMessage& message, core::Time now) {
   return std::visit(
       Overloaded{
-          [&](const protocol::Welcome& m) -> core::Expected<void> { return take(m), core::Expected<void>(); },
+          [&](const protocol::Welcome& m) -> core::Expected<void> {
+            return take(m, now), core::Expected<void>();
+          },
           [&](const protocol::MapMessage& m) -> core::Expected<void> { return take(m); },
           [&](const protocol::Frame& m) -> core::Expected<void> {
             return take(m, now), core::Expected<void>();
@@ -67,12 +75,15 @@ core::Expected<void> RoomView::on_message(const protocol::ServerMessage& message
           [&](const protocol::ErrorMessage& m) -> core::Expected<void> {
             return notice(m.text, now), core::Expected<void>();
           },
-          [](const auto&) -> core::Expected<void> { return {}; },  // hello, bye, rooms: the connection's
+          [&](const protocol::Rooms& m) -> core::Expected<void> { return take(m), core::Expected<void>(); },
+          [](const auto&) -> core::Expected<void> { return {}; },  // hello, bye: the connection's
       },
       message);
 }
 
-void RoomView::take(const protocol::Welcome& welcome) {
+void RoomView::take(const protocol::Welcome& welcome, core::Time now) {
+  if (was_here_) notice(what_became(welcome), now);
+  was_here_ = false;
   welcome_ = welcome;
   roster_.welcome(welcome);
   clock_.emplace(welcome.tick_hz);
@@ -160,6 +171,12 @@ void RoomView::take(const protocol::Pong& pong, core::Time now) {
   if (round_trips_.size() > kRoundTrips) round_trips_.pop_front();
 }
 
+void RoomView::take(const protocol::Rooms& rooms) {
+  if (!welcome_) return;
+  for (const protocol::RoomEntry& room : rooms.rooms)
+    if (room.name == welcome_->room) roster_.count_spectators(room.spectators);
+}
+
 std::optional<double> RoomView::rtt_seconds() const {
   if (round_trips_.empty()) return std::nullopt;
   return *std::min_element(round_trips_.begin(), round_trips_.end());
@@ -171,12 +188,14 @@ void RoomView::notice(std::string text, core::Time now) {
 }
 
 void RoomView::on_lost() {
+  was_here_ |= welcome_.has_value();
   welcome_.reset();
   clock_.reset();
   view_.reset();
   pilot_.reset();
   round_trips_.clear();
   pinged_.reset();
+  counted_.reset();
   resync_asked_.reset();
   outgoing_.clear();
 }
@@ -188,6 +207,11 @@ void RoomView::update(core::Time now) {
     pinged_ = now;
     outgoing_.emplace_back(protocol::Ping{microseconds(now)});
   }
+  if (!counted_) counted_ = now;  // the welcome did
+  if (now - *counted_ >= kCountEvery) {
+    counted_ = now;
+    outgoing_.emplace_back(protocol::List{});
+  }
   if (pilot_) {
     if (const auto input = pilot_->update(now, *clock_, rtt_seconds().value_or(0.0)))
       outgoing_.emplace_back(*input);
@@ -196,8 +220,8 @@ void RoomView::update(core::Time now) {
 }
 
 void RoomView::draw_lice(core::Time now) {
+  if (!clock_->running()) return;  // what was seen last stays until there is something newer
   lice_.clear();
-  if (!clock_->running()) return;
   const double frame_gap = 2.0 / std::max(1u, welcome_->state_hz);
   const double delay = std::max(std::chrono::duration<double>(kDelay).count(), frame_gap);
   const Ways ways = map_ ? Ways(map_->terrain->domain(), map_->definition.physics.edges) : Ways();

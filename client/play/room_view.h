@@ -29,13 +29,15 @@ class RoomView {
  public:
   static constexpr std::chrono::milliseconds kDelay{100};  ///< how far behind the others are drawn
   static constexpr std::chrono::milliseconds kPingEvery{1000};
+  static constexpr std::chrono::seconds kCountEvery{10};  ///< who looks on is counted anew so often
   static constexpr std::size_t kRoundTrips = 8;
   static constexpr std::chrono::milliseconds kResyncEvery{1000};  ///< asked for at most so often
   static constexpr std::chrono::milliseconds kNoticeFor{4000};
 
   /// One message of the server. Error: the server can't be played with (its map is unreadable); leave.
   core::Expected<void> on_message(const protocol::ServerMessage& message, core::Time now);
-  /// The line is cut: keeps the chat and the map, forgets the session.
+  /// The line is cut: keeps the chat, the map and the picture, forgets the session. The next welcome says
+  /// what became of the louse.
   void on_lost();
   /// Runs on to now: prediction, trails, pings. What is to be sent is in take_outgoing().
   void update(core::Time now);
@@ -64,16 +66,18 @@ class RoomView {
   [[nodiscard]] const KeyVerifier& verifier() const { return verifier_; }
 
  private:
-  void take(const protocol::Welcome& welcome);
+  void take(const protocol::Welcome& welcome, core::Time now);
   core::Expected<void> take(const protocol::MapMessage& message);
   void take(const protocol::Frame& frame, core::Time now);
   void take(const protocol::Event& event);
   void take(const protocol::Pong& pong, core::Time now);
+  void take(const protocol::Rooms& rooms);
   void measure_rate(std::uint64_t tick, core::Time now);
   void begin_piloting();
   void draw_lice(core::Time now);
 
   std::optional<protocol::Welcome> welcome_;
+  bool was_here_ = false;  ///< the line was cut since the last welcome
   std::shared_ptr<const map::Map> map_;
   std::optional<ServerClock> clock_;
   std::optional<ViewState> view_;
@@ -85,6 +89,7 @@ class RoomView {
   std::vector<protocol::ClientMessage> outgoing_;
   std::deque<double> round_trips_;  ///< [s], the newest last
   std::optional<core::Time> pinged_;
+  std::optional<core::Time> counted_;
   std::optional<core::Time> resync_asked_;
   std::uint64_t rate_tick_ = 0;  ///< where the measured rate's window begins
   std::optional<core::Time> rate_time_;
@@ -93,7 +98,7 @@ class RoomView {
   core::Time notice_until_{};
 };
 
-/// The join of our client: its columns, its format.
+/// The join of our client: its columns, its format; its louse is to wait for it.
 protocol::Join make_join(protocol::Role role, const std::string& name, const std::string& room,
                          Hashes hashes = Hashes::kIgnored);
 

@@ -24,6 +24,9 @@ void Roster::welcome(const protocol::Welcome& welcome) {
   for (const protocol::PlayerEntry& player : welcome.players) {
     if (player.id != 0) residents_[player.id] = {player.name, player.role};
   }
+  if (welcome.id != 0 && !welcome.name.empty())
+    residents_[welcome.id] = {welcome.name, protocol::Role::kPlayer};
+  spectators_ = welcome.spectators;
 }
 
 void Roster::event(const protocol::Event& event) {

@@ -26,13 +26,18 @@ class Roster {
  public:
   static constexpr std::size_t kLines = 50;  ///< the oldest are forgotten beyond
 
-  /// A new session: who is there replaces who was; the chat stays.
+  /// A new session: who is there replaces who was; the chat stays. You are there under the name you were
+  /// given.
   void welcome(const protocol::Welcome& welcome);
+  /// How many look on: nobody says when one comes or goes.
+  void count_spectators(std::uint32_t count) { spectators_ = count; }
   void event(const protocol::Event& event);
   void note(std::string text) { say({}, std::move(text)); }
 
   /// The resident of that id; null for ids not announced.
   [[nodiscard]] const Resident* find(std::uint32_t id) const;
+  /// As last counted.
+  [[nodiscard]] std::uint32_t spectators() const { return spectators_; }
   [[nodiscard]] const std::deque<Utterance>& chat() const { return chat_; }
   /// How many lines there ever were; tells what is new.
   [[nodiscard]] std::size_t lines_said() const { return lines_said_; }
@@ -41,6 +46,7 @@ class Roster {
   void say(std::string from, std::string text);
 
   std::map<std::uint32_t, Resident> residents_;
+  std::uint32_t spectators_ = 0;
   std::deque<Utterance> chat_;
   std::size_t lines_said_ = 0;
 };

@@ -75,9 +75,8 @@ std::optional<StateProof> proof_of(const KeyVerifier& verifier) {
   return proof;
 }
 
-Mode mode_of(const Session& session, const Interface& interface) {
+Mode mode_of(const Interface& interface) {
   if (interface.overlay == Overlay::kQuitQuestion) return Mode::kQuitQuestion;
-  if (session.connection().phase() != Connection::Phase::kJoined) return Mode::kConnectionLost;
   if (interface.chatting) return Mode::kChatEntry;
   switch (interface.overlay) {
     case Overlay::kHelp:
@@ -168,7 +167,7 @@ Scene build_scene(const Session& session, const Interface& interface, const Chat
                   const FrameFacts& facts) {
   const RoomView& room = session.room();
   Scene scene = picture(room.sight(), interface, facts);
-  scene.mode = mode_of(session, interface);
+  scene.mode = mode_of(interface);
   const auto own =
       std::find_if(room.lice().begin(), room.lice().end(), [](const auto& l) { return l.second.is_you; });
   const std::uint32_t own_id = room.welcome() != nullptr  ? room.welcome()->id
@@ -179,15 +178,14 @@ Scene build_scene(const Session& session, const Interface& interface, const Chat
   fill_louse_numbers(room.sight(), scene.spectating ? scene.follow_id : own_id, scene);
   if (room.pilot() != nullptr) fill_steering_numbers(room.pilot()->steering(), facts.now, scene.hud);
   fill_connection_numbers(room, scene.hud);
+  scene.hud.spectators = static_cast<int>(room.roster().spectators());
   for (const Utterance& line : room.roster().chat()) scene.chat.push_back({line.from, line.text});
   scene.chat_entry = entry.text();
   scene.notice = room.notice_line();
   scene.proof = proof_of(room.verifier());
   if (room.verifier().difference()) scene.notice = to_text(*room.verifier().difference());
-  if (scene.mode == Mode::kConnectionLost) {
-    scene.lost = {session.connection().reason(), session.connection().retry_seconds(facts.now),
-                  session.connection().attempts()};
-  }
+  if (const auto seconds = session.connection().seconds_left(facts.now))
+    scene.lost = {session.connection().closing().reason, *seconds};
   return scene;
 }
 

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "shared/protocol/codes.h"
+
 namespace woodlouse::client {
 
 Session::Session(boost::asio::io_context& context, const Address& address, protocol::Join join)
@@ -11,12 +13,11 @@ core::Expected<void> Session::join() {
   const core::Time begin = std::chrono::steady_clock::now();
   connection_.start();
   context_.restart();
-  while (connection_.phase() == Connection::Phase::kConnecting) context_.run_one();
+  while (is_trying()) context_.run_one();
   join_time_ =
       std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - begin);
   if (connection_.phase() == Connection::Phase::kJoined) return {};
-  connection_.stop();
-  return core::fail(connection_.address().text(), connection_.reason());
+  return core::fail(connection_.address().text(), connection_.closing().reason);
 }
 
 void Session::update(core::Time now) {
@@ -44,6 +45,27 @@ void Session::on_message(const protocol::ServerMessage& message, core::Time arri
   connection_.stop();
 }
 
-void Session::on_lost() { room_.on_lost(); }
+void Session::on_lost() {
+  room_.on_lost();
+  if (connection_.phase() == Connection::Phase::kStopped && connection_.was_joined()) failure_ = farewell();
+}
+
+core::Error Session::farewell() const {
+  const Closing& closing = connection_.closing();
+  const std::string again = "woodlouse " + connection_.address().text();
+  core::Error error(connection_.address().text(), closing.reason);
+  if (closing.code == protocol::code::kReplaced) {
+    error.hint = "your louse is played from there now; who wants another one here:  " + again;
+  } else if (closing.code == protocol::code::kShutdown) {
+    error.hint = "when it is up again:  " + again;
+  } else if (is_passing(closing)) {
+    error.what = "the connection was lost and did not come back within " +
+                 std::to_string(Connection::kComesBackFor.count()) + " s: " + closing.reason;
+    error.hint = "your louse is gone by now; when the server can be reached again:  " + again;
+  } else {
+    error.hint = "to join anew:  " + again;
+  }
+  return error;
+}
 
 }  // namespace woodlouse::client

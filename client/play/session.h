@@ -25,14 +25,21 @@ class Session final : private ConnectionListener {
 
   [[nodiscard]] RoomView& room() { return room_; }
   [[nodiscard]] const RoomView& room() const { return room_; }
+  /// Whether it tries to join, for the first time or again.
+  [[nodiscard]] bool is_trying() const {
+    return connection_.phase() == Connection::Phase::kConnecting ||
+           connection_.phase() == Connection::Phase::kWaiting;
+  }
   [[nodiscard]] const Connection& connection() const { return connection_; }
-  /// Why this server can't be played with; empty while it can.
+  /// Why this server can't be played with, or not any more, and what to do; empty while it can.
   [[nodiscard]] const std::optional<core::Error>& failure() const { return failure_; }
   [[nodiscard]] std::chrono::milliseconds join_time() const { return join_time_; }
 
  private:
   void on_message(const protocol::ServerMessage& message, core::Time arrival) override;
   void on_lost() override;
+  /// What to tell when the connection is over.
+  [[nodiscard]] core::Error farewell() const;
 
   boost::asio::io_context& context_;
   RoomView room_;

@@ -145,18 +145,11 @@ void TextGame::tell_connection() {
   const Connection& connection = session_.connection();
   if (session_.failure()) {
     finish({kExitUnreachable, "woodlouse: " + session_.failure()->text() + "\n"});
-  } else if (connection.phase() != phase_told_) {
-    phase_told_ = connection.phase();
-    if (phase_told_ == Connection::Phase::kWaiting)
-      say("connection lost: " + connection.reason() + "; trying again");
-    if (phase_told_ == Connection::Phase::kJoined) say("connected again");
-    if (server_alive_ && !server_alive_())
-      finish({kExitUnreachable, "woodlouse: the server started here has ended\n"});
-    if (connection.attempts() >= kMostAttempts) {
-      finish({kExitUnreachable, "woodlouse: cannot connect to " + connection.address().text() + ": " +
-                                    connection.reason() + "\n      tried " + std::to_string(kMostAttempts) +
-                                    " times; is the server up?\n"});
-    }
+  } else if (session_.is_trying() && server_alive_ && !server_alive_()) {
+    finish({kExitUnreachable, "woodlouse: the server started here has ended\n"});
+  } else if (connection.losses() != losses_told_) {
+    losses_told_ = connection.losses();
+    say("connection lost: " + connection.closing().reason + "; coming back");
   }
 }
 
@@ -181,13 +174,16 @@ void TextGame::tell_proof() {
 }
 
 void TextGame::on_key(const Key& key) {
+  if (session_.is_trying() && !chatting_ && is_leaving(key)) return finish({});
   if (chatting_ && !control_action(key)) {
     const ChatEntry::Outcome outcome = chat_.type(key);
     if (outcome == ChatEntry::Outcome::kTyping) return;
-    if (outcome == ChatEntry::Outcome::kSend)
-      session_.room().say(chat_.text());
-    else
+    if (outcome == ChatEntry::Outcome::kCancel)
       say("chat cancelled");
+    else if (session_.is_trying())
+      say("not said: the connection is lost");
+    else
+      session_.room().say(chat_.text());
     chatting_ = false;
     chat_.clear();
   } else if (const auto action = bindings_.on_key(key, asked_ ? Overlay::kQuitQuestion : Overlay::kNone)) {
@@ -223,6 +219,8 @@ void TextGame::perform(Action action) {
       break;
     case Action::kScoreboard:
       for (const std::string& line : words::room(session_.room())) say(line);
+      if (const auto count = session_.room().roster().spectators(); count > 0)
+        say(std::to_string(count) + (count == 1 ? " watches" : " watch"));
       break;
     case Action::kChat:
       chatting_ = true;

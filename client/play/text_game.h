@@ -41,7 +41,6 @@ class TextGame {
  private:
   static constexpr std::chrono::milliseconds kUpdate{50};
   static constexpr std::chrono::seconds kStateEvery{2};
-  static constexpr int kMostAttempts = 10;  ///< at joining again; a pipe has nobody to press Q
 
   void update();
   void on_key(const Key& key);
@@ -64,7 +63,7 @@ class TextGame {
   bool asked_ = false;          ///< Q was pressed and is to be confirmed
   std::size_t lines_told_ = 0;  ///< of the roster's
   std::string notice_told_;
-  Connection::Phase phase_told_ = Connection::Phase::kJoined;
+  int losses_told_ = 0;  ///< of the connection's
   core::Time state_told_{};
   std::optional<Outcome> outcome_;
 };

@@ -11,8 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "client/net/connection.h"
-
 using namespace woodlouse::client;
 
 namespace {
@@ -151,14 +149,6 @@ TEST_CASE("the terminal's hints decide the look, choices overrule them, NO_COLOR
   REQUIRE(look({"xterm-256color", "truecolor", true, true}) == Look{ColorMode::kMono, GlyphSet::kAscii});
   REQUIRE(choose_look(ColorChoice::k16, GlyphChoice::kHalfBlocks, {"xterm", "", true, true}) ==
           Look{ColorMode::k16, GlyphSet::kHalfBlocks});
-}
-
-TEST_CASE("attempts to reconnect come later and later, but not never") {
-  for (int attempt = 1; attempt < 100; ++attempt) {
-    REQUIRE(retry_delay(attempt + 1) >= retry_delay(attempt));
-    REQUIRE(retry_delay(attempt) >= std::chrono::seconds(1));
-    REQUIRE(retry_delay(attempt) <= std::chrono::seconds(15));
-  }
 }
 
 TEST_CASE("replay FILE watches a recording, with the options of the picture before or after it") {

@@ -63,6 +63,66 @@ TEST_CASE("the map is asked for once and kept over a reconnection to the same ma
   REQUIRE(room.pilot() != nullptr);
 }
 
+TEST_CASE("who comes back is told in which louse, knows its own name, and counts its inputs anew") {
+  const auto map = volcano();
+  RoomView room;
+  protocol::Welcome message = welcome(*map, 3);
+  message.name = "lin#2";
+  REQUIRE(room.on_message(message, kStart));
+  REQUIRE(room.on_message(protocol::MapMessage{"volcano", map->hash, map->canonical}, kStart));
+  CHECK(room.notice_line().empty());
+  const auto first_seq = [&](std::uint64_t tick, core::Time now) {
+    REQUIRE(room.on_message(key(tick, {3, 1, 1, 0, 0, 1, 0, 5}), now));
+    room.update(now);
+    for (const auto& sent : room.take_outgoing())
+      if (const auto* input = std::get_if<protocol::Input>(&sent)) return input->seq;
+    return 0u;
+  };
+  CHECK(first_seq(60, kStart) == 1);
+  CHECK(room.lice().at(3).name == "lin#2");
+  room.pilot()->steering().toggle_cruise();
+  CHECK(first_seq(63, kStart + 50ms) == 2);
+  room.on_lost();
+  room.on_lost();  // an attempt that failed
+  room.update(kStart + 1s);
+  CHECK(room.lice().contains(3));  // the picture stays
+  CHECK(room.take_outgoing().empty());
+  message.resumed = true;
+  REQUIRE(room.on_message(message, kStart + 2s));
+  CHECK(room.notice_line() == "back in your louse");
+  CHECK(room.roster().find(3)->name == "lin#2");  // no event tells of who comes back
+  CHECK_FALSE(room.pilot()->steering().cruising());
+  CHECK(first_seq(180, kStart + 2s) == 1);
+  room.on_lost();
+  message = welcome(*map, 4);
+  REQUIRE(room.on_message(message, kStart + 40s));
+  CHECK(room.notice_line() == "your louse is gone: this is a new one");
+  room.on_lost();
+  message.id = 0;
+  REQUIRE(room.on_message(message, kStart + 50s));
+  CHECK(room.notice_line() == "watching again");
+}
+
+TEST_CASE("players ask that their louse waits, and who looks on is counted every ten seconds") {
+  CHECK(make_join(protocol::Role::kPlayer, "ada", "").may_resume);
+  CHECK_FALSE(make_join(protocol::Role::kSpectator, "eve", "").may_resume);
+  const auto map = volcano();
+  RoomView room;
+  protocol::Welcome message = welcome(*map, 0);
+  message.room = "b";
+  message.spectators = 2;
+  REQUIRE(room.on_message(message, kStart));
+  CHECK(room.roster().spectators() == 2);
+  std::size_t asked = 0;
+  for (auto t = 0s; t <= 25s; t += 1s) {
+    room.update(kStart + t);
+    asked += count<protocol::List>(room.take_outgoing());
+  }
+  CHECK(asked == 2);
+  REQUIRE(room.on_message(protocol::Rooms{{{"a", "hills", 1, 0, 7}, {"b", "volcano", 1, 1, 5}}}, kStart));
+  CHECK(room.roster().spectators() == 5);
+}
+
 TEST_CASE("a map that does not hash to what the server says is refused") {
   const auto map = volcano();
   RoomView room;

@@ -76,14 +76,15 @@ TEST_CASE("nothing a stranger typed reaches the terminal as a command") {
       "31m\xc2\x9b\x7f\xe2\x80\xae\xf0\x9f\x90\x9b";
   StagedGame game(named_terrain(terrain::FunctionName::kHills), 4, 2);
   Scene& scene = game.scene();
-  scene.map_name = scene.notice = scene.chat_entry = scene.lost.reason = evil;
+  scene.map_name = scene.notice = scene.chat_entry = evil;
+  scene.lost = {evil, 3.0};
   for (LouseMark& louse : scene.lice) louse.name = evil;
   for (ScoreRow& row : scene.scores) row.name = evil;
   scene.chat = {{evil, evil}, {"", evil}};
   for (const GlyphSet glyphs : {GlyphSet::kAscii, GlyphSet::kHalfBlocks})
     for (const Size size : {Size{60, 20}, Size{120, 36}})
-      for (const Mode mode : {Mode::kPlay, Mode::kHelp, Mode::kScoreboard, Mode::kChatEntry,
-                              Mode::kQuitQuestion, Mode::kConnectionLost})
+      for (const Mode mode :
+           {Mode::kPlay, Mode::kHelp, Mode::kScoreboard, Mode::kChatEntry, Mode::kQuitQuestion})
         for (const View view : {View::kMap, View::kOblique}) {
           scene.look = {ColorMode::kTruecolor, glyphs};
           scene.mode = mode;

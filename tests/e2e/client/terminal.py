@@ -3,6 +3,7 @@
 import os
 import re
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
@@ -167,13 +168,14 @@ class InATerminal(unittest.TestCase):
 class Server:
     """A woodlouse-server of the test's own."""
 
-    def __init__(self, port=0):
+    def __init__(self, port=0, options=()):
         self.process = subprocess.Popen(
-            [f"{BIN}/woodlouse-server", "--map", f"{MAPS}/volcano.json", "--listen", f"127.0.0.1:{port}", "--bots", "2"],
+            [f"{BIN}/woodlouse-server", "--map", f"{MAPS}/volcano.json", "--listen", f"127.0.0.1:{port}", "--bots", "2",
+             *options],
             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         self.address = self.process.stdout.readline().split()[1]
 
-    def stop(self):
-        self.process.terminate()
+    def stop(self, by=signal.SIGTERM):
+        self.process.send_signal(by)
         self.process.wait(timeout=10)
         self.process.stdout.close()

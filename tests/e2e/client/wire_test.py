@@ -17,14 +17,15 @@ from terminal import BIN, InATerminal, LOOK, PATIENCE, Server, Terminal, wait_fo
 
 
 class OverTheWire(InATerminal):
-    def test_a_lost_connection_counts_down_and_comes_back(self):
+    def test_a_server_that_is_killed_and_started_again_is_found_again(self):
         server = Server()
         self.terminal.run(f"{BIN}/woodlouse {LOOK} {server.address} --name mara")
         self.terminal.shows(r"PLAYERS 3")
-        server.stop()
-        self.terminal.shows(r"(?i)lost")
+        server.stop(signal.SIGKILL)
+        self.terminal.shows(r"connection lost: coming back")
         again = Server(int(server.address.rsplit(":", 1)[1]))
         self.addCleanup(again.stop)
+        self.terminal.shows(r"your louse is gone: this is a new one")
         self.terminal.shows(r"PLAYERS 3")
         wait_for("the game again", lambda: not re.search(r"(?i)connection lost", self.terminal.screen()))
         way = self.way()
@@ -32,6 +33,14 @@ class OverTheWire(InATerminal):
         wait_for("a louse that drives", lambda: self.way() is not None and self.way() != way)
         self.terminal.keys("q", "y")
         wait_for("the shell's screen", lambda: self.terminal.state() == "0 1")
+
+    def test_a_server_that_stops_is_told_with_69_and_not_waited_for(self):
+        server = Server()
+        self.terminal.run(f"{BIN}/woodlouse {LOOK} {server.address} --name mara")
+        self.terminal.shows(r"PLAYERS 3")
+        server.stop()
+        self.terminal.shows(r"the server stops\s+when it is up again:  woodlouse 127")
+        self.assertEqual(self.exit_code(), 69)
 
     def test_two_clients_see_each_other_and_chat(self):
         server = Server()

@@ -1,0 +1,23 @@
+// Why a connection to a server ended, and what that means for who wants to play on.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+namespace woodlouse::client {
+
+struct Closing {
+  std::string reason;  ///< for people, one line
+  std::string code{};  ///< the server's, of its bye or error; empty: it said nothing, the line broke
+  std::optional<std::chrono::milliseconds> retry_after{};  ///< with rate_limited
+};
+
+/// Of an end that the server never announces: what answers there can't be talked to.
+inline constexpr const char* kNoServerOfOurs = "no_server_of_ours";
+
+/// Whether the same join may succeed a moment later: the line broke, or the server had no room for us just
+/// then. Not when it said why it does not want us, or that we are somewhere else.
+bool is_passing(const Closing& closing);
+
+}  // namespace woodlouse::client
