@@ -75,11 +75,19 @@ int main(int argc, char** argv) {
   protocol::Join join;
   join.role = protocol::Role::kBot;
   join.name = "Chaser";
+  join.may_resume = true;
   join.fields = protocol::default_columns();
   bots::LineClient client;
-  const auto welcome = client.join(address.substr(0, colon), address.substr(colon + 1), join);
-  if (!welcome) return failed(welcome.error());
-  std::cout << "louse " << welcome->id << " in room " << welcome->room << "\n" << std::flush;
-  const auto played = play(client, welcome->id);
-  return played ? 0 : failed(played.error());
+  auto welcome = client.join(address.substr(0, colon), address.substr(colon + 1), join);
+  while (welcome) {
+    std::cout << (welcome->resumed ? "back in louse " : "louse ") << welcome->id << " in room "
+              << welcome->room << "\n"
+              << std::flush;
+    const auto played = play(client, welcome->id);
+    if (played) return 0;
+    if (!client.is_broken()) return failed(played.error());
+    std::cerr << played.error().text() << "; coming back\n";
+    welcome = client.come_back();
+  }
+  return failed(welcome.error());
 }

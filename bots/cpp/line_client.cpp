@@ -1,7 +1,10 @@
 #include "bots/cpp/line_client.h"
 
+#include <algorithm>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/write.hpp>
+#include <cassert>
+#include <thread>
 
 #include "shared/protocol/codec.h"
 #include "shared/protocol/codes.h"
@@ -9,6 +12,7 @@
 namespace woodlouse::bots {
 
 namespace asio = boost::asio;
+using Clock = std::chrono::steady_clock;
 
 bool WorldView::take(const protocol::Frame& frame) {
   if (!frame.is_key && (!has_key_ || frame.base != key_tick_)) return false;
@@ -30,23 +34,63 @@ bool WorldView::take(const protocol::Frame& frame) {
 
 core::Expected<protocol::Welcome> LineClient::join(const std::string& host, const std::string& port,
                                                    const protocol::Join& join) {
-  boost::system::error_code error;
-  const auto endpoints = asio::ip::tcp::resolver(context_).resolve(host, port, error);
-  if (!error) asio::connect(socket_, endpoints, error);
-  if (error) return core::fail(host + ":" + port, error.message(), "is woodlouse-server running there?");
-  socket_.set_option(asio::ip::tcp::no_delay(true), error);
-  if (error) return core::fail(host + ":" + port, error.message());
-  if (auto sent = send(join); !sent) return tl::unexpected(sent.error());
+  host_ = host;
+  port_ = port;
+  join_ = join;
+  return try_until_joined(Trying::kToJoin);
+}
+
+core::Expected<protocol::Welcome> LineClient::come_back() {
+  assert(join_.may_resume);
+  return try_until_joined(Trying::kToComeBack);
+}
+
+core::Expected<protocol::Welcome> LineClient::try_until_joined(Trying trying) {
+  const bool was_here = trying == Trying::kToComeBack;
+  const auto until = Clock::now() + kComesBackFor;
   for (;;) {
-    const auto message = receive();
+    const auto begun = Clock::now();
+    auto welcome = connect_and_join(was_here ? kPatience : kSilence);
+    if (welcome) return welcome;
+    const std::string& code = welcome.error().where;
+    const bool passes = code == protocol::code::kRateLimited ||
+                        (was_here && (is_broken_ || code == protocol::code::kTooManyConnections));
+    const auto next = std::max(begun + std::chrono::seconds(1), Clock::now() + retry_after_);
+    if (!passes || next > until) return welcome;
+    std::this_thread::sleep_until(next);
+  }
+}
+
+core::Expected<protocol::Welcome> LineClient::connect_and_join(std::chrono::seconds patience) {
+  framer_ = protocol::LineFramer(protocol::kMaxServerLineBytes);
+  is_broken_ = false;
+  retry_after_ = {};
+  boost::system::error_code error;
+  socket_.close(error);
+  const auto endpoints = asio::ip::tcp::resolver(context_).resolve(host_, port_, error);
+  if (!error) {
+    asio::async_connect(socket_, endpoints,
+                        [&error](const boost::system::error_code& failed, const asio::ip::tcp::endpoint&) {
+                          error = failed;
+                        });
+    run(kPatience);
+  }
+  if (!error) socket_.set_option(asio::ip::tcp::no_delay(true), error);
+  if (error) return broken(host_ + ":" + port_, error.message(), "is woodlouse-server running there?");
+  if (auto sent = send(join_); !sent) return tl::unexpected(sent.error());
+  for (;;) {
+    const auto message = receive(patience);
     if (!message) return tl::unexpected(message.error());
-    if (const auto* refusal = std::get_if<protocol::ErrorMessage>(&*message))
+    if (const auto* refusal = std::get_if<protocol::ErrorMessage>(&*message)) {
+      retry_after_ = std::chrono::milliseconds(refusal->retry_after_ms.value_or(0));
       return core::fail(refusal->code, refusal->text);
+    }
     if (const auto* bye = std::get_if<protocol::Bye>(&*message)) return core::fail(bye->code, bye->text);
     const auto* welcome = std::get_if<protocol::Welcome>(&*message);
     if (!welcome) continue;
     fields_ = welcome->fields;
     format_ = welcome->format;
+    join_.resume = welcome->resume_token;
     return *welcome;
   }
 }
@@ -54,11 +98,13 @@ core::Expected<protocol::Welcome> LineClient::join(const std::string& host, cons
 core::Expected<void> LineClient::send(const protocol::ClientMessage& message) {
   boost::system::error_code error;
   asio::write(socket_, asio::buffer(protocol::encode(message)), error);
-  if (error) return core::fail("connection", error.message());
+  if (error) return broken("connection", error.message());
   return {};
 }
 
-core::Expected<protocol::ServerMessage> LineClient::receive() {
+core::Expected<protocol::ServerMessage> LineClient::receive() { return receive(kSilence); }
+
+core::Expected<protocol::ServerMessage> LineClient::receive(std::chrono::seconds patience) {
   for (;;) {
     while (const auto line = framer_.next()) {
       if (line->oversize) return core::fail("server", "a line of more than 128 MiB");
@@ -68,10 +114,32 @@ core::Expected<protocol::ServerMessage> LineClient::receive() {
         return core::fail("server", message.error().text);
     }
     boost::system::error_code error;
-    const std::size_t size = socket_.read_some(asio::buffer(incoming_), error);
-    if (error) return core::fail("connection", error.message());
+    std::size_t size = 0;
+    socket_.async_read_some(asio::buffer(incoming_),
+                            [&](const boost::system::error_code& failed, std::size_t count) {
+                              error = failed;
+                              size = count;
+                            });
+    run(patience);
+    if (error) return broken("connection", error.message());
     framer_.append({incoming_.data(), size});
   }
+}
+
+/// Until what was begun on the socket has ended, or is given up.
+void LineClient::run(std::chrono::seconds patience) {
+  context_.restart();
+  context_.run_for(patience);
+  if (context_.stopped()) return;
+  boost::system::error_code nothing_to_do_about_it;
+  socket_.close(nothing_to_do_about_it);
+  context_.run();
+}
+
+tl::unexpected<core::Error> LineClient::broken(const std::string& where, const std::string& what,
+                                               const std::string& hint) {
+  is_broken_ = true;
+  return core::fail(where, what, hint);
 }
 
 }  // namespace woodlouse::bots

@@ -16,10 +16,11 @@ BYE = {"type": "bye", "code": "shutdown", "text": "enough", "resumable": False}
 
 
 class Scripted:
-    """Listens, and plays script(send, receive) for the first who connects. send takes messages or raw bytes."""
+    """Listens, and plays script(send, receive) for the first who connects, of several scripts one after the other; the
+    connection ends with its script. send takes messages or raw bytes."""
 
-    def __init__(self, script, chunk=None):
-        self._script = script
+    def __init__(self, *scripts, chunk=None):
+        self._scripts = scripts
         self._chunk = chunk
         self._listener = socket.create_server(("127.0.0.1", 0))
         self.address = "127.0.0.1:%d" % self._listener.getsockname()[1]
@@ -38,20 +39,24 @@ class Scripted:
 
     def _serve(self):
         try:
-            connection, _ = self._listener.accept()
-            connection.settimeout(10)
-            connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-            with connection, connection.makefile("rb") as lines:
-                def send(*messages):
-                    for message in messages:
-                        line = message if isinstance(message, bytes) else json.dumps(message).encode() + b"\n"
-                        step = self._chunk or max(1, len(line))
-                        for begin in range(0, len(line), step):
-                            connection.sendall(line[begin:begin + step])
-
-                self._script(send, lambda: json.loads(lines.readline()))
+            for script in self._scripts:
+                self._play(script)
         except Exception as failure:
             self.failure = failure
+
+    def _play(self, script):
+        connection, _ = self._listener.accept()
+        connection.settimeout(10)
+        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        with connection, connection.makefile("rb") as lines:
+            def send(*messages):
+                for message in messages:
+                    line = message if isinstance(message, bytes) else json.dumps(message).encode() + b"\n"
+                    step = self._chunk or max(1, len(line))
+                    for begin in range(0, len(line), step):
+                        connection.sendall(line[begin:begin + step])
+
+            script(send, lambda: json.loads(lines.readline()))
 
 
 def joined(then, chunk=None):
@@ -61,7 +66,7 @@ def joined(then, chunk=None):
         assert receive()["type"] == "join"
         send(WELCOME)
         then(send, receive)
-    return Scripted(script, chunk)
+    return Scripted(script, chunk=chunk)
 
 
 def expect(receive, **fields):

@@ -30,7 +30,7 @@ class Joining(unittest.TestCase):
                 self.assertEqual(game.extent, (-1, -2, 3, 4))
                 self.assertEqual(game.players, {1: "ann"})
         self.assertEqual(seen, [{"type": "join", "protocol": 1, "role": "bot", "name": "x", "format": "quantized",
-                                 "fields": ["z"], "state_hz": 10}])
+                                 "fields": ["z"], "state_hz": 10, "resume": True}])
 
     def test_a_refused_join_raises_with_the_servers_code(self):
         def script(send, receive):
@@ -175,7 +175,7 @@ class Seeing(unittest.TestCase):
         for last in (b"", b'{"type":"key","tick":1', b'{"type":"key","tick":1,"louse":[[1]]}\n', b"{}\n", b"null\n",
                      b'{"type":"key","louse":[]}\n', b'{"type":"key","tick":1,"louse":{"a":1}}\n', b"\xff\xfe\n"):
             with joined(lambda send, receive, last=last: send(KEY, last)) as server:
-                game = woodlouse.connect(server.address)
+                game = woodlouse.connect(server.address, resume=False)
                 with self.assertRaises(woodlouse.WoodlouseError, msg=repr(last)):
                     for _ in game.states():
                         pass

@@ -15,20 +15,19 @@ Not thread safe: one thread per connection. Units: m, m/s, rad, ticks.
 import collections
 import math
 import os
-import struct
 import sys
 import time
 
-from woodlouse_ground import Ground
-from woodlouse_lines import DEFAULT_ADDRESS, MAX_LINE_BYTES, SILENCE_S, WoodlouseError, open_lines
-from woodlouse_proof import ALL_FIELDS, state_hash, xxh64
+from woodlouse_door import Door
+from woodlouse_frames import Frames
+from woodlouse_ground import Ground, complete
+from woodlouse_lines import DEFAULT_ADDRESS, MAX_LINE_BYTES, SILENCE_S, WoodlouseError
+from woodlouse_proof import ALL_FIELDS, prove, state_hash, xxh64
 
 __all__ = ["ALL_FIELDS", "DEFAULT_ADDRESS", "Game", "Ground", "HELD", "MAX_LINE_BYTES", "SILENCE_S", "State",
            "WoodlouseError", "connect", "run", "state_hash", "xxh64"]
 
 HELD = 4294967295  # ticks_left of a thrust that holds until the next one
-_MAP_DEFAULTS = {"equations": "exact", "method": "standard", "contact": "bilateral", "edges": "walls",
-                 "central_gravity": 0}
 
 State = collections.namedtuple("State", "tick lice me")
 State.__doc__ = """The world at `tick`. lice: {id: row}; a row has an attribute for each of the game's fields (row.x,
@@ -36,13 +35,16 @@ row.vx ...), in units. me: your own row; None for a spectator, and before your l
 
 
 def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields=None, format="quantized", state_hz=None,
-            verify=False):
+            verify=False, resume=True):
     """Connects to HOST:PORT and joins. Raises WoodlouseError. Use it in a `with`: that leaves at the end.
 
     role: "bot", "player" or "spectator". fields: names of columns, or "all"; id x y vx vy when left out.
     state_hz: how many states a second; the room's own when left out.
     verify: recompute the hash of every key from its rows. Asks for all fields in exact format, so leave out `fields`
     and `format`; game.verified counts the keys, and one that differs raises WoodlouseError with the code "differs".
+    resume: where the connection breaks, come back within 30 s, into the louse that waits for so long; what is sent
+    meanwhile is dropped. That is what a loop over states() is written for, so it is the default; with False a broken
+    connection raises WoodlouseError, and the louse goes with it.
     """
     if verify:
         if fields is not None:
@@ -52,7 +54,7 @@ def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields
     for field, value in (("room", room), ("fields", fields), ("state_hz", state_hz)):
         if value is not None:
             join[field] = value
-    return Game(open_lines(address), join, verify)
+    return Game(Door(address, join, resume), name, verify)
 
 
 def run(main):
@@ -72,9 +74,11 @@ def run(main):
 
 
 class Game:
-    """A joined session. Attributes: id (your louse; 0 for a spectator), room, fields, tick_hz, state_hz, extent (x_min,
-    y_min, x_max, y_max) [m], players {id: name} of who has a louse, spectators [name] of who has none (names may be
-    the same), hello and welcome as they came, last_ack, verified (how many keys were right; 0 unless asked to verify),
+    """A joined session. Attributes: id (your louse; 0 for a spectator), name (yours here: "ann#2" where there was an ann),
+    room, fields, tick_hz, state_hz, extent (x_min, y_min, x_max, y_max) [m], players {id: name} of who has a louse,
+    spectators [name] of who has none (of a former server; today's counts them: welcome["spectators"], rooms()), hello and
+    welcome as they came, last_ack, verified (how many keys were right; 0 unless asked to verify), comebacks (how often
+    the connection broke and came back; welcome["resumed"] is true where it came back to its louse, else id is another),
     and bye once the server said it.
 
     physics: gravity [m/s^2], drag [1/s], friction (Coulomb's), thrust_max [m/s^2], edge_restitution (0 to 1); equations
@@ -83,12 +87,13 @@ class Game:
     that pull is smooth [m]; 0 where there is none). Of a server that does not send the last six they are there once map()
     has asked for the map, from its definition."""
 
-    def __init__(self, lines, join, verify=False):
-        self._lines = lines
+    def __init__(self, door, name, verify=False):
+        self._door = door
         self._seq = 0
+        self.name = name
+        self.comebacks = 0
         self._verifies = verify
         self.verified = 0
-        self._key = None  # (tick, {id: row}) that deltas refer to
         self._resyncing = False
         self._ground = None
         self._pongs = {}
@@ -102,16 +107,7 @@ class Game:
         self.welcome = None
         self.players = {}
         self.spectators = []
-        try:
-            self.hello = self._next("hello")
-            self._lines.send(join)
-            while self.welcome is None:
-                self._receive()
-                if self.errors:
-                    raise WoodlouseError(self.errors[0]["code"], self.errors[0]["text"])
-        except BaseException:
-            lines.close()
-            raise
+        self._begin(*door.enter())
 
     def __enter__(self):
         return self
@@ -132,7 +128,8 @@ class Game:
 
     def states(self):
         """Yields a State for each frame, always the newest: one that came while you were thinking replaces those
-        before it. Ends when the server says bye; raises WoodlouseError when the connection breaks."""
+        before it. Ends when the server says bye; goes on over breaks of the connection that it comes back from, and raises
+        WoodlouseError at others."""
         while self.bye is None:
             self._state = None
             while self.bye is None and (self._state is None or self._lines.waiting()):
@@ -143,15 +140,13 @@ class Game:
     def map(self):
         """The Ground of this room; asked for once."""
         if self._ground is None:
-            self._lines.send({"type": "get_map"})
-            self._until(lambda: self._ground is not None)
+            self._ask({"type": "get_map"}, lambda: self._ground is not None)
         return self._ground
 
     def rooms(self):
         """[{name, map, players, bots, spectators}] of the server."""
         self._rooms = None
-        self._lines.send({"type": "list"})
-        self._until(lambda: self._rooms is not None)
+        self._ask({"type": "list"}, lambda: self._rooms is not None)
         return self._rooms
 
     def take_events(self):
@@ -166,8 +161,7 @@ class Game:
     def ping(self):
         """The round-trip time [s]."""
         start = time.monotonic_ns() % (1 << 53)
-        self._lines.send({"type": "ping", "t": start})
-        self._until(lambda: start in self._pongs)
+        self._ask({"type": "ping", "t": start}, lambda: start in self._pongs)
         return (self._pongs.pop(start) - start) * 1e-9
 
     # ---- what you do ----
@@ -177,7 +171,8 @@ class Game:
         number above 0, at most 1, over the heading, which meanwhile turns into the velocity's direction within some 0.3 m
         of way, and is where the louse looks while it stands; a number below 0, at least -1, brakes. 1 is
         physics["thrust_max"], in space: on a slope less of it is seen on the map (bots/README.md). ticks: for how long;
-        else until the next thrust. tick: the step that shall take it. Returns the seq that its ack will carry."""
+        else until the next thrust. tick: the step that shall take it. Returns the seq that its ack will carry; they
+        begin anew with each comeback."""
         pair = isinstance(value, (tuple, list))
         numbers = [float(v) for v in value] if pair else [float(value)]
         if len(numbers) > 2 or (pair and len(numbers) != 2) or not all(map(math.isfinite, numbers)):
@@ -188,39 +183,75 @@ class Game:
             message["ticks"] = int(ticks)
         if tick is not None:
             message["tick"] = int(tick)
-        self._lines.send(message)
+        self._send(message)
         return self._seq
 
     def chat(self, text):
         """Says something to everybody in the room."""
-        self._lines.send({"type": "chat", "text": text})
+        self._send({"type": "chat", "text": text})
 
     def respawn(self):
         """Goes back to a spawn point."""
-        self._lines.send({"type": "respawn"})
+        self._send({"type": "respawn"})
 
     def on_error(self, error):
         """Called for each `error` of the server that does not end the session; override or assign it."""
         print("woodlouse: %s: %s" % (error.get("code"), error.get("text")), file=sys.stderr)
 
+    def on_lost(self, error):
+        """Called when the connection broke, before it comes back; override or assign it."""
+        print("woodlouse: %s: coming back" % error, file=sys.stderr)
+
+    def on_comeback(self):
+        """Called when it is back; override or assign it."""
+        back = "back in louse %d" if self.welcome.get("resumed") else "back, in a new louse, %d"
+        print("woodlouse: " + (back % self.id if self.id else "watching again"), file=sys.stderr)
+
     # ---- the wire ----
 
-    def _next(self, kind):
-        message = self._lines.message()
-        if message["type"] in ("error", "bye"):
-            raise WoodlouseError(message.get("code", "error"), message.get("text", ""))
-        if message["type"] != kind:
-            raise WoodlouseError("protocol", "this is no woodlouse server: it began with %r" % message["type"])
-        return message
+    def _begin(self, lines, hello, welcome):
+        self._lines, self.hello = lines, hello
+        self._seq, self._resyncing = 0, False
+        try:
+            self._take(welcome)
+        except BaseException:
+            lines.close()
+            raise
 
-    def _until(self, done):
+    def _come_back(self, error):
+        self._lines.close()
+        self.on_lost(error)
+        self._begin(*self._door.come_back())
+        self.comebacks += 1
+        self.on_comeback()
+
+    def _send(self, message):
+        try:
+            self._lines.send(message)
+        except WoodlouseError as error:  # it is dropped; whoever looks for the next state comes back
+            if not self._door.brings_back(error):
+                raise
+
+    def _ask(self, question, done):
+        """Asks once on each connection."""
+        asked = None
         while not done():
             if self.bye is not None:
                 raise WoodlouseError(self.bye.get("code", "bye"), self.bye.get("text", ""))
+            if asked != self.comebacks:
+                asked = self.comebacks
+                self._send(question)
             self._receive()
 
     def _receive(self):
-        message = self._lines.message()
+        try:
+            self._take(self._lines.message())
+        except WoodlouseError as error:
+            if self.bye is not None or not self._door.brings_back(error):
+                raise
+            self._come_back(error)
+
+    def _take(self, message):
         handler = getattr(self, "_on_" + str(message["type"]), None)
         try:
             if handler:  # types of later versions are passed over
@@ -229,57 +260,37 @@ class Game:
             raise WoodlouseError("protocol", "a %s out of shape (%s)" % (message["type"], error)) from None
 
     def _on_welcome(self, message):
+        if self.welcome is None or self.welcome["map"]["hash"] != message["map"]["hash"]:
+            self._ground, self.physics = None, dict(message["physics"])
         self.welcome = message
         self.id = message["id"]
+        self.name = message.get("name", self.name)
         self.room = message["room"]
         self.tick_hz = message["tick_hz"]
         self.state_hz = message["state_hz"]
         self.fields = message["fields"]
-        self.physics = dict(message["physics"])
         self.extent = tuple(message["map"]["extent"])
         # All spectators have the id 0, which therefore names none of them.
         self.players = {player["id"]: player["name"] for player in message["players"] if player["id"]}
+        if self.id and "name" in message:
+            self.players[self.id] = self.name
         self.spectators = [player["name"] for player in message["players"] if not player["id"]]
-        self._row = collections.namedtuple("Louse", self.fields)
-        self._quanta = [1 if quantum == 1 else quantum for quantum in message["quantum"]]
-
-    def _rows(self, message):
-        quanta, row = self._quanta, self._row._make
-        rows = (row([value * quantum for value, quantum in zip(values, quanta)]) for values in message["louse"])
-        return {louse.id: louse for louse in rows}
+        self._frames = Frames(self.fields, message["quantum"])
 
     def _on_key(self, message):
         if self._verifies:
-            self._verify(message)
-        self._key = (message["tick"], self._rows(message))
+            prove(message, self.fields)
+            self.verified += 1
         self._resyncing = False
-        self._show(message["tick"], self._key[1])
-
-    def _verify(self, key):
-        if self.fields != ALL_FIELDS:
-            raise WoodlouseError("protocol", "the columns are %s, not those of the hash" % " ".join(self.fields))
-        try:
-            found = state_hash(key)
-        except struct.error as error:
-            raise WoodlouseError("protocol", "a key out of shape (%s)" % error) from None
-        if key["link"] > key["tick"]:
-            raise WoodlouseError("protocol", "the key of tick %d is proven by a later one" % key["tick"])
-        if "%016x" % found != key["hash"]:
-            raise WoodlouseError("differs", "the key of tick %d says %s, its rows give %016x"
-                                 % (key["tick"], key["hash"], found))
-        self.verified += 1
+        self._show(message["tick"], self._frames.key(message))
 
     def _on_delta(self, message):
-        if self._key is None or self._key[0] != message["base"]:
-            if not self._resyncing:
-                self._resyncing = True
-                self._lines.send({"type": "resync"})
-            return
-        lice = dict(self._key[1])
-        for louse in message.get("gone", ()):
-            lice.pop(louse, None)
-        lice.update(self._rows(message))
-        self._show(message["tick"], lice)
+        lice = self._frames.delta(message)
+        if lice is not None:
+            return self._show(message["tick"], lice)
+        if not self._resyncing:
+            self._resyncing = True
+            self._send({"type": "resync"})
 
     def _show(self, tick, lice):
         self._state = State(tick, lice, lice.get(self.id))
@@ -306,22 +317,15 @@ class Game:
         if message["fatal"]:
             raise WoodlouseError(message["code"], message["text"])
         self.errors.append(message)
-        if self.welcome is not None:
-            self.on_error(message)
+        self.on_error(message)
 
     def _on_bye(self, message):
         self.bye = message
-        if self.welcome is None:
-            raise WoodlouseError(message["code"], message["text"])
 
     def _on_map(self, message):
         definition = message["definition"]
         knots = message.get("knots") or definition["terrain"]
-        for field, value in _MAP_DEFAULTS.items():  # what an older server's welcome leaves out
-            of_map = definition if field == "edges" else definition.get("physics", {})
-            self.physics.setdefault(field, of_map.get(field, value))
-        central = self.physics["central_gravity"]
-        self.physics.setdefault("core_radius", definition.get("physics", {}).get("core_radius", _core_radius(central)))
+        complete(self.physics, definition)
         self._ground = Ground(message["name"], knots["origin"], knots["spacing"], knots["heights"],
                               self.physics["edges"] == "wrap", definition, message.get("overview", False))
 
@@ -329,17 +333,12 @@ class Game:
         self._rooms = message["rooms"]
 
     def _on_ping(self, message):
-        self._lines.send({"type": "pong", "t": message["t"]})
+        self._send({"type": "pong", "t": message["t"]})
 
     def _on_pong(self, message):
         self._pongs[message["t"]] = time.monotonic_ns() % (1 << 53)
         while len(self._pongs) > 16:
             del self._pongs[next(iter(self._pongs))]
-
-
-def _core_radius(central_gravity):
-    """That of a map that names none [m]: maps/README.md."""
-    return (35 / 8 * central_gravity / (15 * 256 * 0.05) ** 2) ** (1 / 3)
 
 
 def _drain(queue):

@@ -2,6 +2,9 @@
 
 import math
 
+_MAP_DEFAULTS = {"equations": "exact", "method": "standard", "contact": "bilateral", "edges": "walls",
+                 "central_gravity": 0}
+
 
 class Ground:
     """The map's heights between its knots: Catmull-Rom, which goes through the knots and has a smooth gradient.
@@ -118,3 +121,17 @@ def _value(t):
 
 def _slope(t):
     return (-0.5 + 2 * t - 1.5 * t * t, -5 * t + 4.5 * t * t, 0.5 + 4 * t - 4.5 * t * t, -t + 1.5 * t * t)
+
+
+def complete(physics, definition):
+    """Fills in what an older server's welcome leaves out of the physics, from the map's definition."""
+    for field, value in _MAP_DEFAULTS.items():
+        of_map = definition if field == "edges" else definition.get("physics", {})
+        physics.setdefault(field, of_map.get(field, value))
+    central = physics["central_gravity"]
+    physics.setdefault("core_radius", definition.get("physics", {}).get("core_radius", _core_radius(central)))
+
+
+def _core_radius(central_gravity):
+    """That of a map that names none [m]: maps/README.md."""
+    return (35 / 8 * central_gravity / (15 * 256 * 0.05) ** 2) ** (1 / 3)

@@ -11,12 +11,13 @@ SILENCE_S = 15.0  # a server that says nothing for so long is gone
 
 class WoodlouseError(Exception):
     """What went wrong; `code` is the server's (docs/protocol.md), or "connection", "protocol" or "differs" (a key
-    that was verified)."""
+    that was verified). retry_after_s: for so long it is of no use to ask again; 0 where the server did not say."""
 
-    def __init__(self, code, text):
+    def __init__(self, code, text, retry_after_s=0.0):
         super().__init__("%s: %s" % (code, text))
         self.code = code
         self.text = text
+        self.retry_after_s = retry_after_s
 
 
 class Lines:
@@ -27,6 +28,11 @@ class Lines:
         self._socket.settimeout(SILENCE_S)
         self._bytes = bytearray()
         self._searched = 0  # of _bytes, without a newline
+        self._cut = False  # in the middle of a line to the server
+
+    def wait_at_most(self, seconds):
+        """For the next bytes, either way; SILENCE_S until told otherwise."""
+        self._socket.settimeout(seconds)
 
     def close(self):
         self._socket.close()
@@ -37,6 +43,7 @@ class Lines:
         try:
             self._socket.sendall(line.encode("utf-8", "replace"))
         except OSError as error:
+            self._cut = isinstance(error, socket.timeout)
             raise WoodlouseError("connection", "lost while sending (%s)" % error) from None
 
     def waiting(self):
@@ -44,6 +51,8 @@ class Lines:
         return self._bytes.find(b"\n", self._searched) >= 0 or bool(select.select([self._socket], [], [], 0)[0])
 
     def _line(self):
+        if self._cut:
+            raise WoodlouseError("connection", "the server took nothing for %g s" % SILENCE_S)
         while True:
             end = self._bytes.find(b"\n", self._searched)
             if end >= 0:
@@ -57,7 +66,8 @@ class Lines:
             try:
                 chunk = self._socket.recv(1 << 16)
             except socket.timeout:
-                raise WoodlouseError("connection", "the server said nothing for %g s" % SILENCE_S) from None
+                raise WoodlouseError("connection", "the server said nothing for %g s"
+                                     % self._socket.gettimeout()) from None
             except OSError as error:
                 raise WoodlouseError("connection", "lost (%s)" % error) from None
             if not chunk:

@@ -2,6 +2,8 @@
 
 import struct
 
+from woodlouse_lines import WoodlouseError
+
 ALL_FIELDS = ["id", "phase", "x", "y", "vx", "vy", "heading_x", "heading_y", "tx", "ty", "flight_z", "flight_vz",
               "distance", "thrust_kind", "ticks_left"]
 _LOUSE = struct.Struct("<II11dII")  # a louse's hashed record: ALL_FIELDS in this order
@@ -20,6 +22,21 @@ def state_hash(key):
     blocks = [xxh64(b"".join(rows[first:first + _BLOCK])) for first in range(0, len(rows), _BLOCK)]
     return xxh64(struct.pack("<%dQ" % (6 + len(blocks)), previous, inputs, roster, rules, key["link"], generator,
                              *blocks))
+
+
+def prove(key, fields):
+    """Raises WoodlouseError where the rows of a key with these columns do not have the hash that it states."""
+    if fields != ALL_FIELDS:
+        raise WoodlouseError("protocol", "the columns are %s, not those of the hash" % " ".join(fields))
+    try:
+        found = state_hash(key)
+    except struct.error as error:
+        raise WoodlouseError("protocol", "a key out of shape (%s)" % error) from None
+    if key["link"] > key["tick"]:
+        raise WoodlouseError("protocol", "the key of tick %d is proven by a later one" % key["tick"])
+    if "%016x" % found != key["hash"]:
+        raise WoodlouseError("differs", "the key of tick %d says %s, its rows give %016x"
+                             % (key["tick"], key["hash"], found))
 
 
 def xxh64(data):
