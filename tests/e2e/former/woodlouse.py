@@ -1,0 +1,348 @@
+"""Steer a wood-louse: no dependencies, Python 3.9 or later. Take this file and the woodlouse_*.py beside it.
+
+    import woodlouse
+
+    with woodlouse.connect("127.0.0.1:7777", name="uphill") as game:
+        ground = game.map()
+        for state in game.states():
+            if state.me:
+                game.thrust(ground.gradient(state.me.x, state.me.y))
+
+The wire is documented in docs/protocol.md; this module hides lines, keys and deltas, nothing else.
+Not thread safe: one thread per connection. Units: m, m/s, rad, ticks.
+"""
+
+import collections
+import math
+import os
+import struct
+import sys
+import time
+
+from woodlouse_ground import Ground
+from woodlouse_lines import DEFAULT_ADDRESS, MAX_LINE_BYTES, SILENCE_S, WoodlouseError, open_lines
+from woodlouse_proof import ALL_FIELDS, state_hash, xxh64
+
+__all__ = ["ALL_FIELDS", "DEFAULT_ADDRESS", "Game", "Ground", "HELD", "MAX_LINE_BYTES", "SILENCE_S", "State",
+           "WoodlouseError", "connect", "run", "state_hash", "xxh64"]
+
+HELD = 4294967295  # ticks_left of a thrust that holds until the next one
+_MAP_DEFAULTS = {"equations": "exact", "method": "standard", "contact": "bilateral", "edges": "walls",
+                 "central_gravity": 0}
+
+State = collections.namedtuple("State", "tick lice me")
+State.__doc__ = """The world at `tick`. lice: {id: row}; a row has an attribute for each of the game's fields (row.x,
+row.vx ...), in units. me: your own row; None for a spectator, and before your louse is on the map."""
+
+
+def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields=None, format="quantized", state_hz=None,
+            verify=False):
+    """Connects to HOST:PORT and joins. Raises WoodlouseError. Use it in a `with`: that leaves at the end.
+
+    role: "bot", "player" or "spectator". fields: names of columns, or "all"; id x y vx vy when left out.
+    state_hz: how many states a second; the room's own when left out.
+    verify: recompute the hash of every key from its rows. Asks for all fields in exact format, so leave out `fields`
+    and `format`; game.verified counts the keys, and one that differs raises WoodlouseError with the code "differs".
+    """
+    if verify:
+        if fields is not None:
+            raise ValueError("verify needs all fields: leave out `fields`")
+        fields, format = "all", "exact"
+    join = {"type": "join", "protocol": 1, "role": role, "name": name, "format": format}
+    for field, value in (("room", room), ("fields", fields), ("state_hz", state_hz)):
+        if value is not None:
+            join[field] = value
+    return Game(open_lines(address), join, verify)
+
+
+def run(main):
+    """Calls main(address) with the address of the command line; turns errors and Ctrl-C into a clean end."""
+    arguments = sys.argv[1:]
+    if len(arguments) > 1 or (arguments and arguments[0].startswith("-")):
+        sys.exit("usage: %s [HOST:PORT]      (default %s)" % (sys.argv[0], DEFAULT_ADDRESS))
+    try:
+        main(arguments[0] if arguments else DEFAULT_ADDRESS)
+    except WoodlouseError as error:
+        sys.exit("%s: %s" % (sys.argv[0], error))
+    except KeyboardInterrupt:
+        sys.exit(130)
+    except BrokenPipeError:  # who read our output has gone; Python would complain once more at the end
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(141)
+
+
+class Game:
+    """A joined session. Attributes: id (your louse; 0 for a spectator), room, fields, tick_hz, state_hz, extent (x_min,
+    y_min, x_max, y_max) [m], players {id: name} of who has a louse, spectators [name] of who has none (names may be
+    the same), hello and welcome as they came, last_ack, verified (how many keys were right; 0 unless asked to verify),
+    and bye once the server said it.
+
+    physics: gravity [m/s^2], drag [1/s], friction (Coulomb's), thrust_max [m/s^2], edge_restitution (0 to 1); equations
+    ("exact", "local_plane", "as_printed"), method ("standard", "cheap", "precise", "false_euler"), contact ("bilateral",
+    "unilateral"), edges ("walls", "wrap"), central_gravity (k of k / r^2 [m^3/s^2]; 0: none), core_radius (within which
+    that pull is smooth [m]; 0 where there is none). Of a server that does not send the last six they are there once map()
+    has asked for the map, from its definition."""
+
+    def __init__(self, lines, join, verify=False):
+        self._lines = lines
+        self._seq = 0
+        self._verifies = verify
+        self.verified = 0
+        self._key = None  # (tick, {id: row}) that deltas refer to
+        self._resyncing = False
+        self._ground = None
+        self._pongs = {}
+        self._rooms = None
+        self._events = collections.deque(maxlen=1024)
+        self._acks = collections.deque(maxlen=1024)
+        self._state = None
+        self.errors = collections.deque(maxlen=100)
+        self.last_ack = None
+        self.bye = None
+        self.welcome = None
+        self.players = {}
+        self.spectators = []
+        try:
+            self.hello = self._next("hello")
+            self._lines.send(join)
+            while self.welcome is None:
+                self._receive()
+                if self.errors:
+                    raise WoodlouseError(self.errors[0]["code"], self.errors[0]["text"])
+        except BaseException:
+            lines.close()
+            raise
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *exception):
+        self.close()
+
+    def close(self):
+        """Leaves; the louse goes with you."""
+        try:
+            if self.bye is None:
+                self._lines.send({"type": "leave"})
+        except WoodlouseError:
+            pass  # it is gone already, and so are we
+        self._lines.close()
+
+    # ---- what you see ----
+
+    def states(self):
+        """Yields a State for each frame, always the newest: one that came while you were thinking replaces those
+        before it. Ends when the server says bye; raises WoodlouseError when the connection breaks."""
+        while self.bye is None:
+            self._state = None
+            while self.bye is None and (self._state is None or self._lines.waiting()):
+                self._receive()
+            if self._state is not None:
+                yield self._state
+
+    def map(self):
+        """The Ground of this room; asked for once."""
+        if self._ground is None:
+            self._lines.send({"type": "get_map"})
+            self._until(lambda: self._ground is not None)
+        return self._ground
+
+    def rooms(self):
+        """[{name, map, players, bots, spectators}] of the server."""
+        self._rooms = None
+        self._lines.send({"type": "list"})
+        self._until(lambda: self._rooms is not None)
+        return self._rooms
+
+    def take_events(self):
+        """The events since the last call, oldest first: dicts with n, tick, kind (joined, left, chat, respawned), id
+        (0 for each spectator: the name tells them apart), name."""
+        return _drain(self._events)
+
+    def take_acks(self):
+        """The acks since the last call, oldest first: dicts with seq, tick, margin_us, late, dropped, clamped, you."""
+        return _drain(self._acks)
+
+    def ping(self):
+        """The round-trip time [s]."""
+        start = time.monotonic_ns() % (1 << 53)
+        self._lines.send({"type": "ping", "t": start})
+        self._until(lambda: start in self._pongs)
+        return (self._pongs.pop(start) - start) * 1e-9
+
+    # ---- what you do ----
+
+    def thrust(self, value, ticks=None, tick=None):
+        """Pushes. A pair (x, y) of length at most 1 pushes along the ground's tangent over that direction of the map; a
+        number above 0, at most 1, over the heading, which meanwhile turns into the velocity's direction within some 0.3 m
+        of way, and is where the louse looks while it stands; a number below 0, at least -1, brakes. 1 is
+        physics["thrust_max"], in space: on a slope less of it is seen on the map (bots/README.md). ticks: for how long;
+        else until the next thrust. tick: the step that shall take it. Returns the seq that its ack will carry."""
+        pair = isinstance(value, (tuple, list))
+        numbers = [float(v) for v in value] if pair else [float(value)]
+        if len(numbers) > 2 or (pair and len(numbers) != 2) or not all(map(math.isfinite, numbers)):
+            raise ValueError("thrust is a finite number or a pair of them, not %r" % (value,))
+        self._seq += 1
+        message = {"type": "input", "seq": self._seq, "thrust": numbers if pair else numbers[0]}
+        if ticks is not None:
+            message["ticks"] = int(ticks)
+        if tick is not None:
+            message["tick"] = int(tick)
+        self._lines.send(message)
+        return self._seq
+
+    def chat(self, text):
+        """Says something to everybody in the room."""
+        self._lines.send({"type": "chat", "text": text})
+
+    def respawn(self):
+        """Goes back to a spawn point."""
+        self._lines.send({"type": "respawn"})
+
+    def on_error(self, error):
+        """Called for each `error` of the server that does not end the session; override or assign it."""
+        print("woodlouse: %s: %s" % (error.get("code"), error.get("text")), file=sys.stderr)
+
+    # ---- the wire ----
+
+    def _next(self, kind):
+        message = self._lines.message()
+        if message["type"] in ("error", "bye"):
+            raise WoodlouseError(message.get("code", "error"), message.get("text", ""))
+        if message["type"] != kind:
+            raise WoodlouseError("protocol", "this is no woodlouse server: it began with %r" % message["type"])
+        return message
+
+    def _until(self, done):
+        while not done():
+            if self.bye is not None:
+                raise WoodlouseError(self.bye.get("code", "bye"), self.bye.get("text", ""))
+            self._receive()
+
+    def _receive(self):
+        message = self._lines.message()
+        handler = getattr(self, "_on_" + str(message["type"]), None)
+        try:
+            if handler:  # types of later versions are passed over
+                handler(message)
+        except (KeyError, TypeError, ValueError, IndexError) as error:
+            raise WoodlouseError("protocol", "a %s out of shape (%s)" % (message["type"], error)) from None
+
+    def _on_welcome(self, message):
+        self.welcome = message
+        self.id = message["id"]
+        self.room = message["room"]
+        self.tick_hz = message["tick_hz"]
+        self.state_hz = message["state_hz"]
+        self.fields = message["fields"]
+        self.physics = dict(message["physics"])
+        self.extent = tuple(message["map"]["extent"])
+        # All spectators have the id 0, which therefore names none of them.
+        self.players = {player["id"]: player["name"] for player in message["players"] if player["id"]}
+        self.spectators = [player["name"] for player in message["players"] if not player["id"]]
+        self._row = collections.namedtuple("Louse", self.fields)
+        self._quanta = [1 if quantum == 1 else quantum for quantum in message["quantum"]]
+
+    def _rows(self, message):
+        quanta, row = self._quanta, self._row._make
+        rows = (row([value * quantum for value, quantum in zip(values, quanta)]) for values in message["louse"])
+        return {louse.id: louse for louse in rows}
+
+    def _on_key(self, message):
+        if self._verifies:
+            self._verify(message)
+        self._key = (message["tick"], self._rows(message))
+        self._resyncing = False
+        self._show(message["tick"], self._key[1])
+
+    def _verify(self, key):
+        if self.fields != ALL_FIELDS:
+            raise WoodlouseError("protocol", "the columns are %s, not those of the hash" % " ".join(self.fields))
+        try:
+            found = state_hash(key)
+        except struct.error as error:
+            raise WoodlouseError("protocol", "a key out of shape (%s)" % error) from None
+        if key["link"] > key["tick"]:
+            raise WoodlouseError("protocol", "the key of tick %d is proven by a later one" % key["tick"])
+        if "%016x" % found != key["hash"]:
+            raise WoodlouseError("differs", "the key of tick %d says %s, its rows give %016x"
+                                 % (key["tick"], key["hash"], found))
+        self.verified += 1
+
+    def _on_delta(self, message):
+        if self._key is None or self._key[0] != message["base"]:
+            if not self._resyncing:
+                self._resyncing = True
+                self._lines.send({"type": "resync"})
+            return
+        lice = dict(self._key[1])
+        for louse in message.get("gone", ()):
+            lice.pop(louse, None)
+        lice.update(self._rows(message))
+        self._show(message["tick"], lice)
+
+    def _show(self, tick, lice):
+        self._state = State(tick, lice, lice.get(self.id))
+
+    def _on_ack(self, message):
+        self.last_ack = message
+        self._acks.append(message)
+
+    def _on_event(self, message):
+        who, name = message["id"], message["name"]
+        if message["kind"] == "joined":
+            if who:
+                self.players[who] = name
+            else:
+                self.spectators.append(name)
+        elif message["kind"] == "left":
+            if who:
+                self.players.pop(who, None)
+            elif name in self.spectators:
+                self.spectators.remove(name)
+        self._events.append(message)
+
+    def _on_error(self, message):
+        if message["fatal"]:
+            raise WoodlouseError(message["code"], message["text"])
+        self.errors.append(message)
+        if self.welcome is not None:
+            self.on_error(message)
+
+    def _on_bye(self, message):
+        self.bye = message
+        if self.welcome is None:
+            raise WoodlouseError(message["code"], message["text"])
+
+    def _on_map(self, message):
+        definition = message["definition"]
+        knots = message.get("knots") or definition["terrain"]
+        for field, value in _MAP_DEFAULTS.items():  # what an older server's welcome leaves out
+            of_map = definition if field == "edges" else definition.get("physics", {})
+            self.physics.setdefault(field, of_map.get(field, value))
+        central = self.physics["central_gravity"]
+        self.physics.setdefault("core_radius", definition.get("physics", {}).get("core_radius", _core_radius(central)))
+        self._ground = Ground(message["name"], knots["origin"], knots["spacing"], knots["heights"],
+                              self.physics["edges"] == "wrap", definition, message.get("overview", False))
+
+    def _on_rooms(self, message):
+        self._rooms = message["rooms"]
+
+    def _on_ping(self, message):
+        self._lines.send({"type": "pong", "t": message["t"]})
+
+    def _on_pong(self, message):
+        self._pongs[message["t"]] = time.monotonic_ns() % (1 << 53)
+        while len(self._pongs) > 16:
+            del self._pongs[next(iter(self._pongs))]
+
+
+def _core_radius(central_gravity):
+    """That of a map that names none [m]: maps/README.md."""
+    return (35 / 8 * central_gravity / (15 * 256 * 0.05) ** 2) ** (1 / 3)
+
+
+def _drain(queue):
+    items = list(queue)
+    queue.clear()
+    return items

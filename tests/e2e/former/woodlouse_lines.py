@@ -1,0 +1,89 @@
+"""A connection's JSON lines, and what may go wrong with them."""
+
+import json
+import select
+import socket
+
+DEFAULT_ADDRESS = "127.0.0.1:7777"
+MAX_LINE_BYTES = 128 << 20
+SILENCE_S = 15.0  # a server that says nothing for so long is gone
+
+
+class WoodlouseError(Exception):
+    """What went wrong; `code` is the server's (docs/protocol.md), or "connection", "protocol" or "differs" (a key
+    that was verified)."""
+
+    def __init__(self, code, text):
+        super().__init__("%s: %s" % (code, text))
+        self.code = code
+        self.text = text
+
+
+class Lines:
+    """One JSON object a line, both ways. Not thread safe."""
+
+    def __init__(self, connection):
+        self._socket = connection
+        self._socket.settimeout(SILENCE_S)
+        self._bytes = bytearray()
+        self._searched = 0  # of _bytes, without a newline
+
+    def close(self):
+        self._socket.close()
+
+    def send(self, message):
+        """Raises WoodlouseError when the connection is lost."""
+        line = json.dumps(message, ensure_ascii=False, allow_nan=False, separators=(",", ":")) + "\n"
+        try:
+            self._socket.sendall(line.encode("utf-8", "replace"))
+        except OSError as error:
+            raise WoodlouseError("connection", "lost while sending (%s)" % error) from None
+
+    def waiting(self):
+        """Whether something can be read without waiting."""
+        return self._bytes.find(b"\n", self._searched) >= 0 or bool(select.select([self._socket], [], [], 0)[0])
+
+    def _line(self):
+        while True:
+            end = self._bytes.find(b"\n", self._searched)
+            if end >= 0:
+                line = bytes(self._bytes[:end])
+                del self._bytes[:end + 1]
+                self._searched = 0
+                return line
+            self._searched = len(self._bytes)
+            if self._searched > MAX_LINE_BYTES:
+                raise WoodlouseError("protocol", "a line of more than %d bytes" % MAX_LINE_BYTES)
+            try:
+                chunk = self._socket.recv(1 << 16)
+            except socket.timeout:
+                raise WoodlouseError("connection", "the server said nothing for %g s" % SILENCE_S) from None
+            except OSError as error:
+                raise WoodlouseError("connection", "lost (%s)" % error) from None
+            if not chunk:
+                raise WoodlouseError("connection", "the server closed it")
+            self._bytes += chunk
+
+    def message(self):
+        """The next message, waiting for it. Raises WoodlouseError: silence, a lost connection, no message."""
+        line = self._line()
+        try:
+            message = json.loads(line)
+            message["type"]
+        except (ValueError, TypeError, KeyError):
+            raise WoodlouseError("protocol", "not a message: %r" % line[:80]) from None
+        return message
+
+
+def open_lines(address):
+    """Connects to HOST:PORT. Raises WoodlouseError."""
+    host, colon, port = address.rpartition(":")
+    if not colon or not port.isdigit() or not 0 < int(port) < 65536:
+        raise WoodlouseError("connection", "the address %r is not HOST:PORT, as %s" % (address, DEFAULT_ADDRESS))
+    try:
+        connection = socket.create_connection((host.strip("[]") or "127.0.0.1", int(port)), timeout=10)
+    except OSError as error:
+        raise WoodlouseError("connection", "no server at %s (%s); start one: woodlouse-server --map maps/volcano.json"
+                             % (address, error)) from None
+    connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+    return Lines(connection)
