@@ -4,6 +4,7 @@
 #include <cassert>
 #include <chrono>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -73,8 +74,10 @@ void InputDesk::drop(SessionOccupant& occupant, const protocol::Input& input, co
       return subscriber.answer(
           why_dropped(code::kStaleSeq, where + "seq must be above that of every input before"));
     case match::Filed::Outcome::kQueueFull:
-      subscriber.answer(why_dropped(code::kQueueFull, where + std::to_string(match::InputQueue::kMaxPending) +
-                                                          " of your inputs wait for their tick"));
+      subscriber.answer(
+          why_dropped(code::kQueueFull, core::joined({where, std::to_string(match::InputQueue::kMaxPending),
+                                                      " of your inputs wait, or for that step ",
+                                                      std::to_string(settings_.limits.inputs_per_tick)})));
       break;
     case match::Filed::Outcome::kTooFar:
       subscriber.answer(why_dropped(code::kTooFar, where + "tick " + std::to_string(filed.tick) +
@@ -94,14 +97,14 @@ void InputDesk::drop(SessionOccupant& occupant, const protocol::Input& input, co
   subscriber.answer(ack);
 }
 
-/// Its player is not there to steer: what waits is dropped, and the thrust ends.
+/// Its player is not there to steer: the thrust ends, and none of what waits begins another.
 void InputDesk::stop(Seat& seat) {
   assert(seat.louse != 0);
-  game_.drop_waiting(seat.louse);
-  seat.dropped_below = seat.next_seq;
   const state::Louse* louse = game_.world().find(seat.louse);
-  if (louse == nullptr || louse->thrust_kind == state::ThrustKind::kNone) return;
-  game_.file({seat.louse, seat.next_seq++, {state::ThrustKind::kAlongHeading, {}}, state::kHeld, 0});
+  std::set<std::uint64_t> ticks;
+  if (louse != nullptr && louse->thrust_kind != state::ThrustKind::kNone) ticks.insert(game_.tick());
+  seat.dropped_below = seat.next_seq;
+  seat.next_seq = game_.end_thrusts(seat.louse, seat.next_seq, std::move(ticks));
 }
 
 std::span<const InputMargin> InputDesk::margins(std::uint64_t tick, Time begun) {

@@ -6,22 +6,33 @@
 namespace woodlouse::match {
 
 void InputQueue::remove_player(state::LouseId player) {
-  drop_waiting(player);
+  for (const std::uint64_t tick : ticks_waited_for(player))
+    waiting_.erase(waiting_.lower_bound({tick, player, 0}), waiting_.lower_bound({tick, player + 1, 0}));
   players_.erase(player);
 }
 
-void InputQueue::drop_waiting(state::LouseId player) {
+std::set<std::uint64_t> InputQueue::ticks_waited_for(state::LouseId player) const {
+  std::set<std::uint64_t> ticks;
   const auto found = players_.find(player);
-  if (found == players_.end()) return;
-  std::size_t& pending = found->second.pending;
-  for (auto at = waiting_.begin(); pending > 0 && at != waiting_.end();) {
+  if (found == players_.end()) return ticks;
+  std::size_t left = found->second.pending;
+  for (auto at = waiting_.begin(); left > 0 && at != waiting_.end();) {
     const std::uint64_t tick = at->first.tick;
     at = waiting_.lower_bound({tick, player, 0});
-    for (; at != waiting_.end() && at->first.tick == tick && at->first.player == player; --pending)
-      at = waiting_.erase(at);
+    for (; at != waiting_.end() && at->first.tick == tick && at->first.player == player; ++at, --left)
+      ticks.insert(tick);
     if (at != waiting_.end() && at->first.tick == tick) at = waiting_.lower_bound({tick + 1, 0, 0});
   }
-  assert(pending == 0);
+  assert(left == 0);
+  return ticks;
+}
+
+std::uint32_t InputQueue::end_thrusts(state::LouseId player, std::uint32_t seq,
+                                      std::set<std::uint64_t> ticks) {
+  ticks.merge(ticks_waited_for(player));
+  for (const std::uint64_t tick : ticks)
+    file_applied({player, seq++, {}, state::ThrustKind::kAlongHeading, state::kHeld, tick});
+  return seq;
 }
 
 Filed InputQueue::file(const Input& input, std::uint64_t next_tick, std::size_t per_tick) {
@@ -39,7 +50,12 @@ Filed InputQueue::file(const Input& input, std::uint64_t next_tick, std::size_t 
   for (auto at = last; at != waiting_.end() && at->first.tick == tick && at->first.player == input.player;
        ++at, ++of_tick)
     last = at;
+  if (player.gap != next_tick) {
+    player.gap = next_tick;
+    player.first_of_gap = input.seq;
+  }
   if (of_tick >= per_tick) {
+    if (last->first.seq < player.first_of_gap) return {Filed::Outcome::kQueueFull, tick, late};
     filed.replaced = last->first.seq;
     waiting_.erase(last);
   } else if (player.pending >= kMaxPending) {
@@ -105,7 +121,7 @@ void InputQueue::restore(std::span<const PlayerSeq> players, std::span<const App
   players_.clear();
   waiting_.clear();
   for (const PlayerSeq& entry : players) {
-    players_[entry.player] = Player{entry.last_seq.value_or(0), entry.last_seq.has_value(), 0};
+    players_[entry.player] = Player{entry.last_seq.value_or(0), entry.last_seq.has_value()};
   }
   for (const AppliedInput& input : waiting) {
     wait(input);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -38,7 +39,7 @@ struct Filed {
   enum class Outcome {
     kFiled,      ///< step `tick` will apply it
     kStaleSeq,   ///< dropped: seq is not above the player's last one
-    kQueueFull,  ///< dropped: the player has kMaxPending inputs waiting
+    kQueueFull,  ///< dropped: the player has kMaxPending inputs waiting, or as many as that step takes
     kTooFar,     ///< dropped: more than 2 s ahead
     kNoLouse,    ///< dropped: the player has no louse
   };
@@ -65,10 +66,13 @@ class InputQueue {
 
   void add_player(state::LouseId player) { players_.try_emplace(player); }
   void remove_player(state::LouseId player);
-  /// His inputs that wait are not applied. The cost is that of the ticks for which anything waits.
-  void drop_waiting(state::LouseId player);
+  /// Nobody steers any more: in those ticks, and behind his inputs that wait, comes one that ends his thrust.
+  /// They stay, as a keyframe may have told of them. The first is `seq`; gives the one after the last. The
+  /// cost is that of the ticks for which anything waits.
+  std::uint32_t end_thrusts(state::LouseId player, std::uint32_t seq, std::set<std::uint64_t> ticks);
   /// next_tick: the step that will run next. per_tick: of a player's inputs for one step so many wait, the
-  /// next one takes the place of the last: it would be overridden by it anyway.
+  /// next one takes the place of the last: it would be overridden by it anyway. If that one has waited for a
+  /// step already, a keyframe may have told of it: then the next one is dropped.
   Filed file(const Input& input, std::uint64_t next_tick, std::size_t per_tick = kMaxPending);
   /// Files an input that a step of the past is known to have applied, under its own tick; who waits there
   /// already stays. False: the player has no louse.
@@ -86,11 +90,14 @@ class InputQueue {
  private:
   /// False: there is one of that tick, player and seq already.
   bool wait(const AppliedInput& input);
+  [[nodiscard]] std::set<std::uint64_t> ticks_waited_for(state::LouseId player) const;
 
   struct Player {
     std::uint32_t last_seq = 0;
     bool any = false;
     std::size_t pending = 0;
+    std::uint64_t gap = 0;           ///< the next tick when he filed last
+    std::uint32_t first_of_gap = 0;  ///< his first seq since that was the next tick
   };
   struct Key {
     std::uint64_t tick;

@@ -12,8 +12,10 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shared/core/random.h"
@@ -78,8 +80,11 @@ class Match {
   void respawn(PlayerId player);
   /// Files an input for a tick; says which tick will take it. per_tick: of one player's (input_queue.h).
   Filed file(const Input& input, std::size_t per_tick = InputQueue::kMaxPending);
-  /// A player's inputs that wait for their tick are not applied.
-  void drop_waiting(PlayerId player) { inputs_.drop_waiting(player); }
+  /// Nobody steers any more: where an input waits, and in `ticks`, one that ends the thrust comes behind it.
+  /// The first is `seq`; gives the one after the last.
+  std::uint32_t end_thrusts(PlayerId player, std::uint32_t seq, std::set<std::uint64_t> ticks) {
+    return inputs_.end_thrusts(player, seq, std::move(ticks));
+  }
 
   /// Files an input that the next step is known to have applied, for replays: no rule of filing stands in its
   /// way. False: the player has no louse. REQUIRES input.tick == tick().

@@ -102,23 +102,41 @@ TEST_CASE("of a player's inputs for one step so many wait, and a later one takes
   CHECK(out[7].seq == 6);
 }
 
-TEST_CASE("what a player has waiting is dropped, and nothing of anybody else") {
+TEST_CASE("an input that a keyframe may have told of does not give way") {
+  InputQueue queue(100);
+  queue.add_player(1);
+  for (std::uint32_t seq = 1; seq <= 4; ++seq) queue.file(input(1, seq, 7), 5, 4);
+  CHECK(queue.file(input(1, 5, 7), 5, 4).replaced == 4u);
+  CHECK(queue.file(input(1, 6, 7), 6, 4).outcome == Outcome::kQueueFull);
+  CHECK(queue.players()[0].last_seq == 5u);
+  CHECK(queue.file(input(1, 6, 8), 6, 1).outcome == Outcome::kFiled);
+  CHECK(queue.file(input(1, 7, 8), 6, 1).replaced == 6u);
+}
+
+TEST_CASE("whose thrusts end has one behind each input that waits, and nothing of his or of others goes") {
   InputQueue queue(1000);
   for (state::LouseId player = 1; player <= 3; ++player) queue.add_player(player);
   std::uint32_t seq = 0;
   for (std::uint64_t tick = 10; tick < 200; tick += 7)
     for (state::LouseId player = 1; player <= 3; ++player)
       if ((tick + player) % 3 != 0) queue.file(input(player, ++seq, tick), 5);
-  const auto others = [](std::vector<AppliedInput> all) {
-    std::erase_if(all, [](const AppliedInput& one) { return one.player == 2; });
-    return all;
-  };
   const auto before = queue.waiting();
-  queue.drop_waiting(2);
-  CHECK(queue.waiting() == others(before));
-  CHECK(queue.waiting().size() < before.size());
-  CHECK(queue.file(input(2, ++seq, 50), 5).outcome == Outcome::kFiled);
-  queue.drop_waiting(9);
+  const std::uint32_t next = queue.end_thrusts(2, ++seq, {5});
+  std::set<std::uint64_t> ticks{5};
+  for (const AppliedInput& one : before)
+    if (one.player == 2) ticks.insert(one.tick);
+  CHECK(next == seq + ticks.size());
+  auto after = queue.waiting();
+  const auto ends = [&](const AppliedInput& one) {
+    return one.player == 2 && one.seq >= seq && one.thrust == core::Vec2{} &&
+           one.kind == state::ThrustKind::kAlongHeading && ticks.erase(one.tick) == 1;
+  };
+  std::erase_if(after, ends);
+  CHECK(ticks.empty());
+  CHECK(after == before);
+  CHECK(queue.end_thrusts(9, 1, {5}) == 2);
   queue.remove_player(2);
-  CHECK(queue.waiting() == others(before));
+  auto others = before;
+  std::erase_if(others, [](const AppliedInput& one) { return one.player == 2; });
+  CHECK(queue.waiting() == others);
 }

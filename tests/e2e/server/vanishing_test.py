@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 from crowd import frames_missed_in_a_row
-from wire import MAPS, PATIENCE, Server
+from wire import MAPS, PATIENCE, Server, run
 
 sys.path.insert(0, str(pathlib.Path(MAPS).parent / "bench" / "crowd"))
 from lost_player import Cable  # noqa: E402
@@ -122,6 +122,36 @@ class Vanishing(unittest.TestCase):
                 for seq, thrust in ((0, [0, 1]), (LAST_SEQ, [0, -1])):
                     again.send({"type": "input", "seq": seq, "thrust": thrust})
                     self.assertEqual(again.expect("ack", seq=seq)["you"]["thrust"], thrust)
+
+    def test_what_a_lost_player_had_filed_ahead_leaves_the_recording_whole(self):
+        """A keyframe, at tick 300, may tell of such inputs or come after they were told to be dropped."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "game.ndjson")
+            with Server("--record", file) as server, server.player("eye", role="spectator") as eye:
+                before, after, greedy = (server.player(name, resume=True) for name in ("before", "after", "greedy"))
+
+                def wait_for(tick):
+                    while eye.receive().get("tick", 0) < tick:
+                        pass
+
+                wait_for(240)
+                for client, count in ((before, 1), (after, 3), (greedy, 8)):
+                    client.send(*[{"type": "input", "seq": seq, "thrust": [1, 0], "tick": 340} for seq in range(count)], {"type": "ping", "t": 1})
+                    client.expect("pong")
+                reset(before)
+                wait_for(303)
+                reset(after)
+                greedy.send({"type": "input", "seq": 8, "thrust": [0, 1], "tick": 340})
+                self.assertTrue(greedy.expect("ack", seq=8)["dropped"])
+                self.assertEqual(greedy.expect("ack", seq=7)["you"]["thrust"], [1, 0])
+                wait_for(345)
+                with server.player("all", role="spectator", fields=["tx"]) as everything:
+                    everything.expect("key")
+                    self.assertEqual([everything.rows[louse.id][1] for louse in (before, after)], [0, 0])
+                self.assertEqual(server.stop()[0], 0)
+                greedy.socket.close()
+            code, verdict, errors = run("verify", "--complete", file)
+            self.assertEqual(code, 0, verdict + errors)
 
     def test_a_recording_that_stands_still_keeps_no_frame_from_any_room(self):
         with tempfile.TemporaryDirectory() as folder:
