@@ -55,6 +55,8 @@ core::Expected<tcp::endpoint> Acceptor::open(const ListenAddress& address) {
   if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
   if (!error) acceptor_.bind(endpoint, error);
   if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
+  // Else asio waits for the next one, while others wait behind the one that has gone.
+  if (!error) acceptor_.set_option(asio::socket_base::enable_connection_aborted(true), error);
   const tcp::endpoint bound = error ? endpoint : acceptor_.local_endpoint(error);
   if (error) return tl::unexpected(cannot_listen(to_text(address), error));
   return bound;

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <new>
 
 namespace woodlouse::core {
@@ -18,15 +19,30 @@ namespace woodlouse::core {
 }
 
 /// From now on, in any thread, a request for memory that is not met ends the program with this line on
-/// standard error and exit code 1. REQUIRES a text that outlives the program. Not for who has a terminal to
-/// put right first.
+/// standard error and exit code 1; so does a std::bad_alloc that nobody catches, of who asks by other ways
+/// than operator new. REQUIRES a text that outlives the program. Not for who has a terminal to put right
+/// first.
 inline void end_when_out_of_memory(const char* line) {
   static const char* text;
   text = line;
-  std::set_new_handler([] {
+  static constexpr auto kEnd = [] {
     std::fputs(text, stderr);
     std::_Exit(1);
+  };
+  std::set_new_handler(kEnd);
+#ifdef __cpp_exceptions
+  static const std::terminate_handler others = std::get_terminate();
+  std::set_terminate([] {
+    try {
+      if (const auto error = std::current_exception()) std::rethrow_exception(error);
+    } catch (const std::bad_alloc&) {
+      kEnd();
+    } catch (...) {  // the other handler tells of it
+      others();
+    }
+    others();
   });
+#endif
 }
 
 }  // namespace woodlouse::core

@@ -211,12 +211,18 @@ class Injection(unittest.TestCase):
         self.assertEqual([kind for kind, count in self.counts.items() if count == 0], [])
 
     def test_no_memory_ends_it_with_one_line(self):
-        def look(game):
-            if game.failed:
-                self.assertEqual((game.code, game.said()), (1, ["woodlouse-server: out of memory"]), game)
+        """The resolver and who makes threads say in words of their own that there is none; a few can do without."""
+        ended = []
 
-        failed = self.play_each(some_of("alloc", self.counts["alloc"], "ENOMEM", most=ALLOCATIONS), look)
-        self.assertGreater(failed, ALLOCATIONS / 2)  # a game is not the same each time
+        def look(game):
+            ended.append(game.code)
+            if game.code == 0:
+                self.assert_goes_on(game)
+            else:
+                self.assertRegex(game.said()[0], "^woodlouse-server: (out of memory$|.*Cannot allocate memory|Resource temporarily)", game)
+
+        self.play_each(some_of("alloc", self.counts["alloc"], "ENOMEM", most=ALLOCATIONS), look)
+        self.assertGreater(sum(ended), ALLOCATIONS / 2)  # a game is not the same each time
 
     def test_what_cannot_be_opened_or_started_ends_it_with_one_line_or_is_done_without(self):
         ended = []
@@ -236,7 +242,7 @@ class Injection(unittest.TestCase):
             if game.listened:
                 self.assert_goes_on(game, may_lose=game.order.split(":")[0] in ("send", "recv", "epoll"))
 
-        orders = [*all_of("accept", self.counts["accept"], "EMFILE"), *all_of("option", self.counts["option"], "EINVAL"),
+        orders = [*all_of("accept", self.counts["accept"], "EMFILE"), "accept:2:ECONNABORTED", *all_of("option", self.counts["option"], "EINVAL"),
                   *some_of("send", self.counts["send"], "ECONNRESET", "@"), "send:5:ENOBUFS",
                   *some_of("recv", self.counts["recv"], "ECONNRESET", "@"), *some_of("close", self.counts["close"], "EIO"),
                   *all_of("epoll", self.counts["epoll"], "ENOMEM")]
