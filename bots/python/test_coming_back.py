@@ -52,7 +52,9 @@ class ComingBack(unittest.TestCase):
         line = self.line()
         with woodlouse.connect(line.address, name="ann") as game:
             states = game.states()
-            next(states)
+            begun = next(states).tick
+            while next(states).tick < begun + 100:
+                pass  # it answers a ping, and so is expected to answer the next
             time.sleep(2.5)
             seq = game.thrust(0.5)
             while not game.last_ack or game.last_ack["seq"] != seq:

@@ -81,13 +81,6 @@ void draw_room(const Scene& scene, const Styles& styles, PanelWriter& out) {
   out.line(others > 0 ? formatted("you and %d more are watching", others) : "you are watching", styles.dim);
 }
 
-std::string players_title(const Scene& scene) {
-  const HudNumbers& hud = scene.hud;
-  std::string text = formatted("PLAYERS %d (%d %s)", hud.players, hud.bots, hud.bots == 1 ? "bot" : "bots");
-  if (hud.spectators > 0 && !scene.spectating) text += formatted(" +%d watching", hud.spectators);
-  return text;
-}
-
 /// Whose numbers a recording shows: "a ada".
 std::string followed_text(const Scene& scene, const Badges& badges) {
   const auto louse = std::find_if(scene.lice.begin(), scene.lice.end(),
@@ -216,11 +209,14 @@ void draw_panel(const Scene& scene, const Badges& badges, const Viewport& panel,
   const int you_rows = shows_room ? 3 : 5;
   constexpr int kFrames = 4;  // three titles and the foot
   constexpr int kLeastChat = 3;
-  const int most = std::max(1, panel.size.rows - kFrames - you_rows - kLeastChat);
+  const int watchers_rows = scene.hud.spectators > 0 && !scene.spectating ? 1 : 0;
+  const int most = std::max(1, panel.size.rows - kFrames - you_rows - kLeastChat - watchers_rows);
   const int players = std::clamp(static_cast<int>(scene.scores.size()), 1, std::min(most, 16));
-  out.title(players_title(scene));
+  out.title(formatted("PLAYERS %d (%d %s)", scene.hud.players, scene.hud.bots,
+                      scene.hud.bots == 1 ? "bot" : "bots"));
   draw_players(scene, badges, styles, out, players);
   out.skip_to(1 + players);
+  if (watchers_rows > 0) out.line(formatted("%3d watching", scene.hud.spectators), styles.dim);
   out.title(shows_room ? "THE ROOM" : scene.replay ? followed_text(scene, badges) : "YOU");
   shows_room ? draw_room(scene, styles, out) : draw_you(scene, styles, out);
   out.title(scene.replay ? "CHAT" : "CHAT  (T to talk)");

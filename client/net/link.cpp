@@ -17,6 +17,7 @@ std::string in_words(error_code error) {
   namespace asio = boost::asio;
   if (error == asio::error::eof) return "the server closed the connection";
   if (error == asio::error::connection_refused) return "connection refused";
+  if (error == asio::error::connection_reset) return "connection reset";
   if (error == asio::error::host_not_found || error == asio::error::host_not_found_try_again)
     return "host not found";
   return error.message();

@@ -72,8 +72,20 @@ TEST_CASE("the help, the scoreboard and a lost connection are as they were agree
   scene.mode = Mode::kScoreboard;
   CHECK(text_of(scene, {60, 20}) == golden("scoreboard_60x20.txt"));
   scene.mode = Mode::kPlay;
-  scene.lost = {"connection reset by peer", 26.4};
+  scene.lost = {"connection reset", 26.4};
   CHECK(text_of(scene, {80, 24}) == golden("connection_lost_80x24.txt"));
+}
+
+TEST_CASE("who looks on is counted under the players, for a watcher among the room's numbers") {
+  Scene scene = still_life();
+  CHECK(text_of(scene, {80, 24}).find("watching") == std::string::npos);
+  scene.hud.spectators = 2;
+  CHECK(text_of(scene, {80, 24}).find("|   2 watching") != std::string::npos);
+  CHECK(text_of(scene, {60, 20}).find("|   2 watching") != std::string::npos);
+  scene.spectating = true;
+  CHECK(text_of(scene, {80, 24}).find("| you and 1 more are watching") != std::string::npos);
+  scene.hud.spectators = 1;
+  CHECK(text_of(scene, {80, 24}).find("| you are watching") != std::string::npos);
 }
 
 TEST_CASE("a terminal that is too small is told what is needed") {

@@ -3,7 +3,9 @@
 import json
 import os
 import re
+import signal
 import socket
+import subprocess
 import sys
 import time
 import unittest
@@ -49,7 +51,7 @@ class ComingBack(InATerminal):
         way = self.way()
         line.cut()
         self.terminal.shows(LOST)
-        self.terminal.shows(r"(?i)reset by peer")
+        self.terminal.shows(r"connection reset")
         self.assertIsNotNone(self.own_cell(), "the picture stays")
         line.mend()
         self.terminal.shows(r"back in your louse")
@@ -117,6 +119,22 @@ class ComingBack(InATerminal):
         self.terminal.shows(r"connection lost: .+; coming back[^$]+connection lost: .+; coming back")
         self.terminal.keys("q")
         self.assertEqual(self.exit_code(), 0)
+
+    def test_who_was_stopped_for_too_long_is_told_that_its_louse_is_gone(self):
+        line = self.line("--resume-s", "1")
+        client = subprocess.Popen([f"{BIN}/woodlouse", line.address, "--glyphs", "text", "--name", "mara"],
+                                  stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, text=True)
+        self.addCleanup(client.stdout.close)
+        self.addCleanup(client.wait, 10)
+        self.addCleanup(client.kill)
+        said = iter(client.stdout)
+        self.assertTrue(any("you: " in text for text in said))
+        client.send_signal(signal.SIGSTOP)
+        time.sleep(4.0)
+        client.send_signal(signal.SIGCONT)
+        self.assertRegex(next(text for text in said if "coming back" in text),
+                         r"^connection lost: nothing came from you for 2 s; coming back")
+        self.assertTrue(any(text == "your louse is gone: this is a new one\n" for text in said))
 
     def test_a_join_that_comes_too_fast_is_made_again(self):
         line = self.line("--join-per-s-address", "1")
