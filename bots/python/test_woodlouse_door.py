@@ -141,6 +141,13 @@ class ComingBack(unittest.TestCase):
                 self.assertIs(game.map(), ground)
                 self.assertEqual(game.comebacks, 1)
 
+    def test_a_goodbye_that_nobody_asked_for_is_a_break(self):
+        left = dict(BYE, code="left")
+        game, ticks = self.play(joins(True, lambda send, receive: send(KEY, left)), joins(TOKEN, ends, resumed=True))
+        self.assertEqual((game.comebacks, ticks[-1]), (1, 120))
+        game, _ = self.play(joins(None, lambda send, receive: send(KEY, left)), resume=False)
+        self.assertEqual((game.comebacks, game.bye["code"]), (0, "left"))
+
     def test_what_the_server_means_it_means(self):
         replaced = dict(BYE, code="replaced")
         game, _ = self.play(joins(True, lambda send, receive: send(KEY, replaced)))

@@ -320,6 +320,9 @@ class Game:
         self.on_error(message)
 
     def _on_bye(self, message):
+        unasked = WoodlouseError(message["code"], message["text"])
+        if message["code"] == "left" and self._door.brings_back(unasked):
+            raise unasked  # something between us and the server ended our side: who leaves does not listen any more
         self.bye = message
 
     def _on_map(self, message):

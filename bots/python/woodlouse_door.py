@@ -7,7 +7,7 @@ from woodlouse_lines import SILENCE_S, WoodlouseError, open_lines
 COMES_BACK_S = 30.0  # for so long a server that is left as it is keeps the louse
 ATTEMPT_S = 1.0  # from one attempt to the next
 PATIENCE_S = 5.0  # with a server at an attempt to come back
-_PASSING = {"connection", "idle", "slow", "rate_limited", "too_many_connections", "handshake_timeout"}
+_PASSING = {"connection", "idle", "slow", "left", "rate_limited", "too_many_connections", "handshake_timeout"}
 
 
 class Door:

@@ -61,7 +61,7 @@ core::Error Session::farewell() const {
   } else if (is_passing(closing)) {
     error.what = "the connection was lost and did not come back within " +
                  std::to_string(Connection::kComesBackFor.count()) + " s: " + closing.reason;
-    error.hint = "your louse is gone by now; when the server can be reached again:  " + again;
+    error.hint = "when the server can be reached again:  " + again;
   } else {
     error.hint = "to join anew:  " + again;
   }

@@ -99,6 +99,7 @@ class _End:
             pass  # an end has gone
 
     def reset(self):
+        self.hushed = True  # its end is no end of what it sends
         try:
             self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, _RESETS)
             self._socket.shutdown(socket.SHUT_RD)  # wakes who reads from it
