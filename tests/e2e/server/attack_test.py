@@ -181,7 +181,7 @@ class Attack(unittest.TestCase):
         with Server("--burst", "400") as server, server.player("eye", source=OTHER) as eye, \
                 server.player("greedy", source=HOSTILE) as greedy:
             most = greedy.seen[0]["limits"]["inputs_per_tick"]
-            tick = greedy.expect("delta")["tick"] + 30
+            tick = greedy.expect("delta")["tick"] + 100
             greedy.send(*[{"type": "input", "seq": seq, "thrust": 1, "tick": tick} for seq in range(1, 251)])
             for seq in range(1, 11):
                 eye.send({"type": "input", "seq": seq, "thrust": 0.5})
@@ -192,7 +192,10 @@ class Attack(unittest.TestCase):
                 if message["type"] == "ack":
                     acks[message["seq"]] = message
             taken = [seq for seq, ack in sorted(acks.items()) if not ack["dropped"]]
-            self.assertEqual(taken, [*range(1, most), 250])
+            # The server looks at a few lines at once: between two looks a step may have run, and what a keyframe
+            # may have told of stays.
+            self.assertEqual(taken[:-1], [*range(1, most)])
+            self.assertGreaterEqual(taken[-1], most)
             self.assertEqual({acks[seq]["tick"] for seq in taken}, {tick})
             self.assertEqual(sum(m.get("code") == "queue_full" for m in greedy.seen), 250 - most)
 
