@@ -158,15 +158,11 @@ void Session::on_all_sent() {
 
 // ---- what the room says: each call hops to the session's lane -------------------------------------------
 
-/// Within the call, where that is made there: of what a broadcaster hands out.
-template <typename Call>
-void Session::on_lane(Call call) {
-  if (lane_.running_in_this_thread()) return call(*this);
-  asio::post(lane_, [self = shared_from_this(), call = std::move(call)]() mutable { call(*self); });
-}
-
+/// Within the call, where that is made there: as of show(), what a broadcaster hands out costs no hop.
 void Session::deliver(Line line) {
-  on_lane([line = std::move(line)](Session& self) mutable { self.push(std::move(line)); });
+  if (lane_.running_in_this_thread()) return push(std::move(line));
+  asio::post(lane_,
+             [self = shared_from_this(), line = std::move(line)]() mutable { self->push(std::move(line)); });
 }
 
 void Session::answer(protocol::ServerMessage message) {
@@ -183,13 +179,16 @@ void Session::show_again(const Frame& frame) {
 }
 
 void Session::show(const Frame& frame) {
-  on_lane([frame](Session& self) {
-    if (self.state_ != State::kOpen || !self.rate_.wants(frame, self.divisor_)) return;
-    const FrameSlots::Outcome outcome = self.sender_.outbox().offer(frame);
-    if (outcome == FrameSlots::Outcome::kStale) return;
-    self.tell_pace(self.rate_.on_frame(self.now(), outcome == FrameSlots::Outcome::kReplaced));
-    self.sender_.write();
-  });
+  if (lane_.running_in_this_thread()) return show_here(frame);
+  asio::post(lane_, [self = shared_from_this(), frame] { self->show_here(frame); });
+}
+
+void Session::show_here(const Frame& frame) {
+  if (state_ != State::kOpen || !rate_.wants(frame, divisor_)) return;
+  const FrameSlots::Outcome outcome = sender_.outbox().offer(frame);
+  if (outcome == FrameSlots::Outcome::kStale) return;
+  tell_pace(rate_.on_frame(now(), outcome == FrameSlots::Outcome::kReplaced));
+  sender_.write();
 }
 
 void Session::tell_pace(SendRate::Change change) {

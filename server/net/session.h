@@ -121,8 +121,7 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
       door_->submit(id_, std::move(question), now);
   }
 
-  template <typename Call>
-  void on_lane(Call call);
+  void show_here(const Frame& frame);
   void say(const protocol::ServerMessage& message) {
     push(answers_.line([&](std::string& text) { protocol::append(text, message); }));
   }
