@@ -38,7 +38,7 @@ Members::Members(const Lanes& lanes, const RoomSettings& settings, match::Match&
       map_line_(encode_map_line(game.map())),
       seats_(std::move(unclaimed)),
       inputs_(settings, game, seats_),
-      budgets_(room_rates(settings.limits), now) {
+      budgets_(settings.limits, now) {
   assert(settings_.state_hz >= 1 && game_.settings().tick_hz % settings_.state_hz == 0);
 }
 
@@ -103,7 +103,7 @@ std::optional<protocol::ErrorMessage> Members::why_not(const Arrival& arrival) {
   if (outlet_->backlog() > Broadcaster::kMaxBacklog)
     return error(code::kRateLimited, "join: too much is happening in room " + settings_.name, 1000);
   if (role == protocol::Role::kSpectator) return std::nullopt;  // nobody else hears of it
-  if (const auto wait = budgets_.spend(Spending::kJoin, arrival.at))
+  if (const auto wait = budgets_.spend(Spending::kJoin, arrival.address, arrival.at))
     return error(code::kRateLimited,
                  core::joined({"join: room ", settings_.name, " takes ",
                                std::to_string(settings_.limits.join_per_s_room), " players a second"}),
@@ -274,18 +274,19 @@ void Members::take(SessionId session, const protocol::ClientMessage& message, Ti
       message);
 }
 
-bool Members::refuse_when_busy(SessionOccupant& occupant, Spending what, Time arrived) {
+bool Members::refuse_when_busy(const Seat& seat, Spending what, Time arrived) {
   std::optional<Duration> wait;
   if (outlet_->backlog() > Broadcaster::kMaxBacklog) wait = std::chrono::seconds(1);
-  if (!wait) wait = budgets_.spend(what, arrived);
+  if (!wait) wait = budgets_.spend(what, seat.address, arrived);
   if (!wait) return false;
-  occupant.subscriber->answer(error(
-      code::kRateLimited, "too much is happening in this room: this was dropped", retry_after_ms(*wait)));
+  std::get<SessionOccupant>(seat.occupant)
+      .subscriber->answer(error(code::kRateLimited, "too much is happening in this room: this was dropped",
+                                retry_after_ms(*wait)));
   return true;
 }
 
-void Members::on_message(Seat& seat, SessionOccupant& occupant, const protocol::Chat& chat, Time arrived) {
-  if (refuse_when_busy(occupant, Spending::kChat, arrived)) return;
+void Members::on_message(Seat& seat, const SessionOccupant&, const protocol::Chat& chat, Time arrived) {
+  if (refuse_when_busy(seat, Spending::kChat, arrived)) return;
   for (const auto& watcher : watchers_) watcher->chat(game_.tick(), seat.louse, seat.name, chat.text);
   send(events_.chat(game_.tick(), seat, chat.text));
 }
@@ -305,8 +306,8 @@ void Members::on_message(Seat&, SessionOccupant& occupant, const protocol::Resyn
   outlet_->show_newest(occupant.channel, occupant.subscriber, snapshot());
 }
 
-void Members::on_message(Seat& seat, SessionOccupant& occupant, const protocol::Respawn&, Time arrived) {
-  if (refuse_when_busy(occupant, Spending::kRespawn, arrived)) return;
+void Members::on_message(Seat& seat, const SessionOccupant&, const protocol::Respawn&, Time arrived) {
+  if (refuse_when_busy(seat, Spending::kRespawn, arrived)) return;
   game_.respawn(seat.louse);
   send(events_.respawned(game_.tick(), seat));
 }

@@ -22,10 +22,10 @@
 #include "server/room/lanes.h"
 #include "server/room/outlet.h"
 #include "server/room/places.h"
+#include "server/room/room_budgets.h"
 #include "server/room/room_settings.h"
 #include "server/room/seats.h"
 #include "server/room/tick_watcher.h"
-#include "server/timing/budgets.h"
 #include "server/timing/clock.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
@@ -58,7 +58,7 @@ class Members {
   /// Says bye to every session; they are members no more.
   void dismiss(const protocol::Bye& bye);
   /// settings.limits are others now.
-  void renew_budgets(Time now) { budgets_ = Budgets(room_rates(settings_.limits), now); }
+  void renew_budgets(Time now) { budgets_ = RoomBudgets(settings_.limits, now); }
 
   /// How long before step `tick`, begun at `begun`, its inputs came; then answer() tells them.
   std::span<const InputMargin> margins(std::uint64_t tick, Time begun) {
@@ -87,12 +87,12 @@ class Members {
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Input& input, Time arrived) {
     inputs_.file(seat, occupant, input, arrived);
   }
-  void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Chat& chat, Time arrived);
+  void on_message(Seat& seat, const SessionOccupant&, const protocol::Chat& chat, Time arrived);
   void on_message(Seat& seat, const SessionOccupant& occupant, const protocol::Leave&, Time);
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::GetMap&, Time);
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Resync&, Time);
-  void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Respawn&, Time arrived);
-  [[nodiscard]] bool refuse_when_busy(SessionOccupant& occupant, Spending what, Time arrived);
+  void on_message(Seat& seat, const SessionOccupant&, const protocol::Respawn&, Time arrived);
+  [[nodiscard]] bool refuse_when_busy(const Seat& seat, Spending what, Time arrived);
   void send(const NumberedLine& event) { outlet_->event(event.number, event.line); }
   void count(protocol::Role role, std::int32_t change);
   [[nodiscard]] Scene scene() const;
@@ -109,7 +109,7 @@ class Members {
   Seats seats_;
   InputDesk inputs_;
   Places places_;
-  Budgets budgets_;
+  RoomBudgets budgets_;
   Layouts layouts_;
   std::multimap<std::uint64_t, SessionId>
       leaving_;                            ///< by the tick from which on all their inputs are acknowledged

@@ -50,19 +50,19 @@ Budgets::Budgets(const Rates& rates, Time now) {
     if (rates[k]) buckets_[k].emplace(*rates[k], *rates[k] * protocol::kSavedSeconds, now);
 }
 
-Duration Budgets::wait(Spending what, Time now) {
+Duration Budgets::wait(Spending what, Time now, double kept_s) {
   std::optional<TokenBucket>& bucket = buckets_[index(what)];
   if (!bucket) return {};
   bucket->charge(0.0, now);
-  return bucket->wait(1.0);
+  return bucket->wait(1.0 + kept_s * bucket->rate());
 }
 
 void Budgets::charge(Spending what, double cost, Time now) {
   if (auto& bucket = buckets_[index(what)]) bucket->charge(cost, now);
 }
 
-std::optional<Duration> Budgets::spend(Spending what, Time now) {
-  const Duration left = wait(what, now);
+std::optional<Duration> Budgets::spend(Spending what, Time now, double kept_s) {
+  const Duration left = wait(what, now, kept_s);
   if (left > Duration{}) return left;
   charge(what, 1.0, now);
   return std::nullopt;

@@ -25,6 +25,7 @@ class TokenBucket {
   /// How long until `cost` tokens would be there; zero: now. At most an hour.
   [[nodiscard]] Duration wait(double cost) const;
   [[nodiscard]] bool is_full(Time now);
+  [[nodiscard]] double rate() const { return rate_; }
 
  private:
   void refill(Time now);
@@ -46,11 +47,11 @@ class Budgets {
 
   Budgets(const Rates& rates, Time now);
 
-  /// How long until something is given; zero: now.
-  [[nodiscard]] Duration wait(Spending what, Time now);
+  /// How long until something is given, and so many seconds' worth is left behind it; zero: now.
+  [[nodiscard]] Duration wait(Spending what, Time now, double kept_s = 0.0);
   void charge(Spending what, double cost, Time now);
   /// Charges 1 where that is given now, else says how long to wait.
-  [[nodiscard]] std::optional<Duration> spend(Spending what, Time now);
+  [[nodiscard]] std::optional<Duration> spend(Spending what, Time now, double kept_s = 0.0);
   /// Nothing is remembered: a new one would be the same.
   [[nodiscard]] bool are_full(Time now);
 

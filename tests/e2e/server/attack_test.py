@@ -62,6 +62,24 @@ class Attack(unittest.TestCase):
             code, verdict, errors = run("verify", file)
             self.assertEqual(code, 0, verdict + errors)
 
+    def test_addresses_that_chat_on_and_on_leave_something_for_who_says_little(self):
+        with Server() as server, server.player("eye", source=OTHER) as eye:
+            crowds = [Crowd(server, 40, f"127.0.1.{number}") for number in range(1, 5)]
+            for _ in range(3):
+                for _ in range(5):
+                    watch(eye, 9)
+                    for crowd in crowds:
+                        crowd.say_all({"type": "chat", "text": "buy"})
+                eye.send({"type": "chat", "text": "excuse me"})
+                while (said := eye.expect("event", kind="chat"))["name"] != "eye":
+                    pass
+                self.assertEqual(said["text"], "excuse me")
+            self.assertEqual([m for m in eye.seen if m["type"] == "error"], [])
+            self.assertGreater(sum(crowd.counts["rate_limited"] for crowd in crowds), 400)
+            self.assert_healthy(eye)
+            for crowd in crowds:
+                crowd.__exit__()
+
     def test_watchers_come_and_go_without_a_word_to_others(self):
         with Server("--bots", "20", "--bots-alone", "play") as server, server.player("eye", source=OTHER) as eye:
             with Crowd(server, 200, HOSTILE) as crowd:
