@@ -106,11 +106,7 @@ class Play:
                 if self.game.listened:
                     self.receive_guests(process, *first.split()[1].rsplit(":", 1))
                 begun = time.monotonic()
-                process.send_signal(signal.SIGTERM)
-                try:
-                    self.game.code = process.wait(STARVES_AFTER)
-                except subprocess.TimeoutExpired:
-                    self.game.code = None
+                self.game.code = self.end(process)
                 self.game.took = time.monotonic() - begun
             finally:
                 process.kill()
@@ -121,6 +117,22 @@ class Play:
             self.game.log = log.read()
         self.look_at_what_is_left()
         return self.game
+
+    def end(self, process):
+        """Its exit code; None where it does not end. One that is at its end by itself is left alone: it takes signals no more."""
+        try:
+            if self.is_ending():
+                return process.wait(STOPS_WITHIN / 2)
+        except subprocess.TimeoutExpired:
+            pass
+        process.send_signal(signal.SIGTERM)
+        try:
+            return process.wait(STARVES_AFTER)
+        except subprocess.TimeoutExpired:
+            return None
+
+    def is_ending(self):
+        return not self.game.listened or len(self.game.lost) == 2
 
     def receive_guests(self, process, host, port):
         until = time.monotonic() + self.seconds
