@@ -36,8 +36,7 @@ constexpr std::array kFields = {
                "choices of columns that a room encodes for one address, the common ones apart"},
     LimitField{"inputs_per_tick", &Limits::inputs_per_tick, 1, 256, "",
                "inputs of a player that one step takes; one more takes the last one's place, or is dropped "
-               "where that "
-               "has waited for a step already"},
+               "where that has waited for a step already"},
     LimitField{"chat_per_s", &Limits::chat_per_s, 0, kMany, "1/s", "chat of a session"},
     LimitField{"chat_per_s_address", &Limits::chat_per_s_address, 0, kMany, "1/s", "chat of an address"},
     LimitField{"chat_per_s_room", &Limits::chat_per_s_room, 0, kMany, "1/s", "chat of a room"},
