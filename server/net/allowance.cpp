@@ -95,9 +95,11 @@ Allowance::Refusal Allowance::ask(protocol::ClientMessage question) {
   return std::nullopt;
 }
 
-std::vector<protocol::ClientMessage> Allowance::due(Time now) {
-  if (waiting_.empty() || wait(Spending::kAnswerBytes, now) > Duration{}) return {};
-  return std::exchange(waiting_, {});
+std::optional<protocol::ClientMessage> Allowance::due(Time now) {
+  if (waiting_.empty() || wait(Spending::kAnswerBytes, now) > Duration{}) return std::nullopt;
+  protocol::ClientMessage first = std::move(waiting_.front());
+  waiting_.erase(waiting_.begin());
+  return first;
 }
 
 std::optional<Time> Allowance::next(Time now) {

@@ -38,8 +38,8 @@ class Allowance {
 
   /// get_map or resync, answered as soon as due() gives it; refused where one of its kind waits.
   Refusal ask(protocol::ClientMessage question);
-  /// Those whose turn it is: all that wait, or none yet.
-  std::vector<protocol::ClientMessage> due(Time now);
+  /// One whose turn it is; nothing: none waits, or it is too early. Whoever takes it charges for its answer.
+  std::optional<protocol::ClientMessage> due(Time now);
   /// When that will be; nothing: none waits.
   [[nodiscard]] std::optional<Time> next(Time now);
   /// The session leaves and waits for none: the errors that say so.

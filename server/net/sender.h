@@ -8,8 +8,8 @@
 
 #include "server/net/outbox.h"
 #include "server/net/wire.h"
-#include "server/room/figures.h"
 #include "server/room/lanes.h"
+#include "server/timing/figures.h"
 
 namespace woodlouse::server {
 

@@ -172,7 +172,7 @@ void Session::answer(protocol::ServerMessage message) {
 void Session::show_again(const Frame& frame) {
   asio::post(lane_, [self = shared_from_this(), frame] {
     if (self->state_ != State::kOpen) return;
-    self->allowance_.charge_answer(frame.text->size(), self->now());
+    if (frame.kind == FrameKind::kKey) self->key_bytes_ = frame.text->size();
     self->sender_.outbox().offer(frame);
     self->sender_.write_soon();
   });
@@ -201,12 +201,10 @@ void Session::tell_pace(SendRate::Change change) {
 void Session::deliver_map(Line line) {
   asio::post(lane_, [self = shared_from_this(), line = std::move(line)]() mutable {
     if (self->state_ != State::kOpen) return;
-    const std::size_t bytes = line->size();
     if (self->sender_.outbox().push_map(std::move(line)) == Outbox::PushMap::kAlreadyWaiting)
       return self->say(protocol::ErrorMessage{std::string(code::kRateLimited),
                                               "get_map: the map you asked for is still on its way", false,
                                               1000});
-    self->allowance_.charge_answer(bytes, self->now());
     self->sender_.write_soon();
   });
 }
@@ -215,6 +213,7 @@ void Session::welcome(protocol::Welcome welcome, std::uint32_t divisor) {
   asio::post(lane_, [self = shared_from_this(), welcome = std::move(welcome), divisor] {
     if (self->state_ != State::kOpen) return;
     self->divisor_ = divisor;
+    self->map_bytes_ = welcome.map_bytes;
     self->say(welcome);
     self->watch_next(self->now());
     self->log(

@@ -33,9 +33,9 @@
 #include "server/net/wire.h"
 #include "server/room/directory.h"
 #include "server/room/door.h"
-#include "server/room/figures.h"
 #include "server/room/lanes.h"
 #include "server/room/subscriber.h"
+#include "server/timing/figures.h"
 #include "server/timing/live_limits.h"
 #include "server/timing/timekeeper.h"
 #include "shared/protocol/codec.h"
@@ -116,9 +116,13 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
     pass_on_due(now);
     watch_next(now);
   }
+  /// Charged before they are answered: many that are asked in one breath don't pass on one budget.
   void pass_on_due(Time now) {
-    for (protocol::ClientMessage& question : allowance_.due(now))
-      door_->submit(id_, std::move(question), now);
+    while (auto question = allowance_.due(now)) {
+      const bool is_map = std::holds_alternative<protocol::GetMap>(*question);
+      allowance_.charge_answer(is_map ? map_bytes_ : key_bytes_, now);
+      door_->submit(id_, std::move(*question), now);
+    }
   }
 
   void show_here(const Frame& frame);
@@ -179,6 +183,8 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   Sender sender_;
   SendRate rate_;
   std::uint32_t divisor_ = 1;
+  // Of the answers to get_map and, about, to resync; guesses until the welcome has come.
+  std::size_t map_bytes_ = 64u << 10, key_bytes_ = 4u << 10;
 
   std::unique_ptr<Alarm> watch_;
   Pulse pulse_;

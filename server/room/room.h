@@ -25,10 +25,10 @@
 #include <vector>
 
 #include "server/room/door.h"
-#include "server/room/figures.h"
 #include "server/room/members.h"
 #include "server/room/start.h"
 #include "server/timing/clock.h"
+#include "server/timing/figures.h"
 #include "server/timing/tick_clock.h"
 #include "server/timing/timekeeper.h"
 #include "shared/match/match.h"

@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include "server/room/figures.h"
+#include "server/timing/figures.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
 

@@ -1,4 +1,4 @@
-#include "server/room/figures.h"
+#include "server/timing/figures.h"
 
 #include <catch2/catch.hpp>
 
