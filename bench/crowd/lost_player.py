@@ -21,7 +21,9 @@ def play(host, port):
     client = LineClient(host, port)
     print(client.join(name="lost")["id"], flush=True)
     due, seq = 0.0, 0
-    for _ in client.lines(3600.0):
+    for message in client.lines(3600.0):
+        if message and message["type"] == "ping":
+            client.send(type="pong", t=message["t"])
         if time.monotonic() >= due:
             due = time.monotonic() + 0.2
             seq += 1
@@ -46,7 +48,7 @@ def measure(server, vanish, prefix=(), host=None, patience=PATIENCE):
     player = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     try:
         watched = Watched(int(player.stdout.readline()))
-        for message in watcher.lines(3.0):
+        for message in watcher.lines(7.0):  # in which the server has asked, and been told, that the player is there
             if message and message["type"] in ("key", "delta"):
                 watched.take(message)
         if not watched.pushes():
