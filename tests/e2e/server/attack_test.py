@@ -153,6 +153,8 @@ class Attack(unittest.TestCase):
                 watch(client, 1)
                 client.socket.close()
 
+    # A sanitizer's own checks want descriptors, and tell a fault where there are none; such a build has no library of failing calls.
+    @unittest.skipUnless("WOODLOUSE_FAILING_CALLS" in os.environ, "built with a sanitizer")
     def test_who_is_in_is_served_when_descriptors_are_used_up(self):
         with Server("--bots", "3") as server, server.player("eye", source=OTHER) as eye:
             files = len(os.listdir(f"/proc/{server.process.pid}/fd"))
