@@ -65,7 +65,7 @@ class Server {
   /// returns.
   void run();
 
-  /// New files for what is written all the time: the recordings. On reopen_signals(), on the server's strand;
+  /// New files for what is written all the time: the log and the recordings. At USR1, on the server's strand;
   /// files are not opened here, as a disk may stand still.
   void reopen();
 

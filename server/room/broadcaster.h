@@ -3,8 +3,8 @@
 //
 // Events wait in their order, and all that wait go out together, one text for everybody; of frames at most
 // the newest key and the newest delta wait (state is replaceable). Both take turns: however many events come,
-// no frame that is due waits for more than one hand-out of them. backlog() tells the room when events come
-// faster than they go out, so that it refuses what would make more of them.
+// a frame that is due waits for one hand-out of them, a delta behind a key for two. backlog() tells the room
+// when events come faster than they go out, so that it refuses what would make more of them.
 #pragma once
 
 #include <atomic>
