@@ -54,11 +54,15 @@ class SharedPool {
   /// fill(T&) makes a value, of a new or a used one; is_kept(const T&) whether its memory is worth keeping.
   template <typename Fill, typename IsKept>
   SharedValue<T> make(const Fill& fill, const IsKept& is_kept) {
-    for (const SharedValue<T>& kept : kept_) {
+    for (SharedValue<T>& kept : kept_) {
       // What the others did with it comes before what is done now.
       if (kept.block_->holders.load(std::memory_order_acquire) != 1) continue;
       fill(kept.block_->value);
-      return kept;
+      if (is_kept(*kept)) return kept;
+      SharedValue<T> grown = std::move(kept);
+      kept = std::move(kept_.back());
+      kept_.pop_back();
+      return grown;
     }
     SharedValue<T> made{T()};
     fill(made.block_->value);
