@@ -219,7 +219,7 @@ void row_encoding(benchmark::State& state, const std::vector<protocol::Column>& 
   std::size_t row = 0;
   for (auto _ : state) {
     if (row % lice.size() == 0) text.clear();
-    writer.append(text, lice[row++ % lice.size()], terrain);
+    writer.append(text, lice[row++ % lice.size()], {}, terrain);
     benchmark::DoNotOptimize(text.data());
   }
 }

@@ -14,7 +14,7 @@ install(DIRECTORY bots/python DESTINATION ${data_folder}
         PATTERN "__pycache__" EXCLUDE)
 
 # For programs of others: woodlouse::match and woodlouse::replay without Boost, woodlouse::bot with its headers.
-set(rooms core state json terrain physics document map protocol match replay)
+set(rooms core state json terrain physics document map protocol rules match replay)
 foreach(room ${rooms})
   set_target_properties(woodlouse_${room} PROPERTIES EXPORT_NAME ${room})
   add_library(woodlouse::${room} ALIAS woodlouse_${room})

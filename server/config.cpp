@@ -43,6 +43,7 @@ struct TypedServe {
   ServeConfig serve;
   std::string listen = "127.0.0.1:7777";
   std::string bots_alone = "stand";
+  std::string mode = "all";
   std::string log_format = "text";
   TypedRecord record;
   std::string config_file;
@@ -88,6 +89,12 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
   app.add_option("--ticks", serve.ticks, "Stop after so many ticks")
       ->envname("WOODLOUSE_TICKS")
       ->check(whole_number(1));
+  app.add_option(
+         "--mode", typed.mode,
+         "What is played: one mode, or all that a map has, each in a room of its own (volcano, volcano/race)")
+      ->envname("WOODLOUSE_MODE")
+      ->check(CLI::IsMember({"all", "roam", "race", "forage", "hill"}))
+      ->capture_default_str();
   app.add_option("--bots", serve.bots, "The house's own bots, in every room")
       ->envname("WOODLOUSE_BOTS")
       ->check(whole_number(0, kMaxBots))
@@ -166,6 +173,9 @@ CLI::App* add_inspect(CLI::App& app, InspectRequest& request) {
       ->check(seconds())
       ->excludes(tick);
   add_maps(*inspect, request.maps);
+  inspect->add_flag(
+      "--rulings", request.rulings,
+      "What the rules of play said, re-run, a line each: moment (1/65536 of a tick), kind, louse, values");
   inspect->add_flag("--summary", request.summary,
                     "Players, inputs, events, and who was late; also without an option");
   return inspect;
@@ -213,6 +223,7 @@ core::Expected<Config> checked(CLI::App& app, TypedServe& typed) {
   if (!record) return tl::unexpected(record.error());
   serve.record = std::move(*record);
   serve.bots_alone_play = typed.bots_alone == "play";
+  serve.mode = state::mode_from_text(typed.mode);
   serve.log_format = typed.log_format == "json" ? LogFormat::kJson : LogFormat::kText;
   return Config{std::move(serve)};
 }

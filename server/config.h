@@ -25,7 +25,7 @@ namespace woodlouse::server {
 inline constexpr std::size_t kMaxRooms = 256;
 
 struct ServeConfig {
-  std::vector<std::filesystem::path> maps;  ///< a room each; 1 to kMaxRooms, none for a fork
+  std::vector<std::filesystem::path> maps;  ///< a room each and mode; 1 to kMaxRooms, none for a fork
   std::optional<ForkPoint> fork;            ///< one room, whose map, tick rate and seed are the recording's
   ListenAddress listen;
   std::uint32_t tick_hz = 60;   ///< 1..1000
@@ -34,6 +34,7 @@ struct ServeConfig {
   bool shadow = false;                 ///< re-run and compare each tick beside the game
   std::optional<std::uint64_t> ticks;  ///< stop after so many
   std::optional<std::uint64_t> seed;   ///< empty: from the machine's entropy
+  std::optional<state::Mode> mode;     ///< empty: each that a map has, a room each
   std::uint32_t bots = 0;              ///< of the house, in every room
   bool bots_alone_play = false;        ///< they keep a room awake in which nobody is
   std::uint32_t step_threads = 1;      ///< 1..core::ThreadTeam::kMostThreads; of a big room's tick

@@ -64,6 +64,11 @@ std::string unique_name(const std::string& name, std::set<std::string>& taken) {
   return result;
 }
 
+/// Roam, which every map has, goes by the map's name alone.
+std::string room_name(const std::string& map, state::Mode mode) {
+  return mode == state::Mode::kRoam ? map : fmt::format("{}/{}", map, state::to_text(mode));
+}
+
 std::uint64_t entropy() {
   std::random_device device;
   return (static_cast<std::uint64_t>(device()) << 32) | device();
@@ -134,10 +139,21 @@ core::Expected<void> Server::open_rooms(const ServeConfig& config) {
       if (!loaded) return tl::unexpected(loaded.error());
       map = std::move(*loaded);
     }
-    const match::MatchSettings settings{config.tick_hz, seed + names.size()};
-    Start start{map, std::make_unique<match::Match>(map, settings), file->string(), {}, {}};
-    rooms.emplace_back(unique_name(map->definition.name, names), std::move(start));
+    const std::string name = unique_name(map->definition.name, names);
+    const std::size_t before = rooms.size();
+    for (const state::Mode mode : state::kModes) {
+      if (!map->definition.modes.has(mode) || config.mode.value_or(mode) != mode) continue;
+      const match::MatchSettings settings{config.tick_hz, seed + rooms.size(), mode};
+      rooms.emplace_back(room_name(name, mode),
+                         Start{map, std::make_unique<match::Match>(map, settings), file->string(), {}, {}});
+    }
+    if (rooms.size() == before)
+      return core::fail(file->string(), fmt::format("has no {}", state::to_text(*config.mode)),
+                        "its modes stand in the map file: maps/README.md");
   }
+  if (rooms.size() > kMaxRooms)
+    return core::fail("--map", fmt::format("{} rooms, of all modes together", rooms.size()),
+                      fmt::format("at most {}; --mode takes one of each map", kMaxRooms));
   take_signals();
   for (auto& [name, start] : rooms) {
     if (auto opened = open_room(config, name, std::move(start)); !opened) return opened;
@@ -147,7 +163,7 @@ core::Expected<void> Server::open_rooms(const ServeConfig& config) {
 
 core::Expected<void> Server::open_fork_room(const ServeConfig& config, Start start) {
   take_signals();
-  const std::string name = start.map->definition.name;
+  const std::string name = room_name(start.map->definition.name, start.match->settings().mode);
   return open_room(config, name, std::move(start));
 }
 

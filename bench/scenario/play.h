@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "bench/scenario/scenario.h"
@@ -30,6 +31,8 @@ class Play {
   [[nodiscard]] physics::InstructionSet instructions() const { return set_; }
   /// At the scenario's ticks so far.
   [[nodiscard]] const std::vector<std::uint64_t>& hashes() const { return hashes_; }
+  /// What the rules of play said so far, as texts (rules/event.h).
+  [[nodiscard]] const std::vector<std::string>& rulings() const { return rulings_; }
   [[nodiscard]] const match::Match& match() const { return match_; }
 
  private:
@@ -41,6 +44,7 @@ class Play {
   std::size_t next_event_ = 0;
   std::vector<std::uint32_t> seqs_;  ///< the last one of each player, by number
   std::vector<std::uint64_t> hashes_;
+  std::vector<std::string> rulings_;
 };
 
 /// Plays all to their ends. Every thread takes the play that waited longest, a few steps at a time, so that a

@@ -11,6 +11,7 @@ std::uint64_t script_digest(const Scenario& scenario) {
   hasher.append(scenario.map->hash);
   hasher.append(scenario.settings.tick_hz);
   hasher.append(scenario.settings.seed);
+  if (scenario.settings.mode != state::Mode::kRoam) hasher.append(scenario.settings.mode);
   for (const Event& event : scenario.events) {
     hasher.append(event.step);
     hasher.append(event.kind);

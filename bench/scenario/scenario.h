@@ -44,10 +44,13 @@ struct Scenario {
   match::MatchSettings settings;
   std::vector<Event> events;        ///< by step, and within a step in the order of the file
   std::vector<GoldenHash> goldens;  ///< by tick, at least one; the last one ends the match
+  /// What the rules of play must say (rules/event.h, to_text); nothing: it is not asked for.
+  std::optional<std::vector<std::string>> rulings;
 
   std::string text;     ///< the file's
   Span behavior_place;  ///< the values in text that --update replaces
   Span goldens_place;
+  Span rulings_place;
   std::size_t goldens_line = 0;  ///< from 1
 
   [[nodiscard]] std::uint64_t last_tick() const { return goldens.back().tick; }

@@ -121,13 +121,31 @@ std::vector<GoldenHash> read_goldens(const json::Value& value, Problems& problem
   return goldens;
 }
 
+void read_mode(const json::Value& value, Scenario& scenario, Problems& problems) {
+  const auto mode = json::choice_of(value, state::mode_from_text);
+  if (!mode) return problems.add(value, "is no mode", "roam, race, forage or hill");
+  if (scenario.map && !scenario.map->definition.modes.has(*mode))
+    return problems.add(value, "the map has no such mode");
+  scenario.settings.mode = *mode;
+}
+
+std::vector<std::string> read_rulings(const json::Value& value, Problems& problems) {
+  std::vector<std::string> rulings;
+  if (!value.is(json::Kind::kArray))
+    problems.add(value, "a list of texts is wanted", "[] until --update fills it in");
+  for (const json::Value& ruling : value.children())
+    rulings.push_back(json::text_in(ruling, 1, 200, problems).value_or(""));
+  return rulings;
+}
+
 Scenario read_fields(const json::Value& root, const std::filesystem::path& file,
                      const std::filesystem::path& maps, std::string_view text, Problems& problems) {
   constexpr std::uint64_t kAny = std::numeric_limits<std::uint64_t>::max();
   constexpr std::uint64_t kMaxBehavior = 1'000'000;
   Scenario scenario;
   const json::Fields fields(
-      root, {"about", "behavior", "map", "spawns", "tick_hz", "seed", "script", "hashes"}, problems);
+      root, {"about", "behavior", "map", "mode", "spawns", "tick_hz", "seed", "script", "hashes", "rulings"},
+      problems);
   if (const auto about = fields.find("about")) json::text_in(*about, 1, 1000, problems);
   if (const auto behavior = fields.demand("behavior", "0 until --update sets it")) {
     scenario.behavior = static_cast<int>(json::integer_in(*behavior, 0, kMaxBehavior, problems).value_or(0));
@@ -145,6 +163,11 @@ Scenario read_fields(const json::Value& root, const std::filesystem::path& file,
   }
   if (const auto seed = fields.find("seed")) {
     scenario.settings.seed = json::integer_in(*seed, 0, kAny, problems).value_or(0);
+  }
+  if (const auto mode = fields.find("mode")) read_mode(*mode, scenario, problems);
+  if (const auto rulings = fields.find("rulings")) {
+    scenario.rulings = read_rulings(*rulings, problems);
+    scenario.rulings_place = place_of(*rulings, text);
   }
   const auto script = fields.demand("script");
   if (const auto hashes = fields.demand("hashes", "\"hashes\": {\"60\": null}, and --update fills them in")) {

@@ -91,7 +91,7 @@ void Session::update(const Scenario& scenario, const Play& played) {
     if (const auto error = found->second.forbids(scenario, match::kBehavior, hashes)) return tell(*error);
     found->second.set(scenario.name, {match::kBehavior, script_digest(scenario), hashes});
   }
-  const std::string text = updated_text(scenario, played.hashes());
+  const std::string text = updated_text(scenario, played);
   if (text == scenario.text) return;
   if (const auto error = write_whole_file(scenario.file, text)) return tell(*error);
   log_ << core::printable(scenario.file.string()) << ": updated\n";

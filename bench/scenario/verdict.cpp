@@ -1,6 +1,10 @@
 #include "bench/scenario/verdict.h"
 
+#include <algorithm>
 #include <cassert>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "shared/core/joined.h"
 #include "shared/core/printable.h"
@@ -23,6 +27,21 @@ std::string golden_place(const Scenario& scenario, std::uint64_t tick) {
   std::size_t line = scenario.goldens_line;
   for (const char c : before) line += c == '\n' ? 1 : 0;
   return core::joined({scenario.file.string(), ":", std::to_string(line), ": hashes.", std::to_string(tick)});
+}
+
+/// The first of what the rules said that is not as the file has it.
+std::vector<core::Error> unlike_rulings(const Scenario& scenario, const Play& played) {
+  if (!scenario.rulings || *scenario.rulings == played.rulings()) return {};
+  const std::vector<std::string>& wanted = *scenario.rulings;
+  std::size_t k = 0;
+  while (k < wanted.size() && k < played.rulings().size() && wanted[k] == played.rulings()[k]) ++k;
+  const auto at = [k](const std::vector<std::string>& rulings) {
+    return k < rulings.size() ? core::joined({"\"", rulings[k], "\""}) : std::string("nothing");
+  };
+  return {core::Error{core::joined({scenario.file.string(), ": rulings"}),
+                      core::joined({"scenario ", scenario.name, ", ruling ", std::to_string(k + 1), ": ",
+                                    at(wanted), " expected, ", at(played.rulings()), " said"}),
+                      "if that is wanted: woodlouse-scenario run --update"}};
 }
 
 }  // namespace
@@ -68,7 +87,7 @@ std::vector<core::Error> differences(const Scenario& scenario, const Play& playe
                       core::to_hex(hash), " played by ", physics::to_text(played.instructions())}),
         {}}};
   }
-  return {};
+  return unlike_rulings(scenario, played);
 }
 
 std::string table_of(const Play& played) {
@@ -81,25 +100,26 @@ std::string table_of(const Play& played) {
   return table;
 }
 
-std::string updated_text(const Scenario& scenario, const std::vector<std::uint64_t>& hashes) {
+std::string updated_text(const Scenario& scenario, const Play& played) {
   std::string goldens = "{";
-  for (std::size_t k = 0; k < hashes.size(); ++k) {
+  for (std::size_t k = 0; k < played.hashes().size(); ++k) {
     goldens += core::joined({k == 0 ? "\n" : ",\n", "    \"", std::to_string(scenario.goldens[k].tick),
-                             "\": \"", core::to_hex(hashes[k]), "\""});
+                             "\": \"", core::to_hex(played.hashes()[k]), "\""});
   }
   goldens += "\n  }";
+  std::string rulings = "[";
+  for (std::size_t k = 0; k < played.rulings().size(); ++k)
+    rulings += core::joined({k == 0 ? "\n" : ",\n", "    \"", played.rulings()[k], "\""});
+  rulings += played.rulings().empty() ? "]" : "\n  ]";
+  std::vector<std::pair<Span, std::string>> parts = {
+      {scenario.behavior_place, std::to_string(match::kBehavior)},
+      {scenario.goldens_place, std::move(goldens)}};
+  if (scenario.rulings) parts.emplace_back(scenario.rulings_place, std::move(rulings));
+  // The last place first: the others then still are where they were.
+  std::sort(parts.begin(), parts.end(),
+            [](const auto& a, const auto& b) { return a.first.begin > b.first.begin; });
   std::string text = scenario.text;
-  const auto put_behavior = [&] {
-    text.replace(scenario.behavior_place.begin, scenario.behavior_place.size,
-                 std::to_string(match::kBehavior));
-  };
-  const auto put_goldens = [&] {
-    text.replace(scenario.goldens_place.begin, scenario.goldens_place.size, goldens);
-  };
-  // The later place first: the other one then still is where it was.
-  const bool goldens_last = scenario.goldens_place.begin > scenario.behavior_place.begin;
-  goldens_last ? put_goldens() : put_behavior();
-  goldens_last ? put_behavior() : put_goldens();
+  for (const auto& [place, written] : parts) text.replace(place.begin, place.size, written);
   return text;
 }
 

@@ -26,6 +26,6 @@ std::vector<core::Error> differences(const Scenario& scenario, const Play& playe
 std::string table_of(const Play& played);
 
 /// The file's text with this program's behavior and the hashes that were played.
-std::string updated_text(const Scenario& scenario, const std::vector<std::uint64_t>& hashes);
+std::string updated_text(const Scenario& scenario, const Play& played);
 
 }  // namespace woodlouse::scenario

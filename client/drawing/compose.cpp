@@ -154,6 +154,7 @@ void Composer::draw(const Scene& scene, CellBuffer& cells) {
   layers_->draw_map(scene, badges, layout.map, cells);
   draw_panel(scene, badges, layout.panel, cells);
   draw_status_line(scene, cells);
+  draw_goal(scene, layout, cells);
   draw_key_line(scene, layout, cells);
   draw_overlay(scene, badges, cells);
 }

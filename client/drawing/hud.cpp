@@ -202,6 +202,18 @@ void draw_key_line(const Scene& scene, const Layout& layout, CellBuffer& cells) 
   cells.put(end, row, U' ', styles.warning);
 }
 
+void draw_goal(const Scene& scene, const Layout& layout, CellBuffer& cells) {
+  const Styles styles = styles_for(scene.look);
+  int row = layout.map.row;
+  for (const std::string& line : scene.goal) {
+    if (row >= layout.map.row + layout.map.size.rows) return;
+    cells.put(0, row, U' ', styles.bar);
+    const int end =
+        cells.text(1, row, printable(line, scene.look.glyphs), styles.bar, layout.map.size.columns - 2);
+    cells.put(end, row++, U' ', styles.bar);
+  }
+}
+
 void draw_panel(const Scene& scene, const Badges& badges, const Viewport& panel, CellBuffer& cells) {
   const Styles styles = styles_for(scene.look);
   PanelWriter out(panel, scene.look, styles, cells);

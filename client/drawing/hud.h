@@ -20,6 +20,9 @@ void draw_status_line(const Scene& scene, CellBuffer& cells);
 /// The keys; while chatting the line being typed; a notice, when there is one, in the row above.
 void draw_key_line(const Scene& scene, const Layout& layout, CellBuffer& cells);
 
+/// What the rules of play want, over the map's first rows.
+void draw_goal(const Scene& scene, const Layout& layout, CellBuffer& cells);
+
 /// PLAYERS, YOU (THE ROOM for a spectator) and CHAT.
 void draw_panel(const Scene& scene, const Badges& badges, const Viewport& panel, CellBuffer& cells);
 

@@ -140,6 +140,7 @@ struct Scene {
   std::vector<ChatLine> chat;          ///< the newest 50 or so
   std::string chat_entry;              ///< what is being typed, UTF-8 (Mode::kChatEntry)
   std::string notice;                  ///< one line over the key line; empty: none
+  std::vector<std::string> goal;       ///< what the rules of play want of you: lines over the map's top
   std::optional<ConnectionLost> lost;  ///< empty: the line is up
   std::optional<StateProof> proof;     ///< empty: nothing is verified
   std::optional<ReplayBar> replay;     ///< a recording is watched; empty: a game

@@ -1,5 +1,6 @@
 #include "client/net/link.h"
 
+#include <algorithm>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/write.hpp>
 #include <utility>
@@ -21,6 +22,15 @@ std::string in_words(error_code error) {
   if (error == asio::error::host_not_found || error == asio::error::host_not_found_try_again)
     return "host not found";
   return error.message();
+}
+
+/// Where the server has rules of play, also with their columns, unless every column is spoken for by a proof.
+protocol::Join asked_of(const protocol::Hello& hello, protocol::Join join) {
+  const bool has_rules =
+      std::find(hello.features.begin(), hello.features.end(), "rules") != hello.features.end();
+  if (!has_rules || join.fields.empty() || join.fields == protocol::all_columns()) return join;
+  for (const protocol::Column column : protocol::kRulesColumns) join.fields.push_back(column);
+  return join;
 }
 
 }  // namespace
@@ -90,7 +100,7 @@ void Link::take(const protocol::ServerMessage& message) {
                       std::to_string(protocol::kProtocolVersion),
                   kNoServerOfOurs});
     }
-    write(protocol::encode(protocol::ClientMessage(join_)));
+    write(protocol::encode(protocol::ClientMessage(asked_of(*hello, join_))));
   } else if (const auto* welcome = std::get_if<protocol::Welcome>(&message)) {
     welcome_ = *welcome;
     joined_ = true;

@@ -44,7 +44,8 @@ class Lead {
 class Pilot {
  public:
   /// Of a map that is an overview nothing is predicted: it is not the ground that is played on.
-  Pilot(const map::Map& map, std::uint32_t tick_hz, std::uint32_t id);
+  /// REQUIRES a map that has the mode.
+  Pilot(const map::Map& map, std::uint32_t tick_hz, std::uint32_t id, state::Mode mode = state::Mode::kRoam);
 
   /// Runs the prediction on to now and says what to send, at most one input a tick.
   std::optional<protocol::Input> update(core::Time now, ServerClock& clock, double rtt_seconds);

@@ -7,9 +7,9 @@
 #include "shared/map/map_world.h"
 
 namespace woodlouse::client {
-Prediction::Prediction(const map::Map& map, std::uint32_t tick_hz)
+Prediction::Prediction(const map::Map& map, std::uint32_t tick_hz, state::Mode mode)
     : ways_(map.terrain->domain(), map.definition.physics.edges),
-      world_(map::make_world(map, 1.0 / tick_hz)) {}
+      world_(map::make_world(map, 1.0 / tick_hz, mode)) {}
 
 void Prediction::sent(std::uint32_t seq, std::uint64_t tick, const ThrustOrder& order) {
   assert(pending_.empty() || (pending_.back().seq < seq && pending_.back().tick < tick));

@@ -24,8 +24,8 @@ class Prediction {
       600;  ///< further than this from the base nothing is run: start anew
   static constexpr std::size_t kHistory = 256;  ///< ticks whose positions are remembered
 
-  /// REQUIRES a map in full detail.
-  Prediction(const map::Map& map, std::uint32_t tick_hz);
+  /// REQUIRES a map in full detail, which has the mode.
+  Prediction(const map::Map& map, std::uint32_t tick_hz, state::Mode mode = state::Mode::kRoam);
 
   /// An input was sent, asking for step `tick`. REQUIRES seq and tick above those before.
   void sent(std::uint32_t seq, std::uint64_t tick, const ThrustOrder& order);

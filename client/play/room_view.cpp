@@ -5,6 +5,7 @@
 #include <utility>
 #include <variant>
 
+#include "client/play/goal.h"
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
 #include "shared/map/map_text.h"
@@ -117,7 +118,9 @@ core::Expected<void> RoomView::take(const protocol::MapMessage& message) {
 
 void RoomView::begin_piloting() {
   if (welcome_->id == 0) return;
-  pilot_.emplace(*map_, welcome_->tick_hz, welcome_->id);
+  const state::Mode mode = state::mode_from_text(welcome_->mode).value_or(state::Mode::kRoam);
+  const bool has_mode = map_->definition.modes.has(mode);
+  pilot_.emplace(*map_, welcome_->tick_hz, welcome_->id, has_mode ? mode : state::Mode::kRoam);
 }
 
 void RoomView::take(const protocol::Frame& frame, core::Time now) {
@@ -159,6 +162,10 @@ void RoomView::measure_rate(std::uint64_t tick, core::Time now) {
 
 void RoomView::take(const protocol::Event& event) {
   roster_.event(event);
+  if (protocol::is_of_rules(event.kind) && welcome_) {
+    const std::string told = describe_ruling(event, welcome_->id, welcome_->tick_hz);
+    if (!told.empty()) roster_.note(told);
+  }
   if (event.kind == protocol::EventKind::kLeft) trails_.erase(event.id);
   if (event.kind == protocol::EventKind::kRespawned && pilot_ && event.id == pilot_->id())
     pilot_->respawned();
@@ -200,6 +207,15 @@ void RoomView::on_lost() {
   outgoing_.clear();
 }
 
+void RoomView::draw_goal(core::Time now) {
+  goal_.clear();
+  const Snapshot* newest = view_->newest();
+  if (newest == nullptr || !newest->game || !clock_->running()) return;
+  const auto own = newest->lice.find(welcome_->id);
+  goal_ = goal_lines({*welcome_, map_.get(), *newest->game, roster_,
+                      own != newest->lice.end() ? &own->second : nullptr, clock_->tick(now)});
+}
+
 void RoomView::update(core::Time now) {
   if (!notice_.empty() && now >= notice_until_) notice_.clear();
   if (!welcome_) return;
@@ -217,6 +233,7 @@ void RoomView::update(core::Time now) {
       outgoing_.emplace_back(*input);
   }
   draw_lice(now);
+  draw_goal(now);
 }
 
 void RoomView::draw_lice(core::Time now) {

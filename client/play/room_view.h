@@ -45,6 +45,8 @@ class RoomView {
 
   void say(std::string text) { outgoing_.emplace_back(protocol::Chat{std::move(text)}); }
   void respawn() { outgoing_.emplace_back(protocol::Respawn{}); }
+  /// What the rules of play want of you, in a line or two; empty where there are none.
+  [[nodiscard]] const std::vector<std::string>& goal() const { return goal_; }
   /// A line over the key line for kNoticeFor.
   void notice(std::string text, core::Time now);
 
@@ -75,6 +77,7 @@ class RoomView {
   void measure_rate(std::uint64_t tick, core::Time now);
   void begin_piloting();
   void draw_lice(core::Time now);
+  void draw_goal(core::Time now);
 
   std::optional<protocol::Welcome> welcome_;
   bool was_here_ = false;  ///< the line was cut since the last welcome
@@ -86,6 +89,7 @@ class RoomView {
   Roster roster_;
   std::map<std::uint32_t, Present> lice_;
   std::map<std::uint32_t, Trail> trails_;
+  std::vector<std::string> goal_;
   std::vector<protocol::ClientMessage> outgoing_;
   std::deque<double> round_trips_;  ///< [s], the newest last
   std::optional<core::Time> pinged_;

@@ -15,8 +15,9 @@ std::string describe(const protocol::Event& event) {
       return event.text;
     case protocol::EventKind::kRespawned:
       return event.name + " starts again";
+    default:
+      return {};  // of the rules: goal.h
   }
-  return {};
 }
 
 void Roster::welcome(const protocol::Welcome& welcome) {
@@ -33,7 +34,8 @@ void Roster::event(const protocol::Event& event) {
   if (event.id != 0 && event.kind == protocol::EventKind::kJoined)
     residents_[event.id] = {event.name, event.role};
   if (event.id != 0 && event.kind == protocol::EventKind::kLeft) residents_.erase(event.id);
-  say(event.kind == protocol::EventKind::kChat ? event.name : std::string(), describe(event));
+  const std::string told = describe(event);
+  if (!told.empty()) say(event.kind == protocol::EventKind::kChat ? event.name : std::string(), told);
 }
 
 const Resident* Roster::find(std::uint32_t id) const {

@@ -182,6 +182,7 @@ Scene build_scene(const Session& session, const Interface& interface, const Chat
   for (const Utterance& line : room.roster().chat()) scene.chat.push_back({line.from, line.text});
   scene.chat_entry = entry.text();
   scene.notice = room.notice_line();
+  scene.goal = room.goal();
   scene.proof = proof_of(room.verifier());
   if (room.verifier().difference()) scene.notice = to_text(*room.verifier().difference());
   if (const auto seconds = session.connection().seconds_left(facts.now))

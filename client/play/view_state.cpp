@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace woodlouse::client {
 namespace {
@@ -23,6 +24,13 @@ core::Vec2 unit_or(core::Vec2 v, core::Vec2 otherwise) {
   return length > 1e-6 ? (1.0 / length) * v : otherwise;
 }
 
+Standing read_standing(const double* row, const std::vector<std::size_t>& places) {
+  if (places.empty()) return {};
+  const auto whole = [&](std::size_t k) { return static_cast<std::int64_t>(row[places[k]]); };
+  return {whole(0), static_cast<std::uint32_t>(whole(1)), static_cast<std::uint32_t>(whole(2)), whole(3),
+          whole(4)};
+}
+
 /// `places`: where in the row each of wanted_columns() stands.
 LouseSample read_row(const double* row, const std::vector<std::size_t>& places) {
   LouseSample sample;
@@ -34,16 +42,19 @@ LouseSample read_row(const double* row, const std::vector<std::size_t>& places) 
 }
 
 void read_rows(const protocol::Frame& frame, const std::vector<std::size_t>& places,
-               std::map<std::uint32_t, LouseSample>& lice) {
+               const std::vector<std::size_t>& standing_places, std::map<std::uint32_t, LouseSample>& lice) {
   for (std::size_t i = 0; i < frame.rows(); ++i) {
     const double* row = frame.values.data() + i * frame.columns;
-    lice[static_cast<std::uint32_t>(row[places[0]])] = read_row(row, places);
+    LouseSample& louse = lice[static_cast<std::uint32_t>(row[places[0]])];
+    louse = read_row(row, places);
+    louse.standing = read_standing(row, standing_places);
   }
 }
 
-std::vector<std::size_t> places_of_wanted(const std::vector<Column>& columns) {
+/// Empty: not all are there.
+std::vector<std::size_t> places_of(std::span<const Column> wanted_ones, const std::vector<Column>& columns) {
   std::vector<std::size_t> places;
-  for (const Column wanted : wanted_columns()) {
+  for (const Column wanted : wanted_ones) {
     const auto found = std::find(columns.begin(), columns.end(), wanted);
     if (found == columns.end()) return {};
     places.push_back(static_cast<std::size_t>(found - columns.begin()));
@@ -77,22 +88,28 @@ LouseSample between(const LouseSample& from, const LouseSample& target, double s
   sample.velocity = (1.0 - t) * from.velocity + t * to.velocity;
   sample.heading = unit_or((1.0 - t) * from.heading + t * to.heading, to.heading);
   sample.distance = from.distance + t * (to.distance - from.distance);
+  sample.standing = from.standing;
   return sample;
 }
 
 ViewState::ViewState(std::uint32_t tick_hz, const std::vector<Column>& columns)
-    : tick_hz_(tick_hz), columns_(columns.size()), places_(places_of_wanted(columns)) {}
+    : tick_hz_(tick_hz),
+      columns_(columns.size()),
+      places_(places_of(wanted_columns(), columns)),
+      standing_places_(places_of(protocol::kRulesColumns, columns)) {}
 
 ViewState::Merge ViewState::merge(const protocol::Frame& frame) {
   if (places_.empty() || frame.columns != columns_) return Merge::kUnreadable;
   if (!snapshots_.empty() && frame.tick <= snapshots_.back().tick) return Merge::kStale;
-  Snapshot snapshot{frame.tick, {}};
+  Snapshot snapshot{frame.tick, {}, frame.game};
   if (!frame.is_key) {
     if (!key_ || key_->tick != frame.base) return Merge::kMissingBase;
     snapshot.lice = key_->lice;
+    snapshot.game = key_->game;
+    if (snapshot.game && frame.game) protocol::apply(*snapshot.game, *frame.game);
     for (const std::uint32_t id : frame.gone) snapshot.lice.erase(id);
   }
-  read_rows(frame, places_, snapshot.lice);
+  read_rows(frame, places_, standing_places_, snapshot.lice);
   if (frame.is_key) key_ = snapshot;
   snapshots_.push_back(std::move(snapshot));
   if (snapshots_.size() > kSnapshots) snapshots_.pop_front();

@@ -20,17 +20,27 @@
 
 namespace woodlouse::client {
 
+/// What the rules of play say of a louse; what a mode has not is 0.
+struct Standing {
+  std::int64_t score = 0;                    ///< points; of a race the best run [moments]
+  std::uint32_t gate = 0;                    ///< the next
+  std::uint32_t lap = 0;                     ///< of the run, from 0
+  std::int64_t lap_start = 0, best_lap = 0;  ///< [moments]; 0: none
+};
+
 /// One louse at one tick.
 struct LouseSample {
   core::Vec2 position;           ///< [m]
   core::Vec2 velocity;           ///< [m/s]
   core::Vec2 heading{1.0, 0.0};  ///< unit
   double distance = 0.0;         ///< travelled [m]
+  Standing standing;
 };
 
 struct Snapshot {
   std::uint64_t tick = 0;
   std::map<std::uint32_t, LouseSample> lice;
+  std::optional<protocol::Game> game;  ///< where there are rules of play; whole
 };
 
 /// The columns a client of ours asks for.
@@ -66,8 +76,9 @@ class ViewState {
 
  private:
   double tick_hz_;
-  std::size_t columns_;              ///< of a row
-  std::vector<std::size_t> places_;  ///< where in a row the wanted columns stand; empty: not all do
+  std::size_t columns_;                       ///< of a row
+  std::vector<std::size_t> places_;           ///< where in a row the wanted columns stand; empty: not all do
+  std::vector<std::size_t> standing_places_;  ///< the same of protocol::kRulesColumns
   std::optional<Snapshot> key_;
   std::deque<Snapshot> snapshots_;  ///< ascending ticks
 };

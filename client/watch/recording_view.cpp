@@ -82,7 +82,7 @@ void RecordingView::take_lice() {
   for (const state::Louse& louse : playback_->match().world().lice()) {
     const auto label = labels_.find(louse.id);
     const match::PlayerLabel* known = label == labels_.end() ? nullptr : &label->second;
-    lice_[louse.id] = {{louse.position, louse.velocity, louse.heading, louse.distance},
+    lice_[louse.id] = {{louse.position, louse.velocity, louse.heading, louse.distance, {}},
                        name_of(known, louse.id),
                        known != nullptr && known->role == protocol::Role::kBot,
                        false};

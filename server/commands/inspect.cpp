@@ -22,10 +22,15 @@ int inspect_command(const InspectRequest& request, std::ostream& out, std::ostre
   const auto archive = replay::ReplayArchive::open(replay::source_of_file(request.file, request.maps));
   if (!archive) return report(archive.error(), errors);
   const bool wants_state = request.tick || request.seconds;
-  if (request.summary || !wants_state) {
+  if (request.summary || (!wants_state && !request.rulings)) {
     const core::Expected<std::string> summary = replay::inspect_summary(**archive);
     if (!summary) return report(summary.error(), errors);
     out << *summary;
+  }
+  if (request.rulings) {
+    const auto told =
+        replay::inspect_rulings(**archive, [&](const std::string& ruling) { out << ruling << '\n'; });
+    if (!told) return report(told.error(), errors);
   }
   if (!wants_state) return 0;
   const double at = request.seconds.value_or(0.0) * (*archive)->header().tick_hz;

@@ -13,6 +13,7 @@ struct InspectRequest {
   std::filesystem::path maps{};  ///< where a map is that is only named; empty: beside the recording alone
   std::optional<std::uint64_t> tick;
   std::optional<double> seconds;  ///< since tick 0; >= 0
+  bool rulings = false;           ///< what the rules of play said
   bool summary = false;           ///< also when neither tick nor seconds are asked for
 };
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "shared/json/object_text.h"
 #include "shared/json/text.h"
 
 namespace woodlouse::server {
@@ -19,6 +20,18 @@ void append_proof(std::string& text, const state::HashLink& link) {
   json::append_hash(text += R"(,"rules":)", link.rules);
   json::append_integer(text += R"(,"link":)", link.tick);
   json::append_hash(text += R"(,"generator":)", link.generator);
+}
+
+void append_its_game(std::string& text, const protocol::Game& game) {
+  json::ObjectText object(text += R"(,"game":)");
+  protocol::append_game(object, game);
+  object.end();
+}
+
+rules::Standing standing_of(const Scene& scene, std::size_t louse) {
+  if (!scene.game) return {};
+  assert(scene.game->standings.size() == scene.lice.size());
+  return scene.game->standings[louse];
 }
 
 }  // namespace
@@ -38,13 +51,21 @@ void FrameEncoder::write_key(std::string& text, const Scene& scene) {
   json::append_integer(text += R"({"type":"key","tick":)", scene.tick);
   text += R"(,"louse":[)";
   key_rows_.clear();
-  for (const state::Louse& louse : scene.lice) {
-    if (!key_rows_.empty()) text += ',';
+  for (std::size_t k = 0; k < scene.lice.size(); ++k) {
+    const state::Louse& louse = scene.lice[k];
+    if (k > 0) text += ',';
     const std::size_t begin = text.size();
-    rows_.append(text, louse, scene.terrain);
-    key_rows_.push_back({louse, begin, text.size()});
+    const rules::Standing standing = standing_of(scene, k);
+    rows_.append(text, louse, standing, scene.terrain);
+    key_rows_.push_back({louse, standing, begin, text.size()});
   }
-  json::append_hash(text += R"(],"hash":)", scene.hash);
+  text += ']';
+  key_game_.reset();
+  if (scene.game) {
+    key_game_ = scene.game->game;
+    append_its_game(text, *key_game_);
+  }
+  json::append_hash(text += R"(,"hash":)", scene.hash);
   if (proves_hash_) append_proof(text, scene.link);
   text += "}\n";
 }
@@ -67,15 +88,17 @@ void FrameEncoder::write_delta(std::string& text, const Scene& scene) {
     ++known;
   };
   bool first = true;
-  for (const state::Louse& louse : scene.lice) {
+  for (std::size_t k = 0; k < scene.lice.size(); ++k) {
+    const state::Louse& louse = scene.lice[k];
+    const rules::Standing standing = standing_of(scene, k);
     while (known != key_rows_.cend() && known->louse.id < louse.id) report_gone();
     const bool is_known = known != key_rows_.cend() && known->louse.id == louse.id;
-    if (is_known && same_bytes(known->louse, louse)) {
+    if (is_known && same_bytes(known->louse, louse) && known->standing == standing) {
       ++known;
       continue;
     }
     row_.clear();
-    rows_.append(row_, louse, scene.terrain);
+    rows_.append(row_, louse, standing, scene.terrain);
     if (is_known) {
       const KeyRow& row = *known++;
       if (std::string_view(*key_text_).substr(row.begin, row.end - row.begin) == row_) continue;
@@ -86,7 +109,12 @@ void FrameEncoder::write_delta(std::string& text, const Scene& scene) {
   while (known != key_rows_.cend()) report_gone();
   text += R"(],"gone":[)";
   text += gone_;
-  text += "]}\n";
+  text += ']';
+  if (scene.game && key_game_) {
+    const protocol::Game changed = protocol::difference(*key_game_, scene.game->game);
+    if (!changed.empty()) append_its_game(text, changed);
+  }
+  text += "}\n";
 }
 
 }  // namespace woodlouse::server

@@ -2,24 +2,34 @@
 //
 //   key    {"type":"key","tick":n,"louse":[[...],...],"hash":"16 hex digits"}
 //   delta  {"type":"delta","tick":n,"base":k,"louse":[[...],...],"gone":[id,...]}
-// A delta is cumulative against the last key: the rows whose text differs from the key's, and the ids that
-// are in the key and no longer there. Cost: one comparison for a louse that is as in the key, else one row of
-// text. Pure: no socket. The room's strand owns it.
+// where there are rules of play both with "game":{...}, before the hash and at the end. A delta is cumulative
+// against the last key: the rows whose text differs from the key's, and the ids that are in the key and no
+// longer there. Cost: one comparison for a louse that is as in the key, else one row of text. Pure: no
+// socket. The room's strand owns it.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "server/frames/frame.h"
 #include "server/frames/row_table.h"
+#include "shared/protocol/game.h"
+#include "shared/rules/rules.h"
 #include "shared/state/louse.h"
 #include "shared/state/state_hash.h"
 #include "shared/terrain/terrain.h"
 
 namespace woodlouse::server {
+
+/// What the rules of play show at one tick.
+struct GameScene {
+  protocol::Game game;
+  std::vector<rules::Standing> standings;  ///< of the scene's lice, one each
+};
 
 /// What there is to see at one tick.
 struct Scene {
@@ -27,8 +37,9 @@ struct Scene {
   std::uint64_t index = 0;             ///< of the frame (frame.h)
   std::span<const state::Louse> lice;  ///< ascending id
   const terrain::Terrain& terrain;
-  std::uint64_t hash = 0;  ///< of the state at `tick`
-  state::HashLink link;    ///< what went into the hash besides the lice
+  std::uint64_t hash = 0;           ///< of the state at `tick`
+  state::HashLink link;             ///< what went into the hash besides the lice
+  std::optional<GameScene> game{};  ///< where there are rules
 };
 
 class FrameEncoder {
@@ -46,6 +57,7 @@ class FrameEncoder {
 
   struct KeyRow {
     state::Louse louse;
+    rules::Standing standing;
     std::size_t begin = 0;  ///< of its text in key_text_
     std::size_t end = 0;
   };
@@ -56,6 +68,7 @@ class FrameEncoder {
   Line key_text_;
   std::uint64_t key_tick_ = 0;
   std::vector<KeyRow> key_rows_;
+  std::optional<protocol::Game> key_game_;
   std::string row_;   ///< being compared with the key's
   std::string gone_;  ///< of the delta being written
 };

@@ -16,8 +16,9 @@ using protocol::Column;
 
 /// What a row shows besides the louse itself.
 struct Under {
-  terrain::SurfaceSample sample;  ///< where a column needs it
-  double pitch = 0.0;             ///< the same
+  const rules::Standing& standing;
+  terrain::SurfaceSample sample{};  ///< where a column needs it
+  double pitch = 0.0;               ///< the same
 };
 
 double computed_value(Column column, const state::Louse& louse, const Under& under) {
@@ -35,6 +36,16 @@ double computed_value(Column column, const state::Louse& louse, const Under& und
       const double vz = state::vertical_speed(louse, gradient);
       return std::sqrt(core::dot(louse.velocity, louse.velocity) + vz * vz);
     }
+    case Column::kScore:
+      return static_cast<double>(under.standing.score);
+    case Column::kGate:
+      return under.standing.gate;
+    case Column::kLap:
+      return under.standing.lap;
+    case Column::kLapStart:
+      return static_cast<double>(under.standing.lap_start);
+    case Column::kBestLap:
+      return static_cast<double>(under.standing.best_lap);
     default:
       assert(false && "a louse's own field");
       return 0.0;
@@ -56,9 +67,9 @@ RowTable::RowTable(RowLayout layout) : layout_(std::move(layout)) {
 }
 
 template <typename Write>
-void RowTable::append_cells(std::string& out, const state::Louse& louse, const terrain::Terrain& terrain,
-                            const Write& write) const {
-  Under under;
+void RowTable::append_cells(std::string& out, const state::Louse& louse, const rules::Standing& standing,
+                            const terrain::Terrain& terrain, const Write& write) const {
+  Under under{standing};
   if (ground_ == Ground::kAlways ||
       (ground_ == Ground::kUnlessFlying && louse.phase != state::Phase::kFlying))
     under.sample = terrain.sample(louse.position.x, louse.position.y);
@@ -77,11 +88,12 @@ void RowTable::append_cells(std::string& out, const state::Louse& louse, const t
   out.append(row, static_cast<std::size_t>(end - row));
 }
 
-void RowTable::append(std::string& out, const state::Louse& louse, const terrain::Terrain& terrain) const {
+void RowTable::append(std::string& out, const state::Louse& louse, const rules::Standing& standing,
+                      const terrain::Terrain& terrain) const {
   if (layout_.format == protocol::Format::kExact)
-    return append_cells(out, louse, terrain,
+    return append_cells(out, louse, standing, terrain,
                         [](char* to, double value, const Cell&) { return json::write_double(to, value); });
-  append_cells(out, louse, terrain, [](char* to, double value, const Cell& cell) {
+  append_cells(out, louse, standing, terrain, [](char* to, double value, const Cell& cell) {
     return protocol::write_quantized(to, value, cell.per_quantum);
   });
 }

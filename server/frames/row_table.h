@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "shared/protocol/messages.h"
+#include "shared/rules/rules.h"
 #include "shared/state/louse_fields.h"
 #include "shared/terrain/terrain.h"
 
@@ -25,7 +26,9 @@ class RowTable {
   /// REQUIRES at least one field, all of them distinct.
   explicit RowTable(RowLayout layout);
 
-  void append(std::string& out, const state::Louse& louse, const terrain::Terrain& terrain) const;
+  /// standing: by the rules of play; where there are none, of zeros.
+  void append(std::string& out, const state::Louse& louse, const rules::Standing& standing,
+              const terrain::Terrain& terrain) const;
   [[nodiscard]] const RowLayout& layout() const { return layout_; }
 
  private:
@@ -39,8 +42,8 @@ class RowTable {
   enum class Ground { kNever, kUnlessFlying, kAlways };
 
   template <typename Write>
-  void append_cells(std::string& out, const state::Louse& louse, const terrain::Terrain& terrain,
-                    const Write& write) const;
+  void append_cells(std::string& out, const state::Louse& louse, const rules::Standing& standing,
+                    const terrain::Terrain& terrain, const Write& write) const;
 
   RowLayout layout_;
   std::vector<Cell> cells_;

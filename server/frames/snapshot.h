@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "server/frames/frame_encoder.h"
@@ -18,8 +19,9 @@ struct Snapshot {
   const terrain::Terrain* terrain = nullptr;
   std::uint64_t hash = 0;
   state::HashLink link;
+  std::optional<GameScene> game;
 
-  [[nodiscard]] Scene scene() const { return {tick, index, lice, *terrain, hash, link}; }
+  [[nodiscard]] Scene scene() const { return {tick, index, lice, *terrain, hash, link, game}; }
 };
 
 using SharedSnapshot = SharedValue<Snapshot>;
@@ -32,6 +34,7 @@ inline SharedSnapshot take_snapshot(SharedPool<Snapshot>& pool, const Scene& sce
     taken.terrain = &scene.terrain;
     taken.hash = scene.hash;
     taken.link = scene.link;
+    taken.game = scene.game;
   };
   return pool.make(fill, [](const Snapshot&) { return true; });
 }

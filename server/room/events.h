@@ -8,6 +8,7 @@
 #include "server/frames/frame.h"
 #include "server/room/seats.h"
 #include "shared/protocol/messages.h"
+#include "shared/rules/rules.h"
 
 namespace woodlouse::server {
 
@@ -31,12 +32,16 @@ class Events {
     return make(tick, protocol::EventKind::kChat, seat, text);
   }
 
+  /// What the rules said; name: of the louse's player, empty where it is nobody's.
+  NumberedLine ruled(const rules::Event& event, const std::string& name, const rules::Rules& rules);
+
   /// Of the event made next.
   [[nodiscard]] std::uint64_t next() const { return next_; }
 
  private:
   NumberedLine make(std::uint64_t tick, protocol::EventKind kind, const Seat& seat,
                     const std::string& text = {});
+  NumberedLine number(protocol::Event event);
 
   std::uint64_t next_ = 1;
 };

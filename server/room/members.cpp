@@ -298,21 +298,25 @@ void Members::on_message(Seat&, const SessionOccupant& occupant, const protocol:
   leaving_.emplace(occupant.acked_from, occupant.session);
 }
 
-void Members::on_message(Seat&, SessionOccupant& occupant, const protocol::GetMap&, Time) {
-  occupant.subscriber->deliver_map(map_line_);
-}
-
 void Members::on_message(Seat&, SessionOccupant& occupant, const protocol::Resync&, Time) {
   outlet_->show_newest(occupant.channel, occupant.subscriber, snapshot());
 }
 
-void Members::on_message(Seat& seat, const SessionOccupant&, const protocol::Respawn&, Time arrived) {
+void Members::on_message(Seat& seat, const SessionOccupant&, const protocol::Respawn& respawn, Time arrived) {
   if (refuse_when_busy(seat, Spending::kRespawn, arrived)) return;
-  game_.respawn(seat.louse);
+  respawn.at_gate ? game_.respawn_at_gate(seat.louse) : game_.respawn(seat.louse);
   send(events_.respawned(game_.tick(), seat));
 }
 
 // ---- what they are shown -------------------------------------------------------------------------------
+
+void Members::tell(const match::StepRecord& step) {
+  for (const rules::Event& event : step.events) {
+    const auto label = game_.labels().find(event.louse);
+    send(events_.ruled(event, label != game_.labels().end() ? label->second.name : std::string(),
+                       *game_.rules()));
+  }
+}
 
 void Members::answer(std::uint64_t tick, Time begun) {
   assert(tick + 1 == game_.tick());
@@ -326,16 +330,10 @@ void Members::answer(std::uint64_t tick, Time begun) {
 
 std::uint64_t Members::ticks_a_frame() const { return game_.settings().tick_hz / settings_.state_hz; }
 
-Scene Members::scene() const {
-  return {game_.tick(),         game_.tick() / ticks_a_frame(),
-          game_.world().lice(), game_.world().terrain(),
-          game_.hash(),         game_.link()};
-}
-
 SharedSnapshot Members::snapshot() {
   if (!snapshot_ || snapshot_->tick != game_.tick()) {
     snapshot_.reset();
-    snapshot_ = take_snapshot(snapshots_, scene());
+    snapshot_ = take_snapshot(snapshots_, scene_of(game_, ticks_a_frame()));
   }
   return snapshot_;
 }

@@ -65,6 +65,8 @@ class Members {
     return inputs_.margins(tick, begun);
   }
   void answer(std::uint64_t tick, Time begun);
+  /// What the rules of play said of the step.
+  void tell(const match::StepRecord& step);
   /// The picture of every layout in use, where one is due.
   void send_frames();
 
@@ -89,13 +91,14 @@ class Members {
   }
   void on_message(Seat& seat, const SessionOccupant&, const protocol::Chat& chat, Time arrived);
   void on_message(Seat& seat, const SessionOccupant& occupant, const protocol::Leave&, Time);
-  void on_message(Seat& seat, SessionOccupant& occupant, const protocol::GetMap&, Time);
+  void on_message(Seat&, SessionOccupant& occupant, const protocol::GetMap&, Time) {
+    occupant.subscriber->deliver_map(map_line_);
+  }
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Resync&, Time);
   void on_message(Seat& seat, const SessionOccupant&, const protocol::Respawn&, Time arrived);
   [[nodiscard]] bool refuse_when_busy(const Seat& seat, Spending what, Time arrived);
   void send(const NumberedLine& event) { outlet_->event(event.number, event.line); }
   void count(protocol::Role role, std::int32_t change);
-  [[nodiscard]] Scene scene() const;
   [[nodiscard]] SharedSnapshot snapshot();
   [[nodiscard]] std::uint64_t ticks_a_frame() const;
 

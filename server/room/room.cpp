@@ -260,6 +260,7 @@ void Room::tick(Time now) {
   const std::span<const InputMargin> margins = members_.margins(number, now);
   for (const auto& watcher : watchers_) watcher->step(step, margins, *game_);
   members_.answer(number, now);
+  members_.tell(step);
   members_.send_frames();
   for (const auto& watcher : watchers_) watcher->rest(*game_);
 }

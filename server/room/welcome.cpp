@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "server/room/resume_token.h"
+#include "shared/map/map_world.h"
+#include "shared/map/modes_reader.h"
 
 namespace woodlouse::server {
 
@@ -23,8 +25,10 @@ protocol::Welcome welcome_for(const Seat& seat, const RowLayout& layout, const R
   welcome.map_hash = map.hash;
   welcome.extent = {domain.x_min, domain.y_min, domain.x_max, domain.y_max};
   welcome.map_bytes = map_bytes;
-  welcome.physics = map.definition.physics;
-  welcome.mode = "roam";
+  const state::Mode mode = game.settings().mode;
+  welcome.physics = map::physics_of(map.definition, mode);
+  welcome.mode = state::to_text(mode);
+  if (mode != state::Mode::kRoam) welcome.rules = map::mode_text(map.definition.modes, mode);
   return welcome;
 }
 

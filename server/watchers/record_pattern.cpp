@@ -10,6 +10,7 @@
 
 #include "shared/core/joined.h"
 #include "shared/core/sink_file.h"
+#include "shared/state/mode.h"
 
 namespace woodlouse::server {
 namespace {
@@ -85,11 +86,18 @@ core::Expected<std::string> folder_of(const std::string& text, std::string_view 
 }
 
 /// game.ndjson: game.{room}.ndjson
-std::string with_room(const std::string& name) {
+std::string with_word(const std::string& name, std::string_view word) {
   const fs::path file(name);
   const std::string packed = file.extension() == ".zst" ? ".zst" : "";
   const fs::path plain = packed.empty() ? file : file.stem();
-  return joined({plain.stem().string(), ".", kRoom, plain.extension().string(), packed});
+  return joined({plain.stem().string(), ".", word, plain.extension().string(), packed});
+}
+std::string with_room(const std::string& name) { return with_word(name, kRoom); }
+
+/// volcano/race: race; volcano: nothing.
+std::string_view mode_part(std::string_view room) {
+  const std::size_t slash = room.rfind('/');
+  return slash == std::string_view::npos ? std::string_view() : room.substr(slash + 1);
 }
 
 bool fits(std::string_view pattern, std::string_view name) {
@@ -150,23 +158,34 @@ fs::path RecordPattern::file(const std::string& room, std::int64_t time) const {
   std::tm utc{};
   ::gmtime_r(&seconds, &utc);
   std::string result;
-  for (std::size_t at = 0; at < name_.size(); ++at) {
-    if (name_[at] == '%') {
-      const std::array<char, 3> field{'%', name_[++at], '\0'};
+  const std::string_view mode = mode_part(room);
+  const std::string name = has_modes_apart() && !mode.empty() ? with_word(name_, mode) : name_;
+  for (std::size_t at = 0; at < name.size(); ++at) {
+    if (name[at] == '%') {
+      const std::array<char, 3> field{'%', name[++at], '\0'};
       std::array<char, 32> written{};
       result.append(written.data(), std::strftime(written.data(), written.size(), field.data(), &utc));
-    } else if (name_[at] == '{') {
+    } else if (name[at] == '{') {
       result += file_part(room);
       at += kRoom.size() - 1;
     } else {
-      result += name_[at];
+      result += name[at];
     }
   }
   return folder_ / result;
 }
 
+bool RecordPattern::has_modes_apart() const { return name_.find(kRoom) == std::string::npos; }
+
 bool RecordPattern::matches(const std::string& name) const {
-  if (fits(name_, name)) return true;
+  if (matches(name_, name)) return true;
+  return has_modes_apart() && std::any_of(state::kModes.begin(), state::kModes.end(), [&](state::Mode mode) {
+           return mode != state::Mode::kRoam && matches(with_word(name_, state::to_text(mode)), name);
+         });
+}
+
+bool RecordPattern::matches(const std::string& pattern, const std::string& name) {
+  if (fits(pattern, name)) return true;
   // Or one of a number, which is taken out again.
   for (std::size_t dot = name.find('.'); dot != std::string::npos; dot = name.find('.', dot + 1)) {
     std::size_t end = dot + 1;
@@ -175,7 +194,7 @@ bool RecordPattern::matches(const std::string& name) const {
       number = number * 10 + static_cast<std::size_t>(name[end++] - '0');
     if (number == 0 || number > core::kMaxFileNumber) continue;
     const std::string plain = name.substr(0, dot) + name.substr(end);
-    if (core::numbered(plain, number) == name && fits(name_, plain)) return true;
+    if (core::numbered(plain, number) == name && fits(pattern, plain)) return true;
   }
   return false;
 }

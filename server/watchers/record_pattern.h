@@ -19,7 +19,8 @@ class RecordPattern {
   /// percent sign; in its folder %% alone. A folder (that is there, or ends in /) stands for
   /// FOLDER/{room}-%Y%m%dT%H%M%SZ.ndjson.zst. A name that ends in neither .ndjson nor .zst gets
   /// .ndjson.zst, but that of a pipe or a device. rooms: of several, each has a file by room, whether
-  /// {room} stands there or not. Errors: where = `text`, what can't stand in it, what to write instead.
+  /// {room} stands there or not; and of one map's a room of play (volcano/race) by its mode:
+  /// game.race.ndjson. Errors: where = `text`, what can't stand in it, what to write instead.
   static core::Expected<RecordPattern> parse(const std::string& text, std::size_t rooms);
 
   /// time: seconds since 1970.
@@ -34,6 +35,9 @@ class RecordPattern {
   friend bool operator==(const RecordPattern&, const RecordPattern&) = default;
 
  private:
+  /// It has no {room}: a map's rooms of play (volcano/race) have files by their mode (game.race.ndjson).
+  [[nodiscard]] bool has_modes_apart() const;
+  [[nodiscard]] static bool matches(const std::string& pattern, const std::string& name);
   RecordPattern(std::filesystem::path folder, std::string name);
 
   std::filesystem::path folder_;

@@ -32,7 +32,7 @@ void Shadow::begin(const match::Match& game) {
 }
 
 core::Expected<void> Shadow::follow(match::MatchState game) {
-  auto rerun = replay::Rerun::from(map_, {header_.tick_hz, header_.seed}, {game}, "the game's state");
+  auto rerun = replay::Rerun::from(map_, replay::settings_of(header_), {game}, "the game's state");
   if (!rerun) return tl::unexpected(rerun.error());
   rerun_ = std::move(*rerun);
   before_ = std::move(game);

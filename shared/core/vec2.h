@@ -26,6 +26,12 @@ constexpr T dot(Pair<T> a, Pair<T> b) {
   return a.x * b.x + a.y * b.y;
 }
 
+/// Above 0 where b lies to the left of a.
+template <typename T>
+constexpr T cross(Pair<T> a, Pair<T> b) {
+  return a.x * b.y - a.y * b.x;
+}
+
 using Vec2 = Pair<double>;
 
 }  // namespace woodlouse::core

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "shared/json/object_text.h"
+#include "shared/map/modes_reader.h"
+#include "shared/map/spawns.h"
 #include "shared/physics/central_gravity.h"
 
 namespace woodlouse::map {
@@ -92,10 +94,8 @@ std::string canonical_text(const MapDefinition& definition) {
   if (definition.physics.edges != state::Parameters{}.edges)
     text.text("edges", state::to_text(definition.physics.edges));
   text.object("physics", [&](json::ObjectText& physics) { add_physics(physics, definition.physics); });
-  text.objects("spawns", definition.spawns, [](json::ObjectText& entry, const SpawnPoint& spawn) {
-    entry.pair("position", spawn.position).pair("heading", spawn.heading);
-    if (spawn.speed != 0.0) entry.number("speed", spawn.speed);
-  });
+  add_modes(text, definition.modes);
+  add_spawns(text, definition.spawns);  // the last: scenarios put others in their place
   text.end();
   return out;
 }

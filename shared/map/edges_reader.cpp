@@ -55,10 +55,10 @@ void check_function(const json::Value& value, const FunctionTerrain& terrain, js
 state::Edges read_edges(const json::Value& value, const MapDefinition& definition, json::Problems& problems) {
   const auto edges = value.is(json::Kind::kString) ? state::edges_from_text(value.text()) : std::nullopt;
   if (!edges) {
-    problems.add(value, "is none of its choices", "walls or wrap");
+    problems.add(value, "is none of its choices", "walls, wrap or open");
     return state::Edges::kWalls;
   }
-  if (*edges == state::Edges::kWalls) return *edges;
+  if (*edges != state::Edges::kWrap) return *edges;
   if (definition.surface == SurfaceKind::kNaturalSpline) {
     problems.add(value, "a natural spline has ends, and edges that wrap have none",
                  "take the surface spline");

@@ -1,4 +1,5 @@
-// The `edges` field of a map file: walls at the rim, or edges that wrap, and whether the terrain can.
+// The `edges` field of a map file: walls at the rim, open edges, or edges that wrap, and whether the terrain
+// can.
 #pragma once
 
 #include "shared/json/document.h"

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "shared/core/vec2.h"
+#include "shared/map/modes.h"
 #include "shared/physics/ground_steps.h"
 #include "shared/state/parameters.h"
 #include "shared/terrain/function_surface.h"
@@ -58,12 +58,6 @@ struct TiledTerrain {
   terrain::HeightGrid overview;                          ///< height_survey.h
 };
 
-struct SpawnPoint {
-  core::Vec2 position;           ///< [m], inside the domain
-  core::Vec2 heading{1.0, 0.0};  ///< unit vector
-  double speed = 0.0;            ///< over the map, along the heading [m/s]
-};
-
 struct MapDefinition {
   std::string name;
   std::variant<FunctionTerrain, terrain::HeightGrid, TiledTerrain>
@@ -71,6 +65,7 @@ struct MapDefinition {
   SurfaceKind surface = SurfaceKind::kSpline;
   state::Parameters physics;
   std::vector<SpawnPoint> spawns;  ///< at least one
+  Modes modes;
 };
 
 /// How far a map's terrain is the one that is played on.

@@ -14,11 +14,4 @@ namespace woodlouse::map {
 std::optional<MapDefinition> read_definition(const json::Value& root, const GridPlace& place,
                                              json::Problems& problems);
 
-/// Where lice start on a map that does not say: eight points on a ring around the middle, looking inwards.
-std::vector<SpawnPoint> default_spawns(const terrain::Rectangle& domain);
-
-/// The unit vector at `degrees` counter-clockwise from +x; the same bits everywhere, exact at multiples
-/// of 90.
-core::Vec2 heading_from_degrees(double degrees);
-
 }  // namespace woodlouse::map

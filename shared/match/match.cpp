@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "shared/map/map_world.h"
@@ -11,7 +12,8 @@ namespace woodlouse::match {
 Match::Match(std::shared_ptr<const map::Map> map, const MatchSettings& settings)
     : map_(std::move(map)),
       settings_(settings),
-      world_(map::make_world(*map_, 1.0 / static_cast<double>(settings.tick_hz))),
+      world_(map::make_world(*map_, 1.0 / static_cast<double>(settings.tick_hz), settings.mode)),
+      rules_(rules::Rules::make(settings.mode, *map_, settings.tick_hz)),
       random_(settings.seed),
       inputs_(kHorizonSeconds * settings.tick_hz),
       link_(beginning(settings)) {
@@ -31,6 +33,10 @@ std::unique_ptr<Match> Match::restore(std::shared_ptr<const map::Map> map, const
   match->pending_roster_ = state.roster;
   match->labels_ = state.labels;
   match->next_player_ = state.next_player;
+  if (match->rules_ != nullptr) {
+    [[maybe_unused]] const bool fits = match->rules_->restore(state.rules, ids_on_roster(state));
+    assert(fits);
+  }
   match->tick_ = state.tick;
   match->hash_ = state.hash;
   match->link_ = state.link;
@@ -47,7 +53,8 @@ MatchState Match::state() const {
           labels_,
           inputs_.waiting(),
           pending_roster_,
-          {lice.begin(), lice.end()}};
+          {lice.begin(), lice.end()},
+          rules_ != nullptr ? rules_->state() : std::string()};
 }
 
 bool Match::file_applied(const AppliedInput& input) {
@@ -78,10 +85,15 @@ void Match::leave(PlayerId player) {
 
 void Match::respawn(PlayerId player) { pending_roster_.push_back({RosterAction::kRespawn, player, {}}); }
 
+void Match::respawn_at_gate(PlayerId player) {
+  pending_roster_.push_back({RosterAction::kRespawnAtGate, player, {}});
+}
+
 Filed Match::file(const Input& input, std::size_t per_tick) { return inputs_.file(input, tick_, per_tick); }
 
 void Match::spawn(PlayerId player, double distance) {
-  const auto& spawns = map_->definition.spawns;
+  const std::span<const map::SpawnPoint> spawns =
+      rules_ != nullptr ? rules_->spawns() : std::span<const map::SpawnPoint>(map_->definition.spawns);
   const map::SpawnPoint& point = spawns[static_cast<std::size_t>(random_.next() % spawns.size())];
   state::Louse louse;
   louse.id = player;
@@ -92,15 +104,56 @@ void Match::spawn(PlayerId player, double distance) {
   world_.insert(louse);
 }
 
+void Match::put_at_gate(PlayerId player, const rules::Start& at, double distance) {
+  const double speed = std::sqrt(core::dot(at.velocity, at.velocity));
+  state::Louse louse;
+  louse.id = player;
+  louse.position = at.position;
+  louse.velocity = at.velocity;
+  if (speed > 0.0) louse.heading = (1.0 / speed) * at.velocity;
+  louse.distance = distance;
+  world_.insert(louse);
+}
+
+/// REQUIRES that it changes something.
+void Match::change(const RosterChange& change) {
+  const state::Louse* louse = world_.find(change.player);
+  const double distance = louse != nullptr ? louse->distance : 0.0;
+  if (louse != nullptr) world_.erase(change.player);
+  switch (change.action) {
+    case RosterAction::kJoin:
+      if (rules_ != nullptr) rules_->join(change.player);
+      return spawn(change.player, distance);
+    case RosterAction::kLeave:
+      if (rules_ != nullptr) rules_->leave(change.player);
+      return;
+    case RosterAction::kRespawn:
+      if (rules_ != nullptr) rules_->respawn(change.player);
+      return spawn(change.player, distance);
+    case RosterAction::kRespawnAtGate:
+      if (rules_ == nullptr) return spawn(change.player, distance);
+      if (const auto at = rules_->last_gate(change.player)) {
+        rules_->respawn_at_gate(change.player);
+        return put_at_gate(change.player, *at, distance);
+      }
+      rules_->respawn(change.player);
+      return spawn(change.player, distance);
+  }
+  assert(false);
+}
+
 void Match::change_roster() {
   record_.roster.clear();
   for (const RosterChange& change : pending_roster_) {
-    // A respawn or leave of a louse that is gone by now changes nothing and is not recorded.
-    const state::Louse* louse = world_.find(change.player);
-    if ((louse != nullptr) == (change.action == RosterAction::kJoin)) continue;
-    const double distance = louse != nullptr ? louse->distance : 0.0;
-    if (louse != nullptr) world_.erase(change.player);
-    if (change.action != RosterAction::kLeave) spawn(change.player, distance);
+    // A respawn or leave of a louse that is gone by now changes nothing and is not recorded, nor does a
+    // respawn of one that is out.
+    const bool has_louse = contains(change.player);
+    const bool is_out = !has_louse && rules_ != nullptr && rules_->is_out(change.player);
+    const bool changes = change.action == RosterAction::kJoin    ? !has_louse && !is_out
+                         : change.action == RosterAction::kLeave ? has_louse || is_out
+                                                                 : has_louse;
+    if (!changes) continue;
+    this->change(change);
     record_.roster.push_back(change);
   }
   pending_roster_.clear();
@@ -113,18 +166,26 @@ void Match::apply_inputs() {
   }
 }
 
+void Match::judge() {
+  if (rules_ == nullptr) return;
+  rules_->after_step(world_, tick_, hash_);
+  const std::span<const rules::Event> events = rules_->events();
+  record_.events.assign(events.begin(), events.end());
+}
+
 /// A step that applied nothing and changed no byte makes no link: its hash is the one before.
 void Match::link_up() {
   const bool lice_changed = lice_hashes_.update(world_.lice(), world_.changed_blocks(), team_.get());
   world_.forget_changes();
-  if (!lice_changed && record_.roster.empty() && record_.inputs.empty()) {
+  const std::uint64_t rules = rules_ != nullptr ? rules_->hash() : 0;
+  if (!lice_changed && record_.roster.empty() && record_.inputs.empty() && rules == link_.rules) {
     assert(random_.state() == link_.generator);
     return;
   }
   hasher_.reset();
   hasher_.append(std::span<const AppliedInput>(record_.inputs));
   const std::uint64_t inputs = hasher_.value();
-  link_ = {hash_, inputs, roster_hash(hasher_, record_.roster), 0, tick_, random_.state()};
+  link_ = {hash_, inputs, roster_hash(hasher_, record_.roster), rules, tick_, random_.state()};
   hash_ = state::state_hash(hasher_, link_, lice_hashes_.values());
 }
 
@@ -132,7 +193,9 @@ const StepRecord& Match::advance() {
   record_.tick = tick_;
   change_roster();
   apply_inputs();
+  if (rules_ != nullptr) rules_->before_step(world_);
   world_.step();
+  judge();
   ++tick_;
   link_up();
   record_.hash = hash_;

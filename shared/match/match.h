@@ -3,7 +3,8 @@
 //
 // Tick n is the state before step n. advance() performs step n: leaves, joins and respawns queued since the
 // last step in the order they came, then the inputs filed for n in the order (player, seq), the last of a
-// player winning; then the world's step. Arrival order of inputs never changes a result.
+// player winning; then the world's step, which the rules of play judge. Arrival order of inputs never changes
+// a result.
 // Not thread safe: its room's strand owns it.
 #pragma once
 
@@ -25,6 +26,8 @@
 #include "shared/match/input_queue.h"
 #include "shared/match/match_state.h"
 #include "shared/physics/world.h"
+#include "shared/rules/rules.h"
+#include "shared/state/mode.h"
 
 namespace woodlouse::match {
 
@@ -41,12 +44,14 @@ struct StepRecord {
   std::uint64_t tick = 0;            ///< n: the step led from tick n to n + 1
   std::vector<RosterChange> roster;  ///< in the order applied
   std::vector<AppliedInput> inputs;  ///< in the order applied
+  std::vector<rules::Event> events;  ///< what the rules of play say happened; no recording holds them
   std::uint64_t hash = 0;            ///< of the state at tick n + 1; that of tick n where nothing changed
 };
 
 struct MatchSettings {
   std::uint32_t tick_hz = 60;  ///< 1..1000
   std::uint64_t seed = 0;
+  state::Mode mode = state::Mode::kRoam;  ///< one that the map has
 };
 
 class Match {
@@ -78,6 +83,8 @@ class Match {
   void leave(PlayerId player);
   /// Queues a return to a spawn point, at rest, without thrust; the distance travelled stays.
   void respawn(PlayerId player);
+  /// Queues a return to where it drove through its last gate, and as fast; where there is none, a respawn().
+  void respawn_at_gate(PlayerId player);
   /// Files an input for a tick; says which tick will take it. per_tick: of one player's (input_queue.h).
   Filed file(const Input& input, std::size_t per_tick = InputQueue::kMaxPending);
   /// Nobody steers any more: where an input waits, and in `ticks`, one that ends the thrust comes behind it.
@@ -94,7 +101,8 @@ class Match {
   const StepRecord& advance();
   /// Whether the steps to come are known to change nothing but tick(), until somebody asks for something.
   [[nodiscard]] bool stands_still() const {
-    return world_.stands_still() && pending_roster_.empty() && !inputs_.has_waiting();
+    return world_.stands_still() && pending_roster_.empty() && !inputs_.has_waiting() &&
+           (rules_ == nullptr || rules_->stands_still());
   }
   /// Performs so many of them, at the cost of none. REQUIRES stands_still().
   void stand_still(std::uint64_t steps) {
@@ -111,20 +119,27 @@ class Match {
   [[nodiscard]] std::uint64_t hash() const { return hash_; }
   /// What went into hash() besides the lice; its tick is that of the last step that changed anything.
   [[nodiscard]] const state::HashLink& link() const { return link_; }
+  /// The rules of play; null: there are none.
+  [[nodiscard]] const rules::Rules* rules() const { return rules_.get(); }
+  /// Whether it has a louse on the map; who is out for a while (rules::Rules::is_out) has not.
   [[nodiscard]] bool contains(PlayerId player) const { return world_.find(player) != nullptr; }
   /// Of everybody who joined and has not left.
   [[nodiscard]] const PlayerLabels& labels() const { return labels_; }
 
  private:
   void spawn(PlayerId player, double distance);
+  void change(const RosterChange& change);
+  void put_at_gate(PlayerId player, const rules::Start& at, double distance);
   void change_roster();
   void apply_inputs();
+  void judge();
   void link_up();
 
   std::shared_ptr<const map::Map> map_;
   MatchSettings settings_;
   std::shared_ptr<core::Team> team_;
   physics::World world_;
+  std::unique_ptr<rules::Rules> rules_;
   core::Random random_;
   InputQueue inputs_;
   std::vector<RosterChange> pending_roster_;

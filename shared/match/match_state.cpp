@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <set>
 #include <string_view>
 #include <tuple>
 #include <variant>
@@ -114,9 +115,31 @@ std::string fault_of_waiting(const MatchState& state, std::uint64_t horizon) {
   return {};
 }
 
+std::string fault_of_rules(const map::Map& map, const MatchSettings& settings, const MatchState& state) {
+  if (state.rules.empty() != (state.link.rules == 0))
+    return "its rules' state and their hash don't go together";
+  if (state.rules.empty()) return {};
+  if (core::stable_hash(state.rules) != state.link.rules) return "its rules' state has another hash";
+  const auto rules = rules::Rules::make(settings.mode, map, settings.tick_hz);
+  if (rules == nullptr) return "it has a state of rules, and its mode has none";
+  return rules->restore(state.rules, ids_on_roster(state)) ? std::string()
+                                                           : "its rules' state is none of this map and mode";
+}
+
 }  // namespace
 
 state::HashLink beginning(const MatchSettings& settings) { return {0, 0, 0, 0, 0, settings.seed}; }
+
+std::vector<state::LouseId> ids_on_roster(const MatchState& state) {
+  std::set<state::LouseId> ids;
+  for (const PlayerSeq& player : state.players) ids.insert(player.player);
+  // What is queued has changed who may file inputs, and nothing else yet.
+  for (auto change = state.roster.rbegin(); change != state.roster.rend(); ++change) {
+    if (change->action == RosterAction::kLeave) ids.insert(change->player);
+    if (change->action == RosterAction::kJoin) ids.erase(change->player);
+  }
+  return {ids.begin(), ids.end()};
+}
 
 std::uint64_t roster_hash(core::StableHasher& hasher, std::span<const RosterChange> changes) {
   hasher.reset();
@@ -139,12 +162,14 @@ std::string why_not(const map::Map& map, const MatchSettings& settings, const Ma
   if (state.link.tick > state.tick)
     return joined({"its hash is of tick ", std::to_string(state.link.tick), ", which is later"});
   if (state.link.tick == 0) {
-    const bool is_beginning = state.hash == 0 && state.link == beginning(settings) && state.lice.empty();
+    const bool is_beginning =
+        state.hash == 0 && state.link == beginning(settings) && state.lice.empty() && state.rules.empty();
     return is_beginning ? std::string()
                         : "before the first step that did something there are no lice and no hash, and the "
                           "generator is the seed";
   }
-  if (state.link.rules != 0) return "it was played by rules that are not known here";
+  fault = fault_of_rules(map, settings, state);
+  if (!fault.empty()) return fault;
   core::StableHasher hasher;
   const std::uint64_t hash = state::state_hash(hasher, state.link, state.lice);
   if (hash == state.hash) return {};

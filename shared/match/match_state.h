@@ -24,8 +24,8 @@ struct PlayerLabel {
 };
 using PlayerLabels = std::map<state::LouseId, PlayerLabel>;
 
-/// The numbers are hashed; 4 is kept for a respawn at a gate.
-enum class RosterAction : std::uint32_t { kJoin = 1, kLeave = 2, kRespawn = 3 };
+/// The numbers are hashed.
+enum class RosterAction : std::uint32_t { kJoin = 1, kLeave = 2, kRespawn = 3, kRespawnAtGate = 4 };
 
 /// A change of who plays, as applied in a step.
 struct RosterChange {
@@ -49,7 +49,11 @@ struct MatchState {
   std::vector<AppliedInput> waiting;  ///< filed for this tick or later, by (tick, player, seq)
   std::vector<RosterChange> roster;   ///< queued for the next step, in the order they came
   std::vector<state::Louse> lice;     ///< by ascending id
+  std::string rules{};  ///< the rules' (rules/rules.h); empty: there are none, or nothing has happened
 };
+
+/// Who has joined, ascending: those of its players for whom no join is queued, and those for whom a leave is.
+std::vector<state::LouseId> ids_on_roster(const MatchState& state);
 
 struct MatchSettings;
 

@@ -6,7 +6,7 @@
 // without drag and thrust, until z <= h(x, y). Landing takes the velocity's part along the surface's normal
 // n = (-G, 1) / w and leaves the rest: v' = v + vn G / w in the map plane, vn = (vz - G.v) / w < 0.
 // Walls reach up to the sky: there the map-plane velocity's normal part is turned and multiplied by the
-// restitution.
+// restitution. Over an open edge it stops and falls.
 //
 // The landing is looked for in pieces of at most a quarter cell of way (a 32nd of the tick where there are no
 // cells) and located to rounding: a ridge thinner than a piece can be flown through.
@@ -90,6 +90,7 @@ class Flyer {
     double time = 0.0;     ///< [s], > 0
     bool landed = false;   ///< the flight is at the ground: take landed_velocity there
     bool bounced = false;  ///< off a wall
+    bool left = false;     ///< at an open edge
   };
 
   /// Flies on for at most `remaining` seconds, up to a landing, a wall or the end of a piece.
@@ -105,7 +106,7 @@ class Flyer {
     if (meets_y) time = to_wall.y;
 
     Flight end = after(flight, time);
-    Piece piece{time, false, false};
+    Piece piece{time, false, false, false};
     if (const double below = clearance(end); below <= 0.0) {
       double low = 0.0;
       double high = time;
@@ -120,18 +121,18 @@ class Flyer {
                                      [&](double t) { return clearance(after(flight, t)); });
       }
       flight = after(flight, high);
-      return {high, true, false};
+      return {high, true, false, false};
     }
     flight = end;
-    const double e = parameters_.edge_restitution;
+    const double kept = rim_.is_open() ? 1.0 : -parameters_.edge_restitution;
     if (meets_y) {
       flight.over.position.y = rim_.ahead(v).y;
-      v.y = -e * v.y;
+      v.y = kept * v.y;
     } else if (meets_x) {
       flight.over.position.x = rim_.ahead(v).x;
-      v.x = -e * v.x;
+      v.x = kept * v.x;
     }
-    piece.bounced = meets_x || meets_y;
+    (rim_.is_open() ? piece.left : piece.bounced) = meets_x || meets_y;
     return piece;
   }
 

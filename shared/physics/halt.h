@@ -1,5 +1,5 @@
 // How a louse sets off, slows down and stops, where forces turn with its velocity (friction, a drive along
-// the heading). Start, Ground: ground.h.
+// the heading), or where an open edge ends its motion. Start, Ground: ground.h. Way: stepper.h.
 //
 // Stop: where friction can hold at v = 0 (the stick test) and |v| + h at <= 0, or v is too small for the
 // shortest sub-step to resolve its direction, the louse halts after |v|/(-at), at = d|v|3/dt. Where it can't
@@ -15,6 +15,8 @@
 #include "shared/physics/rim.h"
 #include "shared/physics/sub_step_rules.h"
 #include "shared/physics/surface_motion.h"
+#include "shared/state/louse.h"
+#include "shared/state/step_events.h"
 
 namespace woodlouse::physics {
 
@@ -115,6 +117,25 @@ Halt halts(const Ground& ground, const typename Ground::Start& start, const Turn
   if (!stops) return Halt::kNo;
   const double a2 = squared_length_in_space(start.sample, start.acceleration);
   return a2 - rate * rate <= 1e-12 * a2 ? Halt::kTurnsBack : Halt::kNo;
+}
+
+/// It rests where it is.
+template <typename Way>
+void rest(const Way& way) {
+  way.louse.phase = state::Phase::kResting;
+  way.happened |= state::kStopped;
+}
+
+/// It stands where it is, at an open edge, for the rest of the tick. True: it does not rest.
+template <typename Way>
+[[gnu::noinline]] bool leave(const Way& way) {
+  if (!way.drive.turns && dot(way.at.velocity, way.at.velocity) > kStandstill2)
+    way.louse.heading = unit(way.at.velocity);
+  way.at.velocity = {};
+  way.louse.flight_vz = 0.0;
+  way.remaining = 0.0;
+  way.happened |= state::kLeft;
+  return true;
 }
 
 }  // namespace woodlouse::physics

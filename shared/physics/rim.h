@@ -1,6 +1,9 @@
 // The rim of the map, where lice are kept: four walls, or seams where the edges wrap and the map goes on at
-// the opposite rim. Here is where it stands, when a louse meets it, and the state at that moment; what walls
-// do to a louse: walls.h.
+// the opposite rim, or open edges, over which nobody comes back. Here is where it stands, when a louse meets
+// it, and the state at that moment; what walls do to a louse: walls.h.
+//
+// An open edge ends a motion: who reaches it stands there, without velocity, for the rest of the tick, and so
+// does in each tick who stands there and is drawn outwards. The rules of play may take it off the map.
 //
 // Positions on a map that wraps lie in [min, max): a louse that has run over a seam is moved by whole
 // periods.
@@ -34,27 +37,38 @@ class Rim {
       : domain_(domain),
         interior_(domain),
         walls_(domain),
+        leant_on_(domain),
         tolerance_(1e-13 *
                    (finite_extent(domain.x_min, domain.x_max) + finite_extent(domain.y_min, domain.y_max))),
         edges_(edges) {
     if (edges == state::Edges::kWalls) return;
     constexpr double kNever = std::numeric_limits<double>::infinity();
+    leant_on_ = {-kNever, -kNever, kNever, kNever};
+    if (edges == state::Edges::kOpen) return;
     assert(domain.x_max - domain.x_min < kNever && domain.y_max - domain.y_min < kNever);
     interior_.x_max = before(domain.x_max);
     interior_.y_max = before(domain.y_max);
-    walls_ = {-kNever, -kNever, kNever, kNever};
+    walls_ = leant_on_;
   }
 
   [[nodiscard]] bool wraps() const { return edges_ == state::Edges::kWrap; }
+  [[nodiscard]] bool is_open() const { return edges_ == state::Edges::kOpen; }
   /// The positions a louse may have.
   [[nodiscard]] const terrain::Rectangle& interior() const { return interior_; }
   /// How near to a wall is at the wall [m].
   [[nodiscard]] double tolerance() const { return tolerance_; }
-  /// Whether no wall is met on the way to p.
+  /// Whether neither a wall nor an open edge is met on the way to p.
   [[nodiscard]] bool lets_pass(core::Vec2 p) const { return walls_.contains(p.x, p.y); }
   /// Whether p is not beyond a seam.
   [[nodiscard]] bool is_here(core::Vec2 p) const { return !wraps() || interior_.contains(p.x, p.y); }
-  [[nodiscard]] Contact touching(core::Vec2 p) const { return physics::touching(walls_, p); }
+  /// The walls there; an open edge is none.
+  [[nodiscard]] Contact touching(core::Vec2 p) const { return physics::touching(leant_on_, p); }
+  /// Whether an open edge ends a motion there, at v and drawn by a.
+  [[nodiscard]] bool lets_out(core::Vec2 p, core::Vec2 v, core::Vec2 a) const {
+    if (!is_open()) return false;
+    const auto [x, y] = physics::touching(walls_, p);
+    return outward(x, v.x != 0.0 ? v.x : a.x) || outward(y, v.y != 0.0 ? v.y : a.y);
+  }
   /// Whether p can be made a position again: within the walls, or not absurdly many periods away. False for
   /// NaN.
   [[nodiscard]] bool admits(core::Vec2 p) const {
@@ -203,7 +217,8 @@ class Rim {
 
   terrain::Rectangle domain_;
   terrain::Rectangle interior_;  ///< what positions lie in
-  terrain::Rectangle walls_;     ///< infinite where the edges wrap
+  terrain::Rectangle walls_;     ///< or open edges; infinite where the edges wrap
+  terrain::Rectangle leant_on_;  ///< the walls; infinite where there are none
   double tolerance_;
   state::Edges edges_;
 };

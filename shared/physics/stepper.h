@@ -126,6 +126,7 @@ class Stepper {
     way.remaining -= piece.time;
     if (piece.landed || piece.bounced) ++way.events;
     follow(way.drive, way.at.velocity);
+    if (piece.left) leave(way);
   }
 
   /// What is left of the tick in one step that looks for nothing on its way, its energy bounded.
@@ -157,6 +158,7 @@ class Stepper {
       rest(way);
       return false;
     }
+    if (rim_.lets_out(start.at.position, start.at.velocity, start.acceleration)) return leave(way);
     SubStep step = choose(start, way.drive, way.remaining < way.longest ? way.remaining : way.longest);
     ++way.counters.sub_steps;
     const bool turns_with_v = kRules && (F::friction || (F::thrust && way.drive.along < 0.0));
@@ -190,16 +192,12 @@ class Stepper {
     way.integrator = I{};
     ++way.events;
     way.counters.samples += 2;
+    if (rim_.lets_out(way.at.position, start.at.velocity, {})) return leave(way);
     // It may have stopped where it is not held, unlike where this step began.
     if (halt == Halt::kTurnsBack || !holds_at(ground_, rim_, way.at.position, way.drive)) return true;
     rest(way);
     ++way.counters.stops;
     return false;
-  }
-
-  static void rest(const Way& way) {
-    way.louse.phase = state::Phase::kResting;
-    way.happened |= state::kStopped;
   }
 
   /// The integrator's step, up to where it meets a wall or takes off. One that makes energy is not taken, but
@@ -232,6 +230,7 @@ class Stepper {
       point(way.drive, result.heading);
     }
     if (rim_.wraps()) carry_home(way);
+    if (hits && rim_.lets_out(way.at.position, way.at.velocity, {})) leave(way);
   }
 
   [[gnu::always_inline]] inline StepResult take_step(const Field& field, const Way& way, double h) const {
@@ -246,6 +245,7 @@ class Stepper {
     Motion& end = result.end;
     if (step.capped) {
       ++way.counters.capped;
+      if (rim_.is_open() && !rim_.lets_pass(end.position)) return Verdict::kDoubtful;
       end = bounded(start, way.drive, step, end);
       return Verdict::kTaken;
     }

@@ -8,7 +8,9 @@
 #include <variant>
 
 #include "shared/physics/ground_steps.h"
+#include "shared/physics/heading.h"
 #include "shared/physics/rim.h"
+#include "shared/physics/surface_motion.h"
 
 namespace woodlouse::physics {
 namespace {
@@ -49,6 +51,13 @@ std::unique_ptr<const GroundSteps> exact_steps(const terrain::Terrain& terrain, 
         }
       },
       terrain.surface());
+}
+
+/// Whether its heading is a state of its own, as drive_of() has it.
+bool turns_heading(const state::Louse& louse, const state::Parameters& p) {
+  return p.equations == state::Equations::kExact && p.thrust_max > 0.0 &&
+         louse.phase != state::Phase::kFlying && louse.thrust_kind == state::ThrustKind::kAlongHeading &&
+         louse.thrust.x > 0.0;
 }
 
 void clear_thrust(state::Louse& louse) {
@@ -125,18 +134,22 @@ void World::note_changes_from(std::size_t index) {
             std::uint8_t{1});
 }
 
+core::Vec2 World::in_domain(core::Vec2 position) const {
+  const Rim rim(walls_, parameters_.edges);
+  if (!rim.wraps())
+    return {std::clamp(position.x, walls_.x_min, walls_.x_max),
+            std::clamp(position.y, walls_.y_min, walls_.y_max)};
+  rim.carry_home(position);
+  return position;
+}
+
 void World::insert(const state::Louse& louse) {
   assert(find(louse.id) == nullptr);
   const auto at = std::lower_bound(lice_.begin(), lice_.end(), louse.id,
                                    [](const state::Louse& a, state::LouseId id) { return a.id < id; });
   events_.insert(events_.begin() + (at - lice_.begin()), state::StepEvents{0});
   state::Louse& placed = *lice_.insert(at, louse);
-  if (const Rim rim(walls_, parameters_.edges); rim.wraps()) {
-    rim.carry_home(placed.position);
-  } else {
-    placed.position.x = std::clamp(placed.position.x, walls_.x_min, walls_.x_max);
-    placed.position.y = std::clamp(placed.position.y, walls_.y_min, walls_.y_max);
-  }
+  placed.position = in_domain(placed.position);
   if (placed.phase != state::Phase::kFlying) settle(placed);
   lists_are_stale_ = true;
   note_changes_from(static_cast<std::size_t>(&placed - lice_.data()));
@@ -162,6 +175,23 @@ bool World::set_thrust(state::LouseId id, const state::Thrust& thrust, std::uint
   louse.thrust_ticks = ticks;
   if (thrust.kind == state::ThrustKind::kNone || ticks == 0) clear_thrust(louse);
   if (louse.phase == state::Phase::kResting) settle(louse);
+  if (list_of(louse) != before) lists_are_stale_ = true;
+  note_change(index);
+  return true;
+}
+
+bool World::set_motion(state::LouseId id, core::Vec2 position, core::Vec2 velocity) {
+  const core::Vec2 nothing = (position - position) + (velocity - velocity);
+  assert(nothing == core::Vec2{});  // finite
+  const std::size_t index = index_of(id);
+  if (index == lice_.size()) return false;
+  state::Louse& louse = lice_[index];
+  const List before = list_of(louse);
+  louse.position = in_domain(position);
+  louse.velocity = velocity;
+  if (!turns_heading(louse, parameters_) && core::dot(velocity, velocity) > kStandstill2)
+    louse.heading = unit(velocity);
+  if (louse.phase != state::Phase::kFlying) settle(louse);
   if (list_of(louse) != before) lists_are_stale_ = true;
   note_change(index);
   return true;

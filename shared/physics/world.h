@@ -68,6 +68,11 @@ class World {
   /// Replaces its thrust for `ticks` ticks (kHeld: until the next); wakes it where that moves it.
   /// REQUIRES |value| <= 1. False when there is none of that id.
   bool set_thrust(state::LouseId id, const state::Thrust& thrust, std::uint32_t ticks);
+  /// Replaces where it is over the map and how fast, as who bumps into it does; a place outside the domain is
+  /// moved as insert() does. Wakes it, or puts it to rest. It looks along its velocity, unless a thrust turns
+  /// its heading or it stands: then it keeps it. One that flies flies on, as high and with the same climb.
+  /// REQUIRES finite vectors. False when there is none of that id.
+  bool set_motion(state::LouseId id, core::Vec2 position, core::Vec2 velocity);
   /// Steps every louse that is not at rest.
   void step();
   /// Whether the next step is known to change nothing: no louse moves, and no thrust of one at rest runs out.
@@ -102,6 +107,7 @@ class World {
 
   [[nodiscard]] std::size_t index_of(state::LouseId id) const;
   void settle(state::Louse& louse) const;
+  [[nodiscard]] core::Vec2 in_domain(core::Vec2 position) const;
   void collect();
   void cut();
   void step(Part& part);

@@ -120,6 +120,18 @@ Decoded read_bare(FieldReader& reader) {
   return reader.finish<ClientMessage>(Message{});
 }
 
+Decoded read_respawn(FieldReader& reader) {
+  constexpr std::string_view kWants = R"("spawn" or "gate")";
+  Respawn respawn;
+  reader.choice(
+      "at", respawn.at_gate, kWants,
+      [](std::string_view text) -> std::optional<bool> {
+        return text == "gate" ? std::optional(true) : text == "spawn" ? std::optional(false) : std::nullopt;
+      },
+      Presence::kOptional);
+  return reader.finish<ClientMessage>(respawn);
+}
+
 using Read = Decoded (*)(FieldReader&);
 
 constexpr std::array<std::pair<std::string_view, Read>, 10> kTypes = {{
@@ -129,7 +141,7 @@ constexpr std::array<std::pair<std::string_view, Read>, 10> kTypes = {{
     {"list", read_bare<List>},
     {"get_map", read_bare<GetMap>},
     {"resync", read_bare<Resync>},
-    {"respawn", read_bare<Respawn>},
+    {"respawn", read_respawn},
     {"leave", read_bare<Leave>},
     {"ping", read_time<Ping>},
     {"pong", read_time<Pong>},

@@ -1,24 +1,20 @@
 #include "shared/protocol/decode_frame.h"
 
 #include "shared/protocol/codes.h"
+#include "shared/protocol/decode_game.h"
 
 namespace woodlouse::protocol {
 namespace {
 
 using Decoded = tl::expected<ServerMessage, DecodeError>;
 
-bool holds_integers(Column column) {
-  const state::LouseField* field = louse_field(column);
-  return field != nullptr && state::holds_integer(*field);
-}
-
 /// The cell's number, still in quanta; nothing when it is not what the column and format want.
 std::optional<double> cell_number(json::Value cell, Column column, bool is_integer) {
   if (!is_integer) return cell.is_number() ? std::optional(cell.number()) : std::nullopt;
   const auto integer = cell.integer();
-  const std::int64_t lowest = column == Column::kId ? 1 : 0;
-  const bool in_range =
-      integer && (!holds_integers(column) || (*integer >= lowest && *integer <= 0xffff'ffff));
+  const std::int64_t lowest = column == Column::kId ? 1 : is_of_rules(column) ? -kMaxInteger : 0;
+  const std::int64_t highest = is_of_rules(column) ? kMaxInteger : 0xffff'ffff;
+  const bool in_range = integer && (!is_whole(column) || (*integer >= lowest && *integer <= highest));
   return in_range ? std::optional(static_cast<double>(*integer)) : std::nullopt;
 }
 
@@ -31,7 +27,7 @@ void read_row(FieldReader& reader, json::Value row, std::size_t index, const Fra
   std::size_t place = 0;
   row.for_each([&](json::Value cell) {
     const Column column = context.fields[place++];
-    const bool is_integer = context.format == Format::kQuantized || holds_integers(column);
+    const bool is_integer = context.format == Format::kQuantized || is_whole(column);
     const auto number = cell_number(cell, column, is_integer);
     if (!number) {
       reader.fail(code::kBadField, "louse[" + std::to_string(index) + "]: " + std::string(to_text(column)) +
@@ -53,6 +49,11 @@ void read_rows(FieldReader& reader, const FrameContext& context, Frame& frame) {
                [&](json::Value row, std::size_t index) { read_row(reader, row, index, context, frame); });
 }
 
+void read_its_game(FieldReader& reader, Frame& frame) {
+  reader.object(
+      "game", [&](FieldReader& game) { frame.game = read_game(game, frame.is_key); }, Presence::kOptional);
+}
+
 }  // namespace
 
 Decoded read_key(FieldReader& reader, const FrameContext& context) {
@@ -60,6 +61,7 @@ Decoded read_key(FieldReader& reader, const FrameContext& context) {
   reader.integer("tick", frame.tick, kAnyTick);
   frame.base = frame.tick;
   read_rows(reader, context, frame);
+  read_its_game(reader, frame);
   std::uint64_t hash = 0;
   reader.hash("hash", hash);
   frame.hash = hash;
@@ -98,6 +100,7 @@ Decoded read_delta(FieldReader& reader, const FrameContext& context) {
         frame.gone.push_back(static_cast<std::uint32_t>(*id));
       },
       Presence::kOptional);
+  read_its_game(reader, frame);
   return reader.finish<ServerMessage>(std::move(frame));
 }
 

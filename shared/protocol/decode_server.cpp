@@ -3,6 +3,7 @@
 #include "shared/protocol/codec.h"
 #include "shared/protocol/codes.h"
 #include "shared/protocol/decode_frame.h"
+#include "shared/protocol/decode_game.h"
 #include "shared/protocol/field_reader.h"
 #include "shared/protocol/field_texts.h"
 #include "shared/protocol/text_cleaning.h"
@@ -123,9 +124,13 @@ Decoded read_welcome(FieldReader& reader, const Context&) {
                    state::method_from_text, kNewer);
     physics.choice("contact", welcome.physics.contact, "bilateral or unilateral", state::contact_from_text,
                    kNewer);
-    physics.choice("edges", welcome.physics.edges, "walls or wrap", state::edges_from_text, kNewer);
+    physics.choice("edges", welcome.physics.edges, "walls, wrap or open", state::edges_from_text, kNewer);
   });
   reader.cleaned_text("mode", welcome.mode, kLabelBytes);
+  if (const auto rules = reader.field("rules", "an object", Presence::kOptional)) {
+    if (rules->kind() != json::Kind::kObject) reader.refuse("rules", *rules, "an object");
+    if (!reader.failed()) welcome.rules = rules->raw();
+  }
   reader.objects("players", [&](FieldReader& player) {
     PlayerEntry entry;
     player.integer("id", entry.id, kAnyUint32);
@@ -176,7 +181,7 @@ Decoded read_ack(FieldReader& reader, const Context&) {
 
 /// A kind of a later version is no fault: unknown_type lets a client pass over it.
 void read_kind(FieldReader& reader, EventKind& out) {
-  constexpr std::string_view kWants = R"("joined", "left", "chat" or "respawned")";
+  constexpr std::string_view kWants = R"("joined", "left", "chat", "respawned" or one of the rules')";
   const auto value = reader.field("kind", kWants, Presence::kRequired);
   if (!value) return;
   if (value->kind() != json::Kind::kString) return reader.refuse("kind", *value, kWants);
@@ -188,6 +193,22 @@ void read_kind(FieldReader& reader, EventKind& out) {
   out = *kind;
 }
 
+/// What an event of the rules carries.
+void read_ruling(FieldReader& reader, Event& event) {
+  reader.integer("moment", event.moment, kAnyTick);
+  const std::span<const std::string_view> names = value_names(event.kind);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto value = reader.field(names[k], "a whole number or null", Presence::kRequired);
+    if (!value || value->kind() == json::Kind::kNull) continue;
+    std::int64_t number = 0;
+    reader.integer(names[k], number, kAnyInteger);
+    event.values[k] = number;
+  }
+  if (event.kind != EventKind::kRound) return;
+  read_phase(reader, event.phase);
+  event.table = read_table(reader);
+}
+
 Decoded read_event(FieldReader& reader, const Context&) {
   Event event;
   reader.integer("n", event.n, {1, kMaxInteger});
@@ -197,6 +218,7 @@ Decoded read_event(FieldReader& reader, const Context&) {
   reader.cleaned_text("name", event.name, kNameBytes);
   if (event.kind == EventKind::kJoined) reader.choice("role", event.role, kRoleTexts, role_from_text);
   if (event.kind == EventKind::kChat) reader.cleaned_text("text", event.text, {1, kMaxChatBytes});
+  if (is_of_rules(event.kind)) read_ruling(reader, event);
   return reader.finish<ServerMessage>(std::move(event));
 }
 

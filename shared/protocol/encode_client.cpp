@@ -39,7 +39,11 @@ void append_line(std::string& out, const Chat& chat) {
 void append_line(std::string& out, const List&) { json::ObjectText(out, "list").end_line(); }
 void append_line(std::string& out, const GetMap&) { json::ObjectText(out, "get_map").end_line(); }
 void append_line(std::string& out, const Resync&) { json::ObjectText(out, "resync").end_line(); }
-void append_line(std::string& out, const Respawn&) { json::ObjectText(out, "respawn").end_line(); }
+void append_line(std::string& out, const Respawn& respawn) {
+  json::ObjectText text(out, "respawn");
+  if (respawn.at_gate) text.text("at", "gate");
+  text.end_line();
+}
 void append_line(std::string& out, const Leave&) { json::ObjectText(out, "leave").end_line(); }
 void append_line(std::string& out, const Ping& ping) {
   json::ObjectText(out, "ping").integer("t", ping.t).end_line();

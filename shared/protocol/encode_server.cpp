@@ -49,6 +49,7 @@ void append_line(std::string& out, const Welcome& welcome) {
     physics.text("edges", state::to_text(welcome.physics.edges));
   });
   text.text("mode", welcome.mode);
+  if (!welcome.rules.empty()) text.json("rules", welcome.rules);
   text.objects("players", welcome.players, [](json::ObjectText& entry, const PlayerEntry& player) {
     entry.integer("id", player.id).text("name", player.name).text("role", to_text(player.role));
   });
@@ -62,12 +63,29 @@ void append_line(std::string&, const Frame&) {
 
 void append_line(std::string& out, const Ack& ack) { append_ack(out, ack); }
 
+/// What an event of the rules carries.
+void add_ruling(json::ObjectText& text, const Event& event) {
+  text.integer("moment", event.moment);
+  const std::span<const std::string_view> names = value_names(event.kind);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (event.values[k]) {
+      text.integer(names[k], *event.values[k]);
+    } else {
+      text.json(names[k], "null");
+    }
+  }
+  if (event.kind != EventKind::kRound) return;
+  text.text("phase", to_text(event.phase));
+  append_table(text, event.table);
+}
+
 void append_line(std::string& out, const Event& event) {
   json::ObjectText text(out, "event");
   text.integer("n", event.n).integer("tick", event.tick).text("kind", to_text(event.kind));
   text.integer("id", event.id).text("name", event.name);
   if (event.kind == EventKind::kJoined) text.text("role", to_text(event.role));
   if (event.kind == EventKind::kChat) text.text("text", event.text);
+  if (is_of_rules(event.kind)) add_ruling(text, event);
   text.end_line();
 }
 

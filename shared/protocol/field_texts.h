@@ -23,14 +23,6 @@ inline std::optional<Format> format_from_text(std::string_view text) {
   return std::nullopt;
 }
 
-inline std::optional<EventKind> event_kind_from_text(std::string_view text) {
-  for (const EventKind kind :
-       {EventKind::kJoined, EventKind::kLeft, EventKind::kChat, EventKind::kRespawned}) {
-    if (to_text(kind) == text) return kind;
-  }
-  return std::nullopt;
-}
-
 /// The names of all columns, separated by blanks.
 inline std::string column_names() {
   std::string names;

@@ -10,28 +10,54 @@ struct ColumnEntry {
   std::string_view name;
   double quantum = 0.0;
   const state::LouseField* field = nullptr;  ///< null: computed from the louse and the terrain under it
+  bool is_whole = false;
 };
 
 /// A column that is one of the louse's own fields.
 consteval ColumnEntry own(std::string_view name) {
   const state::LouseField* field = state::find_field(name);
-  return {field->name, field->quantum, field};
+  return {field->name, field->quantum, field, state::holds_integer(*field)};
 }
 
 consteval ColumnEntry computed(std::string_view name) { return {name, state::kCoordinateQuantum, nullptr}; }
 
+consteval ColumnEntry counted(std::string_view name) { return {name, 1.0, nullptr, true}; }
+
 // In the order of Column.
 constexpr std::array<ColumnEntry, kColumnCount> kColumns = {
-    {own("id"),         own("x"),          own("y"),         own("vx"),        own("vy"),
-     computed("z"),     own("heading_x"),  own("heading_y"), computed("yaw"),  computed("pitch"),
-     computed("roll"),  computed("speed"), own("tx"),        own("ty"),        own("thrust_kind"),
-     own("ticks_left"), own("phase"),      own("flight_z"),  own("flight_vz"), own("distance")}};
+    {own("id"),          own("x"),          own("y"),           own("vx"),
+     own("vy"),          computed("z"),     own("heading_x"),   own("heading_y"),
+     computed("yaw"),    computed("pitch"), computed("roll"),   computed("speed"),
+     own("tx"),          own("ty"),         own("thrust_kind"), own("ticks_left"),
+     own("phase"),       own("flight_z"),   own("flight_vz"),   own("distance"),
+     counted("score"),   counted("gate"),   counted("lap"),     counted("lap_start"),
+     counted("best_lap")}};
 
 const ColumnEntry& entry(Column column) {
   const auto index = static_cast<std::size_t>(column);
   assert(index < kColumns.size());
   return kColumns[index];
 }
+
+struct EventEntry {
+  std::string_view name;
+  std::array<std::string_view, kMostEventValues> values{};
+  std::size_t count = 0;
+};
+
+template <typename... Names>
+consteval EventEntry event(std::string_view name, Names... values) {
+  return {name, {values...}, sizeof...(values)};
+}
+
+// In the order of EventKind.
+constexpr std::array<EventEntry, kEventKindCount> kEvents = {
+    {event("joined"), event("left"), event("chat"), event("respawned"),
+     event("gate", "gate", "lap", "split", "delta"), event("lap", "lap", "time", "best"),
+     event("run", "time", "rank", "ranked"), event("crumb", "slot", "value", "chain", "score"),
+     event("harvest"), event("bump", "other", "impulse"), event("holds"), event("contested"),
+     event("moving", "place", "at"), event("fell", "by"), event("returned"),
+     event("round", "round", "until")}};
 
 }  // namespace
 
@@ -43,6 +69,8 @@ std::optional<Column> column_from_text(std::string_view text) {
   }
   return std::nullopt;
 }
+
+bool is_whole(Column column) { return entry(column).is_whole; }
 
 double quantum(Column column) { return entry(column).quantum; }
 
@@ -87,18 +115,18 @@ std::optional<Role> role_from_text(std::string_view text) {
   return std::nullopt;
 }
 
-std::string_view to_text(EventKind kind) {
-  switch (kind) {
-    case EventKind::kJoined:
-      return "joined";
-    case EventKind::kLeft:
-      return "left";
-    case EventKind::kChat:
-      return "chat";
-    case EventKind::kRespawned:
-      return "respawned";
+std::string_view to_text(EventKind kind) { return kEvents[static_cast<std::size_t>(kind)].name; }
+
+std::optional<EventKind> event_kind_from_text(std::string_view text) {
+  for (std::size_t k = 0; k < kEvents.size(); ++k) {
+    if (kEvents[k].name == text) return static_cast<EventKind>(k);
   }
-  return "joined";
+  return std::nullopt;
+}
+
+std::span<const std::string_view> value_names(EventKind kind) {
+  const EventEntry& event = kEvents[static_cast<std::size_t>(kind)];
+  return std::span(event.values).first(event.count);
 }
 
 }  // namespace woodlouse::protocol

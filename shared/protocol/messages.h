@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
 #include "shared/core/vec2.h"
+#include "shared/protocol/game.h"
 #include "shared/protocol/limits.h"
 #include "shared/state/louse.h"
 #include "shared/state/louse_fields.h"
@@ -61,8 +63,14 @@ enum class Column : std::uint8_t {
   kFlightZ,
   kFlightVz,
   kDistance,
+  // Of the rules of play; 0 where a mode has none.
+  kScore,     ///< points; of a race the best run [moments]
+  kGate,      ///< the next one
+  kLap,       ///< of the run, from 0
+  kLapStart,  ///< [moments]; 0: the clock does not run
+  kBestLap,   ///< [moments]; 0: none
 };
-inline constexpr std::size_t kColumnCount = 20;
+inline constexpr std::size_t kColumnCount = 25;
 
 std::string_view to_text(Column column);
 std::optional<Column> column_from_text(std::string_view text);
@@ -70,6 +78,14 @@ std::optional<Column> column_from_text(std::string_view text);
 double quantum(Column column);
 /// The field of a louse that the column shows, or null where it is computed from the louse and the terrain.
 const state::LouseField* louse_field(Column column);
+
+/// One that counts: an integer in either format.
+bool is_whole(Column column);
+/// One of the rules of play.
+constexpr bool is_of_rules(Column column) { return column >= Column::kScore; }
+
+inline constexpr std::array kRulesColumns = {Column::kScore, Column::kGate, Column::kLap, Column::kLapStart,
+                                             Column::kBestLap};
 
 /// `id x y vx vy`, what a row has unless asked otherwise.
 const std::vector<Column>& default_columns();
@@ -121,6 +137,7 @@ struct Resync {
   friend bool operator==(const Resync&, const Resync&) = default;
 };
 struct Respawn {
+  bool at_gate = false;  ///< of a race: at the gate driven through last, as fast as then
   friend bool operator==(const Respawn&, const Respawn&) = default;
 };
 struct Leave {
@@ -175,7 +192,8 @@ struct Welcome {
   /// On the wire: gravity, drag, friction, thrust_max, edge_restitution. The others stand in the map's
   /// definition; decoded, they are what a map has that does not name them.
   state::Parameters physics;
-  std::string mode;                  ///< "roam"
+  std::string mode;                  ///< "roam", "race", "forage" or "hill"
+  std::string rules;                 ///< of the mode, as the map has them: a JSON object; empty: roam
   std::vector<PlayerEntry> players;  ///< who is there already, spectators apart
   std::uint32_t spectators = 0;      ///< how many there are
   friend bool operator==(const Welcome&, const Welcome&) = default;
@@ -193,6 +211,7 @@ struct Frame {
   std::optional<std::uint64_t> hash;     ///< keys only
   std::optional<state::HashLink> proof;  ///< what besides the rows went into the hash: keys of all_columns()
                                          ///< in exact format only (its tick is none after the key's)
+  std::optional<Game> game;              ///< of the rules, where there are any; a delta's what has changed
   [[nodiscard]] std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
   friend bool operator==(const Frame&, const Frame&) = default;
 };
@@ -215,8 +234,34 @@ struct Ack {
   friend bool operator==(const Ack&, const Ack&) = default;
 };
 
-enum class EventKind : std::uint8_t { kJoined, kLeft, kChat, kRespawned };
+enum class EventKind : std::uint8_t {
+  kJoined,
+  kLeft,
+  kChat,
+  kRespawned,
+  // Of the rules of play (shared/rules/event.h), in its order.
+  kGate,
+  kLapDone,
+  kRun,
+  kCrumb,
+  kHarvest,
+  kBump,
+  kHolds,
+  kContested,
+  kMoving,
+  kFell,
+  kReturned,
+  kRound,
+};
+inline constexpr std::size_t kEventKindCount = 16;
 std::string_view to_text(EventKind kind);
+std::optional<EventKind> event_kind_from_text(std::string_view text);
+
+inline constexpr std::size_t kMostEventValues = 4;
+/// What an event of the rules carries besides: whole numbers under these names, in the order of
+/// Event::values. Times are in moments, 1/65536 of a tick.
+std::span<const std::string_view> value_names(EventKind kind);
+constexpr bool is_of_rules(EventKind kind) { return kind >= EventKind::kGate; }
 
 struct Event {
   std::uint64_t n = 0;  ///< numbered per room from 1, without holes
@@ -226,6 +271,11 @@ struct Event {
   std::string name;
   Role role = Role::kPlayer;  ///< joined only
   std::string text;           ///< chat only
+  // Of the rules only:
+  std::uint64_t moment = 0;                                            ///< when, in moments since tick 0
+  std::array<std::optional<std::int64_t>, kMostEventValues> values{};  ///< value_names(); none: null
+  GamePhase phase = GamePhase::kGather;                                ///< round only: that begins
+  std::vector<GameTableRow> table{};                                   ///< round only
   friend bool operator==(const Event&, const Event&) = default;
 };
 

@@ -1,6 +1,6 @@
 // A recording: one JSON object a line, written while the game runs, read by less, jq and the replayer.
 //
-//     {"format":"woodlouse-replay","version":3,"behavior":..,"build":..,"seed":"..","tick_hz":..,"map":{..}}
+//     {"format":"woodlouse-replay","version":3,"behavior":..,"build":..,"seed":"..","tick_hz":..,"mode":"race","map":{..}}
 //     {"keyframe":n,"hash":..,"generator":..,"players":[..],"lice":[..],..}   all of the match at tick n
 //     {"step":n,"roster":[..],"inputs":[..],"hash":"16 hex digits"}   step n -> n+1; the hash is tick n+1's
 //     {"step":n,"steps":k,"hash":..}             k steps that applied nothing and changed nothing
@@ -53,12 +53,18 @@ struct Header {
   std::string build;  ///< name and version of the server, for people
   std::uint64_t seed = 0;
   std::uint32_t tick_hz = 60;
+  state::Mode mode = state::Mode::kRoam;
   std::string map_name;
   std::uint64_t map_hash = 0;
   std::string map_definition;  ///< the canonical map; empty where it is longer than kMaxInlineMapBytes
   std::string map_file;        ///< where the server found it; only used when map_definition is empty
   std::optional<Parent> parent;
 };
+
+/// Of the match that was recorded.
+inline match::MatchSettings settings_of(const Header& header) {
+  return {header.tick_hz, header.seed, header.mode};
+}
 
 /// The header of a match. `map_file` as the server was given it.
 Header make_header(const match::Match& match, std::string_view build, std::string_view map_file);

@@ -62,8 +62,8 @@ Header read_header(const json::Value& root, Problems& problems) {
   Header header;
   check_kind(root, problems);
   if (problems.count() != 0) return header;
-  const Fields fields(root, {"format", "version", "behavior", "build", "seed", "tick_hz", "parent", "map"},
-                      problems);
+  const Fields fields(
+      root, {"format", "version", "behavior", "build", "seed", "tick_hz", "mode", "parent", "map"}, problems);
   header.build = fields.text("build", kMaxTextBytes);
   if (const auto seed = fields.demand("seed")) {
     const auto number = seed->is(json::Kind::kString) ? json::unsigned_text(seed->text(), 10) : std::nullopt;
@@ -71,6 +71,11 @@ Header read_header(const json::Value& root, Problems& problems) {
     header.seed = number.value_or(0);
   }
   header.tick_hz = static_cast<std::uint32_t>(fields.integer("tick_hz", 1, 1000));
+  if (const auto value = fields.find("mode")) {
+    const auto mode = json::choice_of(*value, state::mode_from_text);
+    if (!mode) problems.add(*value, "is no mode of play that this build knows");
+    header.mode = mode.value_or(state::Mode::kRoam);
+  }
   if (const auto value = fields.find("parent")) header.parent = read_parent(*value, problems);
   if (const auto value = fields.demand("map")) read_map(*value, header, problems);
   return header;

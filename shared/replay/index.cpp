@@ -36,11 +36,10 @@ void ReplayIndex::add(const KeyframePlace& place, const Keyframe& keyframe) {
   keyframes.push_back(place);
   last_tick = std::max(last_tick, place.tick);
   if (keyframes.size() > 1) return;
-  for (const state::Louse& louse : keyframe.state.lice) {  // a fork's: nobody saw them join
-    const auto label = keyframe.state.labels.find(louse.id);
-    const bool is_known = label != keyframe.state.labels.end();
-    add_player({louse.id, is_known ? label->second : match::PlayerLabel{}, place.tick, {}});
-  }
+  // A fork's: nobody saw them join. By the rules of play one of them may have no louse at present.
+  match::PlayerLabels labels = keyframe.state.labels;
+  for (const state::Louse& louse : keyframe.state.lice) labels.try_emplace(louse.id);
+  for (const auto& [player, label] : labels) add_player({player, label, place.tick, {}});
 }
 
 void ReplayIndex::add(const StepLine& line) {
@@ -59,6 +58,7 @@ void ReplayIndex::add(const StepLine& line) {
         add_mark({step.tick, MarkKind::kLeave, change.player});
         break;
       case match::RosterAction::kRespawn:
+      case match::RosterAction::kRespawnAtGate:
         add_mark({step.tick, MarkKind::kRespawn, change.player});
         break;
     }

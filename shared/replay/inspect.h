@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,11 @@ struct InspectedState {
   std::optional<Difference> difference;  ///< the first since the keyframe before
 };
 core::Expected<InspectedState> inspect_state(const ReplayArchive& archive, std::uint64_t tick);
+
+/// What the rules of play said, re-run from the beginning: a line each (rules/event.h), to `out`. Errors: the
+/// recording is damaged, or was not played so (the lines before that are out by then).
+core::Expected<void> inspect_rulings(const ReplayArchive& archive,
+                                     const std::function<void(const std::string&)>& out);
 
 /// Header, players, events, and for each player how many inputs, how many of them late, and their margins: as
 /// the lines say, all of which are read, and where the index says otherwise. A table for people.

@@ -100,6 +100,8 @@ std::string head(const ReplayArchive& archive, const Reading& reading) {
       {archive.source().name, "\nmap      ", shown(header.map_name), " ", core::to_hex(header.map_hash),
        "\nplayed   by ", shown(header.build), ", behavior ", std::to_string(header.behavior), ", seed ",
        std::to_string(header.seed), ", ", std::to_string(header.tick_hz), " ticks/s\n"});
+  if (header.mode != state::Mode::kRoam)
+    out += core::joined({"mode     ", state::to_text(header.mode), "\n"});
   if (header.parent) {
     out += core::joined({"goes on  from ", shown(header.parent->file), " at tick ",
                          std::to_string(header.parent->tick), "\n"});

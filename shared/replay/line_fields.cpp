@@ -40,4 +40,17 @@ match::PlayerLabel label_of(const json::Value& name, const json::Value& role, js
   return {json::any_text(name, kMaxTextBytes, problems), plays ? *known : state::Role::kPlayer};
 }
 
+std::string bytes_of(const json::Value& value, Problems& problems) {
+  const auto digit = [](char c) {
+    return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+  };
+  const std::string_view text = value.is(json::Kind::kString) ? value.text() : std::string_view();
+  std::string bytes;
+  for (std::size_t k = 0; k + 1 < text.size() && digit(text[k]) >= 0 && digit(text[k + 1]) >= 0; k += 2)
+    bytes += static_cast<char>(digit(text[k]) << 4 | digit(text[k + 1]));
+  if (text.empty() || 2 * bytes.size() != text.size())
+    problems.add(value, "bytes of two hex digits each are wanted");
+  return bytes;
+}
+
 }  // namespace woodlouse::replay

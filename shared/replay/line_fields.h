@@ -35,4 +35,7 @@ void read_list(const json::Value& value, json::Problems& problems, const Read& r
   }
 }
 
+/// A text of two hex digits a byte, at least one byte.
+std::string bytes_of(const json::Value& value, json::Problems& problems);
+
 }  // namespace woodlouse::replay

@@ -28,7 +28,6 @@ constexpr std::size_t kMaxDepth = 8;
 constexpr std::size_t kMaxValues = 4'000'000;  // of a line of kMaxReplayLineBytes
 constexpr std::uint64_t kMaxUint32 = std::numeric_limits<std::uint32_t>::max();
 constexpr Range kCoordinate{-1e300, 1e300, ""};
-constexpr const char* kNoRules = "belongs to rules of play that this build does not know";
 
 template <typename T>
 T as(std::optional<std::uint64_t> value) {
@@ -36,6 +35,14 @@ T as(std::optional<std::uint64_t> value) {
 }
 
 // ---- a step ----------------------------------------------------------------------------------------------
+
+/// Where a respawn leads, if not to a spawn.
+void read_at(const json::Value& at, match::RosterChange& change, Problems& problems) {
+  const bool is_gate = at.is(json::Kind::kString) && at.text() == "gate";
+  if (!is_gate || change.action != match::RosterAction::kRespawn)
+    return problems.add(at, "is known of a respawn alone, and \"gate\" is all that it can be");
+  change.action = match::RosterAction::kRespawnAtGate;
+}
 
 void read_change(const json::Value& value, StepLine& line, Problems& problems) {
   using match::RosterAction;
@@ -53,7 +60,7 @@ void read_change(const json::Value& value, StepLine& line, Problems& problems) {
       if (name && role) change.label = label_of(*name, *role, problems);
     } else {
       const Fields fields(value, {key, "at"}, problems);
-      if (const auto at = fields.find("at")) problems.add(*at, kNoRules);
+      if (const auto at = fields.find("at")) read_at(*at, change, problems);
     }
     line.step.roster.push_back(std::move(change));
     return;
@@ -184,7 +191,7 @@ Keyframe read_keyframe(const json::Value& root, Problems& problems) {
                 fields.hash("rules"),
                 fields.integer("link", 0, kMaxTick),
                 fields.hash("generator")};
-  if (const auto rules = fields.find("rules_state")) problems.add(*rules, kNoRules);
+  if (const auto rules = fields.find("rules_state")) state.rules = bytes_of(*rules, problems);
   state.next_player = static_cast<match::PlayerId>(fields.integer("next_player", 1, kMaxUint32));
   const auto list = [&](std::string_view key, const auto& read) {
     if (const auto value = fields.demand(key)) read_list(*value, problems, read);

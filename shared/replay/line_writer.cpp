@@ -20,6 +20,7 @@ std::string_view to_text(match::RosterAction action) {
     case match::RosterAction::kLeave:
       return "leave";
     case match::RosterAction::kRespawn:
+    case match::RosterAction::kRespawnAtGate:
       return "respawn";
   }
   assert(false);
@@ -63,6 +64,7 @@ void append_thrust(std::string& out, state::ThrustKind kind, core::Vec2 value) {
 
 void append_roster_change(json::ObjectText& entry, const match::RosterChange& change) {
   entry.integer(to_text(change.action), change.player);
+  if (change.action == match::RosterAction::kRespawnAtGate) entry.text("at", "gate");
   if (change.action != match::RosterAction::kJoin) return;
   entry.text("name", change.label.name).text("role", protocol::to_text(change.label.role));
 }
@@ -104,6 +106,18 @@ void append_player(std::string& out, const match::PlayerSeq& player, const match
   out += ']';
 }
 
+/// Two digits a byte.
+std::string hex_text(std::string_view bytes) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  text.reserve(2 * bytes.size());
+  for (const char byte : bytes) {
+    text += kDigits[static_cast<unsigned char>(byte) >> 4];
+    text += kDigits[static_cast<unsigned char>(byte) & 15];
+  }
+  return text;
+}
+
 void append_name(std::string& out, const state::LouseField& field) { json::append_string(out, field.name); }
 
 void append_louse(std::string& out, const state::Louse& louse) {
@@ -129,6 +143,7 @@ Header make_header(const match::Match& match, std::string_view build, std::strin
   header.build = build;
   header.seed = match.settings().seed;
   header.tick_hz = match.settings().tick_hz;
+  header.mode = match.settings().mode;
   header.map_name = match.map().definition.name;
   header.map_hash = match.map().hash;
   const map::Map& map = match.map();
@@ -144,6 +159,7 @@ void append_header(std::string& out, const Header& header) {
   line.text("build", header.build);
   // Text, because many readers hold numbers as doubles.
   line.text("seed", std::to_string(header.seed)).integer("tick_hz", header.tick_hz);
+  if (header.mode != state::Mode::kRoam) line.text("mode", state::to_text(header.mode));
   if (header.parent) {
     line.object("parent", [&](json::ObjectText& parent) {
       parent.text("file", header.parent->file).integer("tick", header.parent->tick);
@@ -174,6 +190,7 @@ void append_keyframe(std::string& out, const match::MatchState& state) {
   line.array("waiting", state.waiting, append_waiting);
   line.array("columns", state::kLouseFields, append_name);
   line.array("lice", state.lice, append_louse);
+  if (!state.rules.empty()) line.text("rules_state", hex_text(state.rules));
   end_line(out, line);
 }
 

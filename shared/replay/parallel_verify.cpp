@@ -102,7 +102,7 @@ Finding Plan::Job::run(std::size_t k) {
   if (k == 0) lines.add(places[k], *keyframe);
   const Header& header = archive.header();
   core::Expected<Segment> segment =
-      run_segment(reader, archive.map(), {header.tick_hz, header.seed}, std::move(*keyframe), lines);
+      run_segment(reader, archive.map(), settings_of(header), std::move(*keyframe), lines);
   if (!segment) return {k, std::move(segment), !reader.wants_longer_lines()};
   const bool is_last = k + 1 == places.size();
   bool is_where_planned = !segment->next == is_last;

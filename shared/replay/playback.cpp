@@ -38,8 +38,7 @@ core::Expected<void> Playback::restore(std::size_t keyframe) {
                                     " is not where the index has it"}));
   }
   const Header& header = archive_->header();
-  auto rerun = Rerun::from_recorded(archive_->map(), {header.tick_hz, header.seed}, std::move(*found),
-                                    reader->place());
+  auto rerun = Rerun::from_recorded(archive_->map(), settings_of(header), std::move(*found), reader->place());
   if (!rerun) return tl::unexpected(rerun.error());
   reader_ = std::move(reader);
   rerun_ = std::move(*rerun);

@@ -27,7 +27,7 @@ std::string name_of(const match::AppliedInput& input) {
 }
 
 std::string name_of(const match::RosterChange& change) {
-  constexpr std::string_view kNames[] = {"", "join of ", "leave of ", "respawn of "};
+  constexpr std::string_view kNames[] = {"", "join of ", "leave of ", "respawn of ", "respawn at a gate of "};
   return joined({kNames[static_cast<std::size_t>(change.action)], "player ", std::to_string(change.player)});
 }
 
@@ -193,6 +193,9 @@ core::Expected<std::optional<Difference>> Rerun::step(const StepLine& line, cons
         break;
       case match::RosterAction::kRespawn:
         match_->respawn(change.player);
+        break;
+      case match::RosterAction::kRespawnAtGate:
+        match_->respawn_at_gate(change.player);
         break;
     }
   }

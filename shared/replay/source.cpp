@@ -65,6 +65,11 @@ core::Expected<MapPointer> recorded_map(const Header& header, const ReplaySource
                       header.map_definition.empty() ? "put the map it was played on beside the recording"
                                                     : "the map in the recording was altered");
   }
+  if (map && !(*map)->definition.modes.has(header.mode)) {
+    return core::fail(joined({source.name, ":1: mode"}),
+                      joined({"the map has no mode ", state::to_text(header.mode)}),
+                      "the recording was altered");
+  }
   return map;
 }
 

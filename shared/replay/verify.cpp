@@ -31,8 +31,8 @@ core::Expected<Verification> verify(const ReplaySource& source) {
   add(*start);
   bool has_end = false;
   while (start && !verification.difference) {
-    core::Expected<Segment> segment = run_segment(reader, *map, {header->tick_hz, header->seed},
-                                                  *std::exchange(start, std::nullopt), lines);
+    core::Expected<Segment> segment =
+        run_segment(reader, *map, settings_of(*header), *std::exchange(start, std::nullopt), lines);
     if (!segment) return tl::unexpected(segment.error());
     verification.ticks += segment->steps;
     verification.difference = std::move(segment->difference);

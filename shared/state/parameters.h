@@ -16,6 +16,7 @@ enum class SurfaceContact {
 enum class Edges {
   kWalls,  ///< four walls: it bounces
   kWrap,   ///< the opposite rim: the map goes on without end; the terrain must be periodic
+  kOpen,   ///< nothing: its motion ends there
 };
 
 /// What a louse obeys.
@@ -55,9 +56,11 @@ constexpr std::string_view to_text(Method method) {
   }
   return "standard";
 }
-constexpr std::string_view to_text(Edges edges) { return edges == Edges::kWrap ? "wrap" : "walls"; }
+constexpr std::string_view to_text(Edges edges) {
+  return edges == Edges::kWrap ? "wrap" : edges == Edges::kOpen ? "open" : "walls";
+}
 constexpr std::optional<Edges> edges_from_text(std::string_view text) {
-  for (const Edges edges : {Edges::kWalls, Edges::kWrap}) {
+  for (const Edges edges : {Edges::kWalls, Edges::kWrap, Edges::kOpen}) {
     if (to_text(edges) == text) return edges;
   }
   return std::nullopt;

@@ -12,5 +12,6 @@ inline constexpr StepEvents kCrossedSeam = 1u << 1;  ///< goes on at the opposit
 inline constexpr StepEvents kTookOff = 1u << 2;
 inline constexpr StepEvents kLanded = 1u << 3;
 inline constexpr StepEvents kStopped = 1u << 4;  ///< came to rest
+inline constexpr StepEvents kLeft = 1u << 5;     ///< is at an open edge, which ended its motion
 
 }  // namespace woodlouse::state

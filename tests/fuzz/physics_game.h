@@ -3,7 +3,7 @@
 //
 // The bytes' order; physics_seeds.py writes the same:
 // - terrain (%5: GameGround), method (%3: standard, cheap, precise), bits (1 unilateral, 2 wrap, 4 central
-//   gravity, 8 the default core), ticks a second less 1 (a pair, %1000)
+//   gravity, 8 the default core, 16 open edges), ticks a second less 1 (a pair, %1000)
 // - gravity, drag, friction, thrust_max (numbers), edge_restitution (a byte of 255), central_gravity,
 //   core_radius (numbers)
 // - of a function: which (%5), grid less 2 (%4), scale (number)
@@ -32,7 +32,7 @@
 #include "shared/core/joined.h"
 #include "shared/core/vec2.h"
 #include "shared/json/text.h"
-#include "shared/map/map_reader.h"
+#include "shared/map/spawns.h"
 #include "shared/state/parameters.h"
 #include "shared/state/thrust.h"
 #include "shared/terrain/function_surface.h"
@@ -187,6 +187,7 @@ inline std::string read_map(Bytes& bytes, double& step) {
   const std::uint32_t bits = bytes.next();
   const bool wraps = (bits & 2u) != 0;
   const bool unilateral = (bits & 1u) != 0;
+  const std::string_view edges = wraps ? "wrap" : (bits & 16u) != 0 ? "open" : "walls";
   const bool central = (bits & 4u) != 0 && !wraps && !unilateral;
   if (wraps && ground == GameGround::kNaturalSpline) ground = GameGround::kSpline;
   step = 1.0 / (1 + bytes.pair() % 1000);
@@ -211,9 +212,8 @@ inline std::string read_map(Bytes& bytes, double& step) {
                                    : ground == GameGround::kNaturalSpline ? "natural_spline"
                                                                           : "spline";
   return core::joined({R"({"name":"fuzz","terrain":)", terrain, R"(,"surface":")", surface, R"(","edges":")",
-                       wraps ? "wrap" : "walls", R"(","physics":{"contact":")",
-                       unilateral ? "unilateral" : "bilateral", R"(","method":")", state::to_text(method),
-                       "\"", physics, "}}"});
+                       edges, R"(","physics":{"contact":")", unilateral ? "unilateral" : "bilateral",
+                       R"(","method":")", state::to_text(method), "\"", physics, "}}"});
 }
 
 inline Game read_game(std::span<const std::uint8_t> input) {

@@ -10,7 +10,7 @@ import random
 
 FUNCTION, FUNCTION_SPLINE, SPLINE, NATURAL_SPLINE, PLANE = range(5)
 STANDARD, CHEAP, PRECISE = range(3)
-UNILATERAL, WRAP, CENTRAL, DEFAULT_CORE = 1, 2, 4, 8
+UNILATERAL, WRAP, CENTRAL, DEFAULT_CORE, OPEN = 1, 2, 4, 8, 16
 WAVES, PARABOLIC_POT, WAVY_POT, VOLCANO, HILLS = range(5)
 HELD = 255
 
@@ -118,6 +118,9 @@ SEEDS = {
     "capped": game(map_of(SPLINE, hz=1, gravity=900.0, dx=0.0625, steepness=0), CROWD, ticks=6),
     "capped_cheap": game(map_of(SPLINE, CHEAP, hz=3, friction=2.0, dx=0.001, steepness=1), CROWD, *STEER, ticks=6),
     "bounce_storm": game(map_of(PLANE, hz=1, restitution=1.0, dx=0.01, heights=(100, 70)), STORM, ticks=8),
+    "open": game(map_of(SPLINE, bits=OPEN, hz=20, friction=0.1, thrust_max=8.0), CROWD, *STEER, ticks=32),
+    "open_flight": game(map_of(FUNCTION, CHEAP, OPEN | UNILATERAL, hz=15, function=HILLS), CROWD, *STEER, ticks=32),
+    "open_storm": game(map_of(SPLINE, PRECISE, OPEN | UNILATERAL, hz=2, dx=0.05, steepness=2), STORM, ticks=8),
     "thrown_storm": game(map_of(SPLINE, PRECISE, UNILATERAL, hz=2, restitution=0.99, dx=0.05, steepness=2), STORM,
                          ticks=6),
 }

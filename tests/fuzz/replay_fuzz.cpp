@@ -136,7 +136,7 @@ void check_finite(const match::Match& match) {
 
 /// Whoever alters a keyframe can make its hash fit: what passes then must be a state that goes on.
 void check_keyframe(const Header& header, const std::shared_ptr<const map::Map>& map, Keyframe keyframe) {
-  const match::MatchSettings settings{header.tick_hz, header.seed};
+  const match::MatchSettings settings = replay::settings_of(header);
   match::MatchState& state = keyframe.state;
   if (state.link.tick != 0) {
     core::StableHasher hasher;

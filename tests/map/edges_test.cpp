@@ -3,6 +3,7 @@
 #include <string>
 
 #include "shared/map/map_file.h"
+#include "shared/map/map_world.h"
 
 namespace woodlouse::map {
 namespace {
@@ -42,6 +43,29 @@ TEST_CASE("a map with walls is the same map whether it says so or not") {
   REQUIRE((silent && said));
   CHECK((*silent)->hash == (*said)->hash);
   CHECK((*silent)->canonical.find("edges") == std::string::npos);
+}
+
+TEST_CASE("any terrain may have open edges, and a map that has them says so wherever it is read back") {
+  const auto map =
+      parse_map("{\"name\":\"m\"," + heights("0.5", "1.25") + ",\"edges\":\"open\"}", "m.json", {});
+  REQUIRE(map);
+  CHECK((*map)->definition.physics.edges == state::Edges::kOpen);
+  CHECK((*map)->canonical.find("\"edges\":\"open\"") != std::string::npos);
+  const auto again = parse_map((*map)->canonical, "canonical", {});
+  REQUIRE(again);
+  CHECK((*again)->hash == (*map)->hash);
+  CHECK((*again)->definition.physics == (*map)->definition.physics);
+}
+
+TEST_CASE("who plays hill with edges to fall over has a world with open edges, and no other mode has") {
+  const auto map = parse_map(
+      R"({"name":"m","terrain":{"function":"hills"},"hill":{"places":[{"at":[0,0]}],"edge":"fall"}})",
+      "m.json", {});
+  REQUIRE(map);
+  CHECK(physics_of((*map)->definition, state::Mode::kRoam) == (*map)->definition.physics);
+  CHECK(physics_of((*map)->definition, state::Mode::kHill).edges == state::Edges::kOpen);
+  CHECK(make_world(**map, 1.0 / 60, state::Mode::kHill).parameters().edges == state::Edges::kOpen);
+  CHECK(make_world(**map, 1.0 / 60).parameters().edges == state::Edges::kWalls);
 }
 
 TEST_CASE("heights that do not meet at the seam are refused with the rims and the difference") {
@@ -84,8 +108,8 @@ TEST_CASE("what has an end or a middle can't wrap, and an unknown choice is name
                  ",\"edges\":\"wrap\",\"physics\":{\"contact\":\"unilateral\",\"method\":\"precise\"}") ==
         "no error");
   CHECK(error_of(waves + ",\n\"edges\":\"round\"") ==
-        "m.json:2: edges: is none of its choices (walls or wrap)");
-  CHECK(error_of(waves + ",\"edges\":1").find("walls or wrap") != std::string::npos);
+        "m.json:2: edges: is none of its choices (walls, wrap or open)");
+  CHECK(error_of(waves + ",\"edges\":1").find("walls, wrap or open") != std::string::npos);
 }
 
 }  // namespace woodlouse::map

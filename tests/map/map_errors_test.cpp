@@ -94,7 +94,8 @@ TEST_CASE("an unknown key is an error that guesses what was meant") {
   CHECK(error_with(",\n\"physics\":{\"draag\":1}") ==
         "m.json:2: physics.draag: is not known (did you mean \"drag\"?)");
   CHECK(error_with(",\n\"colour\":1") ==
-        "m.json:2: colour: is not known (known here: name terrain surface edges physics spawns)");
+        "m.json:2: colour: is not known (known here: name terrain surface edges physics spawns race forage "
+        "hill)");
   CHECK(terrain_error("{\"function\":\"hills\",\n\"gird\":3}") ==
         "m.json:3: terrain.gird: is not known (did you mean \"grid\"?)");
   CHECK(error_with(",\"spawns\":[{\"position\":[0,0],\n\"haeding\":1}]") ==

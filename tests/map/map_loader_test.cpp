@@ -11,6 +11,7 @@
 #include "shared/json/text.h"
 #include "shared/map/canonical_map.h"
 #include "shared/map/map_reader.h"
+#include "shared/map/spawns.h"
 
 namespace woodlouse::map {
 namespace {

@@ -181,7 +181,8 @@ TEST_CASE("states that no match can be in are refused by name") {
   }
   CHECK(fault([](MatchState& s) { ++s.link.tick; }) == "its hash is of tick 21, which is later");
   CHECK(fault([](MatchState& s) { s.link.tick = 0; }).find("before the first step that did something") == 0);
-  CHECK(fault([](MatchState& s) { s.link.rules = 1; }) == "it was played by rules that are not known here");
+  CHECK(fault([](MatchState& s) { s.link.rules = 1; }) ==
+        "its rules' state and their hash don't go together");
   const std::string unnamed = "each of its players has one name and is a player or a bot, and nobody else is";
   CHECK(fault([](MatchState& s) { s.labels.erase(2); }) == unnamed);
   CHECK(fault([](MatchState& s) { s.labels[3] = {}; }) == unnamed);

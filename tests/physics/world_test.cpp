@@ -134,3 +134,90 @@ TEST_CASE("every method steps the same game: cheap near standard, precise nearer
   CHECK(error(state::Method::kStandard) < 0.1 * error(state::Method::kCheap));
   CHECK(error(state::Method::kPrecise) < error(state::Method::kStandard));
 }
+
+TEST_CASE("a motion that is set moves a louse at rest, turns it, and marks its block alone") {
+  World world(volcano(), {.friction = 1.5}, 1.0 / 60);
+  for (state::LouseId id = 1; id <= 3 * kBlockLice; ++id) {
+    state::Louse louse;
+    louse.id = id;
+    louse.position = {-15.0 + 0.1 * id, 18.0};
+    world.insert(louse);
+  }
+  world.step();
+  REQUIRE(world.stands_still());
+  world.forget_changes();
+  const state::LouseId id = kBlockLice + 7;
+  CHECK(world.set_motion(id, {1, 2}, {0, -3}));
+  CHECK(world.changed_blocks()[0] == 0);
+  CHECK(world.changed_blocks()[1] == 1);
+  CHECK(world.changed_blocks()[2] == 0);
+  const state::Louse* louse = world.find(id);
+  REQUIRE(louse != nullptr);
+  CHECK(louse->phase == state::Phase::kMoving);
+  CHECK(louse->position == core::Vec2{1, 2});
+  CHECK(louse->velocity == core::Vec2{0, -3});
+  CHECK(louse->heading == core::Vec2{0, -1});
+  CHECK_FALSE(world.stands_still());
+  world.step();
+  CHECK(world.find(id)->position.y < 1.96);
+  CHECK_FALSE(world.set_motion(9999, {}, {}));
+}
+
+TEST_CASE("a motion that is set to nothing puts a louse to rest where friction holds it, and it looks on") {
+  World world(volcano(), {.friction = 1.5}, 1.0 / 60);
+  state::Louse louse;
+  louse.id = 1;
+  louse.position = {3, 3};
+  louse.velocity = {2, 0};
+  world.insert(louse);
+  world.step();
+  const core::Vec2 heading = world.lice()[0].heading;
+  world.set_motion(1, {3, 3}, {});
+  CHECK(world.lice()[0].phase == state::Phase::kResting);
+  CHECK(world.lice()[0].heading == heading);
+  world.step();
+  CHECK(world.stands_still());
+  CHECK(world.lice()[0].position == core::Vec2{3, 3});
+}
+
+TEST_CASE("a thrust that turns a heading keeps it when a motion is set, but in flight") {
+  state::Parameters p;
+  p.contact = state::SurfaceContact::kUnilateral;
+  World world(volcano(), p, 1.0 / 60);
+  for (const state::Phase phase : {state::Phase::kMoving, state::Phase::kFlying}) {
+    state::Louse louse;
+    louse.id = phase == state::Phase::kMoving ? 1 : 2;
+    louse.phase = phase;
+    louse.position = {3, 3};
+    louse.flight_z = phase == state::Phase::kFlying ? 90.0 : 0.0;
+    louse.velocity = {2, 0};
+    world.insert(louse);
+    world.set_thrust(louse.id, {state::ThrustKind::kAlongHeading, {1, 0}}, state::kHeld);
+    world.set_motion(louse.id, {3, 4}, {0, 5});
+    CHECK(world.find(louse.id)->phase == phase);
+    CHECK(world.find(louse.id)->flight_z == louse.flight_z);
+  }
+  CHECK(world.find(1)->heading == core::Vec2{1, 0});
+  CHECK(world.find(2)->heading == core::Vec2{0, 1});
+}
+
+TEST_CASE("a motion that is set is the one of a louse that was inserted so") {
+  World set(volcano(), {}, 1.0 / 60), inserted(volcano(), {}, 1.0 / 60);
+  core::Random random(9);
+  for (state::LouseId id = 1; id <= 50; ++id) {
+    const state::Louse louse = random_louse(random, id);
+    state::Louse other = louse;
+    other.position = {};
+    other.velocity = {1, 1};
+    set.insert(other);
+    set.set_motion(id, louse.position, louse.velocity);
+    state::Louse as_set = louse;
+    as_set.heading = set.find(id)->heading;
+    inserted.insert(as_set);
+  }
+  for (int i = 0; i < 100; ++i) {
+    set.step();
+    inserted.step();
+  }
+  CHECK(same_bits(set.lice(), inserted.lice()));
+}

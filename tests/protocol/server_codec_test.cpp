@@ -251,7 +251,8 @@ TEST_CASE("server lines out of shape are refused with the code that says why") {
   CHECK(refused(R"({"type":"bye","code":"x","text":"","x":[[[[[[[[]]]]]]]]})") == code::kTooDeep);
   CHECK(refused(R"({"type":"bye","code":"x","text":""})") == code::kMissingField);
   CHECK(refused(R"({"type":"bye","code":"x","text":"","resumable":0})") == code::kBadField);
-  CHECK(refused(R"({"type":"event","n":1,"tick":1,"kind":"gate","id":1,"name":""})") == code::kUnknownType);
+  CHECK(refused(R"({"type":"event","n":1,"tick":1,"kind":"eclipse","id":1,"name":""})") ==
+        code::kUnknownType);
   CHECK(refused(R"({"type":"event","n":0,"tick":1,"kind":"left","id":1,"name":""})") == code::kBadField);
 }
 

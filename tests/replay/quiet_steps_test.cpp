@@ -114,9 +114,10 @@ TEST_CASE(
   CHECK(refusal("\"steps\":2,\"inputs\":[[1,1,null]]").find("r:1: steps: ") == 0);
 }
 
-TEST_CASE("what belongs to rules of play is refused as such") {
-  CHECK(refusal("\"roster\":[{\"respawn\":1,\"at\":\"gate\"}]")
-            .find("belongs to rules of play that this build does not know") != std::string::npos);
+TEST_CASE("a respawn is at a gate or says nothing of where") {
+  CHECK(refusal("\"roster\":[{\"respawn\":1,\"at\":\"spawn\"}]").find("r:1: roster") == 0);
+  CHECK(refusal("\"roster\":[{\"respawn\":1,\"at\":1}]").find("r:1: roster") == 0);
+  CHECK(refusal("\"roster\":[{\"leave\":1,\"at\":\"gate\"}]").find("r:1: roster") == 0);
 }
 
 TEST_CASE(

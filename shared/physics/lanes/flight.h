@@ -1,5 +1,5 @@
-// Lanes of lice in the air (physics/flight.h): pieces of their parabolas. Landings, walls and seams are the
-// scalar step's. Under the rules of kernel.h.
+// Lanes of lice in the air (physics/flight.h): pieces of their parabolas. Landings, walls, open edges and
+// seams are the scalar step's. Under the rules of kernel.h.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ class LaneFlyer {
   LaneFlyer(const BatchContext& context, const G& ground)
       : context_(context),
         ground_(ground),
-        has_walls_(context.parameters.edges == state::Edges::kWalls),
+        wraps_(context.parameters.edges == state::Edges::kWrap),
         longest_(context.cell < std::numeric_limits<double>::infinity() ? context.tick
                                                                         : context.tick / 32.0) {}
 
@@ -121,11 +121,11 @@ class LaneFlyer {
     return flown;
   }
 
-  /// No wall on the way, no seam at its end.
+  /// No wall and no open edge on the way, no seam at its end.
   [[nodiscard]] typename L::Mask meets_nothing(Pair<L> x, Pair<L> v, L time, Pair<L> end) const {
     using core::select;
     const terrain::Rectangle& box = context_.interior;
-    if (!has_walls_) {
+    if (wraps_) {
       return (end.x >= L(box.x_min)) & (end.x <= L(box.x_max)) & (end.y >= L(box.y_min)) &
              (end.y <= L(box.y_max));
     }
@@ -143,7 +143,7 @@ class LaneFlyer {
 
   const BatchContext& context_;
   const G& ground_;
-  bool has_walls_;
+  bool wraps_;
   double longest_;
 };
 

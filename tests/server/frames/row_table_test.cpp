@@ -55,8 +55,9 @@ TEST_CASE("every column, alone and beside any other, shows what it is defined as
         const RowTable rows(layout);
         for (const state::Louse& louse : scenery.lice) {
           std::string row;
-          rows.append(row, louse, scenery.terrain);
-          REQUIRE(row == expected_row(test::values(louse, layout.fields, scenery.terrain), layout));
+          rows.append(row, louse, test::kStanding, scenery.terrain);
+          REQUIRE(row ==
+                  expected_row(test::values(louse, layout.fields, scenery.terrain, test::kStanding), layout));
         }
       }
     }
@@ -74,7 +75,7 @@ TEST_CASE("the ground is looked at for those columns alone that need it, once a 
     louse.phase = phase;
     samples = 0;
     std::string row;
-    rows.append(row, louse, terrain);
+    rows.append(row, louse, {}, terrain);
     return samples;
   };
   for (const auto phase : {state::Phase::kMoving, state::Phase::kResting, state::Phase::kFlying}) {

@@ -59,9 +59,11 @@ class Scenery {
   std::uint32_t next_id_ = 1;
 };
 
+inline constexpr rules::Standing kStanding{-7, 3, 2, (std::uint64_t{1} << 40) + 5, 123456789};
+
 /// A row as its definition says.
 inline std::vector<double> values(const state::Louse& louse, const std::vector<protocol::Column>& columns,
-                                  const terrain::Terrain& terrain) {
+                                  const terrain::Terrain& terrain, const rules::Standing& standing = {}) {
   using protocol::Column;
   const auto ground = terrain.sample(louse.position.x, louse.position.y);
   const physics::Attitude attitude = physics::attitude(louse.heading, {ground.zx, ground.zy});
@@ -71,6 +73,21 @@ inline std::vector<double> values(const state::Louse& louse, const std::vector<p
   std::vector<double> row;
   for (const Column column : columns) {
     switch (column) {
+      case Column::kScore:
+        row.push_back(static_cast<double>(standing.score));
+        break;
+      case Column::kGate:
+        row.push_back(standing.gate);
+        break;
+      case Column::kLap:
+        row.push_back(standing.lap);
+        break;
+      case Column::kLapStart:
+        row.push_back(static_cast<double>(standing.lap_start));
+        break;
+      case Column::kBestLap:
+        row.push_back(static_cast<double>(standing.best_lap));
+        break;
       case Column::kId:
         row.push_back(louse.id);
         break;

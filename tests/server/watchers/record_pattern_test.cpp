@@ -96,6 +96,9 @@ TEST_CASE("a pattern knows the names that it can have made, with any room, time 
   CHECK(plain.matches("game.ndjson"));
   CHECK(plain.matches("game.12.ndjson"));
   CHECK_FALSE(plain.matches("game.hills.ndjson"));
+  CHECK(plain.matches("game.race.ndjson"));
+  CHECK(plain.file("hills/race", 0).filename() == "game.race.ndjson");
+  CHECK(plain.file("hills", 0).filename() == "game.ndjson");
   CHECK_FALSE(plain.matches("game.ndjson.1"));
   CHECK_FALSE(plain.matches("shadow.hills.12.game.ndjson"));
   const RecordPattern rooms = pattern("game.ndjson", 2);

@@ -1,0 +1,75 @@
+#include "server/room/shown_game.h"
+
+#include <algorithm>
+#include <cassert>
+#include <span>
+#include <vector>
+
+namespace woodlouse::server {
+namespace {
+
+using protocol::EventKind;
+
+static_assert(static_cast<int>(rules::EventKind::kRound) + static_cast<int>(EventKind::kGate) ==
+              static_cast<int>(EventKind::kRound));
+
+protocol::GamePhase shown(rules::Phase phase) {
+  static_assert(static_cast<int>(rules::Phase::kPodium) == static_cast<int>(protocol::GamePhase::kPodium));
+  return static_cast<protocol::GamePhase>(phase);
+}
+
+std::vector<protocol::GameTableRow> shown_table(const rules::Rules& rules) {
+  std::vector<protocol::GameTableRow> rows;
+  for (const rules::TableRow& row : rules.table()) {
+    if (rows.size() == protocol::kMaxTableRows) break;
+    rows.push_back({row.louse, row.score});
+  }
+  return rows;
+}
+
+GameScene shown_game(const rules::Rules& rules, std::span<const state::Louse> lice) {
+  GameScene scene;
+  const rules::Round& round = rules.round();
+  scene.game.phase = shown(round.phase);
+  scene.game.round = round.number;
+  scene.game.until = round.until;
+  for (const rules::ShownCrumb& crumb : rules.shown_crumbs())
+    scene.game.crumbs.push_back({crumb.slot, crumb.position, crumb.value});
+  if (const auto hill = rules.shown_hill())
+    scene.game.hill = {hill->place, hill->holder, hill->is_contested, hill->moves_at};
+  scene.game.table = shown_table(rules);
+  for (const state::Louse& louse : lice) scene.standings.push_back(rules.standing(louse.id));
+  return scene;
+}
+
+}  // namespace
+
+Scene scene_of(const match::Match& game, std::uint64_t ticks_a_frame) {
+  assert(ticks_a_frame > 0);
+  const auto lice = game.world().lice();
+  Scene scene{
+      game.tick(), game.tick() / ticks_a_frame, lice, game.world().terrain(), game.hash(), game.link(), {}};
+  if (game.rules() != nullptr) scene.game = shown_game(*game.rules(), lice);
+  return scene;
+}
+
+protocol::Event shown_event(const rules::Event& event, const rules::Rules& rules) {
+  protocol::Event shown_event;
+  shown_event.tick = event.moment / rules::kMomentsPerTick;
+  shown_event.kind =
+      static_cast<EventKind>(static_cast<int>(EventKind::kGate) + static_cast<int>(event.kind));
+  shown_event.id = event.louse;
+  shown_event.moment = event.moment;
+  std::copy(event.values.begin(), event.values.end(), shown_event.values.begin());
+  for (auto& value : shown_event.values) {
+    if (value == rules::kNone) value.reset();
+  }
+  if (event.kind != rules::EventKind::kRound) return shown_event;
+  // A phase is told by name.
+  shown_event.phase = shown(static_cast<rules::Phase>(event.values[1]));
+  shown_event.values = {event.values[0], event.values[2], std::nullopt, std::nullopt};
+  shown_event.table = shown_table(rules);
+  return shown_event;
+}
+
+}  // namespace woodlouse::server

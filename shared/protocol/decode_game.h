@@ -1,0 +1,18 @@
+// What the rules of play show, read back from frames and events.
+#pragma once
+
+#include <vector>
+
+#include "shared/protocol/field_reader.h"
+#include "shared/protocol/game.h"
+
+namespace woodlouse::protocol {
+
+/// Of a key (REQUIRED whole there) or a delta.
+Game read_game(FieldReader& game, bool is_whole);
+/// The member `phase`.
+void read_phase(FieldReader& reader, GamePhase& out);
+/// The member `table`.
+std::vector<GameTableRow> read_table(FieldReader& reader);
+
+}  // namespace woodlouse::protocol

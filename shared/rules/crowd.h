@@ -1,0 +1,51 @@
+// Who of many is near whom, found by cells of the map: what it costs grows with the neighbours, not with the
+// square of all.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "shared/core/vec2.h"
+#include "shared/rules/gate.h"
+#include "shared/terrain/surface.h"
+
+namespace woodlouse::rules {
+
+class Crowd {
+ public:
+  struct Pair {
+    std::uint32_t first = 0, second = 0;  ///< first < second
+    core::Vec2 between;                   ///< from the first to the second, or to its nearest image [m]
+  };
+
+  /// distance: below which two are near each other [m], > 0. Where `images` wrap, over the seams too.
+  Crowd(const terrain::Rectangle& domain, const Images& images, double distance);
+
+  /// All pairs of these places that are near each other, by (first, second); valid until the next call.
+  /// Places a little outside the domain are at its edge.
+  std::span<const Pair> pairs(std::span<const core::Vec2> places);
+
+ private:
+  struct Axis {
+    double low = 0.0, per_metre = 0.0;
+    std::size_t cells = 1;
+    [[nodiscard]] std::size_t cell_of(double at) const;
+  };
+  [[nodiscard]] static Axis axis_of(double low, double high, double distance);
+  /// Of a cell along an axis: it and those beside it, the first and how many; where it wraps, modulo cells.
+  [[nodiscard]] std::pair<std::size_t, std::size_t> around(std::size_t cell, const Axis& axis) const;
+  void sort_into_cells(std::span<const core::Vec2> places);
+
+  Images images_;
+  double distance2_;
+  Axis x_, y_;
+  std::vector<std::uint32_t> begins_;  ///< of each cell, in sorted_
+  std::vector<std::uint32_t> sorted_;  ///< indices of places, cell by cell, ascending in each
+  std::vector<std::size_t> cells_;     ///< of each place
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace woodlouse::rules
