@@ -59,7 +59,10 @@ class DescriptorSink final : public spdlog::sinks::base_sink<std::mutex> {
     if (!file_.empty()) ::close(descriptor_);
   }
   static int open(const std::string& file) {
-    return ::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+    // A pipe that nobody reads is refused instead of waited for.
+    const int opened = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
+    if (opened >= 0) ::fcntl(opened, F_SETFL, O_APPEND);
+    return opened;
   }
   void reopen() { is_moved_ = true; }
 

@@ -78,7 +78,8 @@ std::uint64_t entropy() {
 protocol::Limits limits_of(const ServeConfig& config) {
   constexpr std::uint64_t kOwnFiles = 64;
   protocol::Limits limits = completed(config.limits, config.tick_hz);
-  const std::uint64_t own = kOwnFiles + 2 * config.maps.size();
+  const std::size_t rooms = config.maps.size() * (config.mode ? 1 : state::kModes.size());
+  const std::uint64_t own = kOwnFiles + 2 * rooms;
   const std::uint64_t files = std::max(own + 1, raise_descriptor_limit());
   limits.max_connections =
       static_cast<std::uint32_t>(std::min<std::uint64_t>(limits.max_connections, files - own));
@@ -139,12 +140,11 @@ core::Expected<void> Server::open_rooms(const ServeConfig& config) {
       if (!loaded) return tl::unexpected(loaded.error());
       map = std::move(*loaded);
     }
-    const std::string name = unique_name(map->definition.name, names);
     const std::size_t before = rooms.size();
     for (const state::Mode mode : state::kModes) {
       if (!map->definition.modes.has(mode) || config.mode.value_or(mode) != mode) continue;
       const match::MatchSettings settings{config.tick_hz, seed + rooms.size(), mode};
-      rooms.emplace_back(room_name(name, mode),
+      rooms.emplace_back(unique_name(room_name(map->definition.name, mode), names),
                          Start{map, std::make_unique<match::Match>(map, settings), file->string(), {}, {}});
     }
     if (rooms.size() == before)

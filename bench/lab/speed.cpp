@@ -7,9 +7,10 @@
 #include <vector>
 #include "bench/lab/report/output.h"
 #include "bench/lab/report/race.h"
-#include "bench/lab/speed_evaluations.h"
-#include "bench/lab/speed_maps.h"
-#include "bench/lab/speed_steps.h"
+#include "bench/lab/speed/evaluations.h"
+#include "bench/lab/speed/maps.h"
+#include "bench/lab/speed/modes.h"
+#include "bench/lab/speed/steps.h"
 
 namespace woodlouse::lab {
 namespace {
@@ -35,6 +36,9 @@ core::Expected<void> run(const SpeedOptions& options) {
   if (asks_for("maps")) {
     if (auto done = measure_maps(options.maps, options.output); !done) return done;
   }
+  if (asks_for("modes")) {
+    if (auto done = measure_modes(options.maps, options.output); !done) return done;
+  }
   if (asks_for("threads")) return measure_threads(options.maps, options.output);
   return {};
 }
@@ -48,11 +52,13 @@ void add_speed(CLI::App& app, Job& job) {
   add_output_options(*command, options->output);
   command->add_option("--maps", options->maps, "folder of maps; the project's own when left out")
       ->check(CLI::ExistingDirectory);
-  command->add_option("--only", options->only, "some of evaluations,steps,maps,threads; all when left out")
+  command
+      ->add_option("--only", options->only, "some of evaluations,steps,maps,modes,threads; all when left out")
       ->delimiter(',')
-      ->check(CLI::IsMember({"evaluations", "steps", "maps", "threads"}));
+      ->check(CLI::IsMember({"evaluations", "steps", "maps", "modes", "threads"}));
   command->footer(
-      "Writes lab-speed-evaluations.csv, -steps.csv, -maps.csv and -threads.csv; prints the ratios.\n"
+      "Writes lab-speed-evaluations.csv, -steps.csv, -maps.csv, -modes.csv and -threads.csv; prints the "
+      "ratios.\n"
       "Example:\n  woodlouse-lab speed --quick");
   command->callback([options, &job] {
     for (const std::string& part : options->only)

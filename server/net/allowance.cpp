@@ -45,13 +45,16 @@ Allowance::Allowance(const protocol::Limits& limits, std::shared_ptr<AddressAcco
 }
 
 Duration Allowance::wait_for_line(Time now) {
+  if (const Duration left = wait(Spending::kLineBytes, now); left > Duration{}) return left;
   pace_.charge(0.0, now);
   // Not for each of them: a pause is worth half of what goes at once.
   return pace_.wait(1.0) == Duration{} ? Duration{} : pace_.wait(4.0);
 }
 
-Allowance::Refusal Allowance::take_line(Time now) {
+Allowance::Refusal Allowance::take_line(std::size_t bytes, Time now) {
   pace_.charge(1.0, now);
+  own_.charge(Spending::kLineBytes, static_cast<double>(bytes), now);
+  address_->charge(Spending::kLineBytes, static_cast<double>(bytes), now);
   switch (lines_.take(now)) {
     case RateLimiter::Verdict::kPass:
       return std::nullopt;

@@ -27,10 +27,11 @@ class Allowance {
   Allowance(const protocol::Limits& limits, std::shared_ptr<AddressAccount> address, Time now);
 
   /// How long until another line may be looked at; zero: now. Of many that come at once the rest waits,
-  /// unread: a room's tick is not behind all that its members can say in a burst.
+  /// unread: a room's tick is not behind all that its members can say in a burst; nor are frames behind all
+  /// the bytes that an address can send.
   [[nodiscard]] Duration wait_for_line(Time now);
-  /// A line has come. Nothing: it may be looked at. A fatal refusal ends the session.
-  Refusal take_line(Time now);
+  /// A line of so many bytes has come. Nothing: it may be looked at. A fatal refusal ends the session.
+  Refusal take_line(std::size_t bytes, Time now);
   /// Of what costs others, by the session's own budget and its address's. Nothing: it is granted and paid,
   /// but for an answer, which is charged when it is made.
   Refusal spend(Spending what, Time now);

@@ -94,7 +94,8 @@ void Session::take_lines(Time now) {
 void Session::on_line(const protocol::LineFramer::Line& line, Time now) {
   pulse_.hear(now, false);
   environment_.traffic.lines_received.fetch_add(1, std::memory_order_relaxed);
-  if (const auto refusal = allowance_.take_line(now)) return refusal->fatal ? fail(*refusal) : say(*refusal);
+  if (const auto refusal = allowance_.take_line(line.text.size() + 1, now))
+    return refusal->fatal ? fail(*refusal) : say(*refusal);
   if (line.oversize)
     return fail(code::kLineTooLong, "a line is longer than " + std::to_string(limits_->line) + " bytes");
   auto decoded = protocol::decode_client(line.text);

@@ -74,17 +74,19 @@ bool Budgets::are_full(Time now) {
 }
 
 Budgets::Rates session_rates(const protocol::Limits& limits) {
-  return {limits.chat_per_s, limits.respawn_per_s, std::nullopt, limits.answer_bytes_per_s, std::nullopt};
+  return {limits.chat_per_s,         limits.respawn_per_s, std::nullopt,
+          limits.answer_bytes_per_s, std::nullopt,         limits.line_bytes_per_s};
 }
 
 Budgets::Rates address_rates(const protocol::Limits& limits) {
-  return {limits.chat_per_s_address, limits.respawn_per_s_address, limits.join_per_s_address,
-          limits.answer_bytes_per_s_address, kLogLinesOfAnAddress};
+  return {limits.chat_per_s_address,         limits.respawn_per_s_address, limits.join_per_s_address,
+          limits.answer_bytes_per_s_address, kLogLinesOfAnAddress,         limits.line_bytes_per_s_address};
 }
 
 Budgets::Rates room_rates(const protocol::Limits& limits) {
-  return {limits.chat_per_s_room, limits.respawn_per_s_room, limits.join_per_s_room, std::nullopt,
-          std::nullopt};
+  return {limits.chat_per_s_room, limits.respawn_per_s_room,
+          limits.join_per_s_room, std::nullopt,
+          std::nullopt,           std::nullopt};
 }
 
 std::uint32_t retry_after_ms(Duration wait) {

@@ -36,14 +36,16 @@ class TokenBucket {
   Time at_;
 };
 
-enum class Spending : std::uint8_t { kChat, kRespawn, kJoin, kAnswerBytes, kLogLines };
+enum class Spending : std::uint8_t { kChat, kRespawn, kJoin, kAnswerBytes, kLogLines, kLineBytes };
+
+inline constexpr std::size_t kSpendings = 6;
 
 /// A bucket for each kind, which keeps kSavedSeconds' worth. What is bigger than all that is there is given
 /// too, while there is something; the next waits until it is paid off.
 class Budgets {
  public:
   /// Of Spending, a second; none: without bound.
-  using Rates = std::array<std::optional<double>, 5>;
+  using Rates = std::array<std::optional<double>, kSpendings>;
 
   Budgets(const Rates& rates, Time now);
 
@@ -56,7 +58,7 @@ class Budgets {
   [[nodiscard]] bool are_full(Time now);
 
  private:
-  std::array<std::optional<TokenBucket>, 5> buckets_;
+  std::array<std::optional<TokenBucket>, kSpendings> buckets_;
 };
 
 [[nodiscard]] Budgets::Rates session_rates(const protocol::Limits& limits);

@@ -79,7 +79,12 @@ bool cross(const Gate& one, const Gate& other) {
     const double a = side(by, gate.a), b = side(by, gate.b);
     return !(a > 0.0 && b > 0.0) && !(a < 0.0 && b < 0.0);
   };
-  return parts(one, other) && parts(other, one);
+  // On one line each parts the other, however far apart they are.
+  const auto overlap = [](double a, double b, double c, double d) {
+    return std::max(a, b) >= std::min(c, d) && std::max(c, d) >= std::min(a, b);
+  };
+  return parts(one, other) && parts(other, one) && overlap(one.a.x, one.b.x, other.a.x, other.b.x) &&
+         overlap(one.a.y, one.b.y, other.a.y, other.b.y);
 }
 
 std::vector<Gate> read_gates(const json::Value& value, const terrain::Rectangle& domain, Problems& problems) {

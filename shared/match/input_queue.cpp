@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 
 namespace woodlouse::match {
 
@@ -27,11 +28,22 @@ std::set<std::uint64_t> InputQueue::ticks_waited_for(state::LouseId player) cons
   return ticks;
 }
 
+/// Whether the last of what waits for that tick is an end already, as of somebody who broke off before.
+bool InputQueue::ends_thrust(state::LouseId player, std::uint64_t tick) const {
+  auto after = waiting_.lower_bound({tick, player + 1, 0});
+  if (after == waiting_.begin()) return false;
+  const AppliedInput& last = std::prev(after)->second;
+  return last.tick == tick && last.player == player && last.thrust == core::Vec2{} &&
+         last.ticks == state::kHeld;
+}
+
 std::uint32_t InputQueue::end_thrusts(state::LouseId player, std::uint32_t seq,
                                       std::set<std::uint64_t> ticks) {
   ticks.merge(ticks_waited_for(player));
-  for (const std::uint64_t tick : ticks)
+  for (const std::uint64_t tick : ticks) {
+    if (ends_thrust(player, tick)) continue;
     file_applied({player, seq++, {}, state::ThrustKind::kAlongHeading, state::kHeld, tick});
+  }
   return seq;
 }
 

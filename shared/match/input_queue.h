@@ -90,6 +90,7 @@ class InputQueue {
  private:
   /// False: there is one of that tick, player and seq already.
   bool wait(const AppliedInput& input);
+  [[nodiscard]] bool ends_thrust(state::LouseId player, std::uint64_t tick) const;
   [[nodiscard]] std::set<std::uint64_t> ticks_waited_for(state::LouseId player) const;
 
   struct Player {

@@ -47,6 +47,10 @@ constexpr std::array kFields = {
     LimitField{"join_per_s_address", &Limits::join_per_s_address, 0, kMany, "1/s", "joins of an address"},
     LimitField{"join_per_s_room", &Limits::join_per_s_room, 0, kMany, "1/s",
                "players' and bots' joins of a room"},
+    LimitField{"line_bytes_per_s", &Limits::line_bytes_per_s, 1024, kMostBytes, "bytes/s",
+               "of lines of a session; what exceeds it is read later, and nothing of it dropped"},
+    LimitField{"line_bytes_per_s_address", &Limits::line_bytes_per_s_address, 1024, kMostBytes, "bytes/s",
+               "the same for an address"},
     LimitField{"answer_bytes_per_s", &Limits::answer_bytes_per_s, 1024, kMostBytes, "bytes/s",
                "of answers to `get_map`, `resync` and `list` for a session; what exceeds it is answered "
                "later, a `list` with `rate_limited`"},

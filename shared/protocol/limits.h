@@ -33,6 +33,8 @@ struct Limits {
   std::uint32_t respawn_per_s_room = 64;
   std::uint32_t join_per_s_address = 32;
   std::uint32_t join_per_s_room = 128;
+  std::uint32_t line_bytes_per_s = 256u << 10;
+  std::uint32_t line_bytes_per_s_address = 2u << 20;
   std::uint32_t answer_bytes_per_s = 512u << 10;
   std::uint32_t answer_bytes_per_s_address = 4u << 20;
   std::uint32_t ping_s = 5;

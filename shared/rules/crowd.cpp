@@ -6,7 +6,7 @@
 namespace woodlouse::rules {
 namespace {
 
-constexpr double kMostCells = 128.0;  // along an axis
+constexpr double kMostCells = 40.0;  // along an axis: laid out anew each time
 
 }  // namespace
 
@@ -43,38 +43,47 @@ void Crowd::sort_into_cells(std::span<const core::Vec2> places) {
   begins_.assign(x_.cells * y_.cells + 1, 0);
   cells_.clear();
   for (const core::Vec2 place : places) {
-    cells_.push_back(y_.cell_of(place.y) * x_.cells + x_.cell_of(place.x));
-    ++begins_[cells_.back() + 1];
+    cells_.push_back(
+        {static_cast<std::uint32_t>(x_.cell_of(place.x)), static_cast<std::uint32_t>(y_.cell_of(place.y))});
+    ++begins_[number_of(cells_.back()) + 1];
   }
   for (std::size_t cell = 1; cell < begins_.size(); ++cell) begins_[cell] += begins_[cell - 1];
   sorted_.resize(places.size());
   // Backwards, each cell's end moves to its begin.
   std::vector<std::uint32_t>& ends = begins_;
   for (std::size_t k = places.size(); k-- > 0;)
-    sorted_[--ends[cells_[k] + 1]] = static_cast<std::uint32_t>(k);
+    sorted_[--ends[number_of(cells_[k]) + 1]] = static_cast<std::uint32_t>(k);
   ends.erase(ends.begin());
   ends.push_back(static_cast<std::uint32_t>(places.size()));
+}
+
+/// Those of place k with the sorted ones from `begin` to `end` that come after it.
+void Crowd::add_pairs(std::size_t k, std::span<const core::Vec2> places, std::uint32_t begin,
+                      std::uint32_t end) {
+  for (std::uint32_t at = begin; at < end; ++at) {
+    const std::uint32_t other = sorted_[at];
+    if (other <= k) continue;
+    const core::Vec2 between = images_.nearest(places[k], places[other]) - places[k];
+    if (core::dot(between, between) < distance2_)
+      pairs_.push_back({static_cast<std::uint32_t>(k), other, between});
+  }
 }
 
 std::span<const Crowd::Pair> Crowd::pairs(std::span<const core::Vec2> places) {
   pairs_.clear();
   sort_into_cells(places);
   for (std::size_t k = 0; k < places.size(); ++k) {
-    const auto [column, columns] = around(cells_[k] % x_.cells, x_);
-    const auto [row, rows] = around(cells_[k] / x_.cells, y_);
+    const auto [column, columns] = around(cells_[k].column, x_);
+    const auto [row, rows] = around(cells_[k].row, y_);
     const std::size_t own = pairs_.size();
     for (std::size_t y = 0; y < rows; ++y) {
-      for (std::size_t x = 0; x < columns; ++x) {
-        const std::size_t cell = (row + y) % y_.cells * x_.cells + (column + x) % x_.cells;
-        for (std::uint32_t at = begins_[cell]; at < begins_[cell + 1]; ++at) {
-          const std::uint32_t other = sorted_[at];
-          if (other <= k) continue;
-          const core::Vec2 between = images_.nearest(places[k], places[other]) - places[k];
-          if (core::dot(between, between) < distance2_)
-            pairs_.push_back({static_cast<std::uint32_t>(k), other, between});
-        }
-      }
+      const std::size_t begin = (row + y < y_.cells ? row + y : row + y - y_.cells) * x_.cells;
+      // Cells beside each other lie behind each other, but over a seam.
+      const std::size_t first = std::min(columns, x_.cells - column);
+      add_pairs(k, places, begins_[begin + column], begins_[begin + column + first]);
+      if (first < columns) add_pairs(k, places, begins_[begin], begins_[begin + columns - first]);
     }
+    if (pairs_.size() - own < 2) continue;
     std::sort(pairs_.begin() + static_cast<std::ptrdiff_t>(own), pairs_.end(),
               [](const Pair& a, const Pair& b) { return a.second < b.second; });
   }

@@ -37,14 +37,19 @@ class Crowd {
   [[nodiscard]] static Axis axis_of(double low, double high, double distance);
   /// Of a cell along an axis: it and those beside it, the first and how many; where it wraps, modulo cells.
   [[nodiscard]] std::pair<std::size_t, std::size_t> around(std::size_t cell, const Axis& axis) const;
+  struct Cell {
+    std::uint32_t column = 0, row = 0;
+  };
+  [[nodiscard]] std::size_t number_of(Cell cell) const { return cell.row * x_.cells + cell.column; }
   void sort_into_cells(std::span<const core::Vec2> places);
+  void add_pairs(std::size_t k, std::span<const core::Vec2> places, std::uint32_t begin, std::uint32_t end);
 
   Images images_;
   double distance2_;
   Axis x_, y_;
   std::vector<std::uint32_t> begins_;  ///< of each cell, in sorted_
   std::vector<std::uint32_t> sorted_;  ///< indices of places, cell by cell, ascending in each
-  std::vector<std::size_t> cells_;     ///< of each place
+  std::vector<Cell> cells_;            ///< of each place
   std::vector<Pair> pairs_;
 };
 

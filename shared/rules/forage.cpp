@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "shared/core/stable_hash.h"
 #include "shared/rules/summits.h"
@@ -16,7 +17,9 @@ namespace {
 constexpr std::uint64_t kRefill = 3, kChain = 4, kHarvest = 30;                    // [s]
 constexpr double kUnits = 1024.0;                                                  // in a metre
 constexpr double kMargin = 1.0, kFromLice = 2.5, kFromCrumbs = 1.5, kReach = 1.0;  // [m]
-constexpr double kSteep = 1.5;  // of what full thrust holds on a slope
+constexpr double kUsualWay = 1.0;  // [m] in a step: who goes farther is held against every crumb
+constexpr double kSlack = 1e-3;    // [m] for roundings
+constexpr double kSteep = 1.5;     // of what full thrust holds on a slope
 constexpr int kTries = 16;
 constexpr std::uint8_t kOnGround = 1, kOnSummit = 3, kLongestChain = 3;
 constexpr std::int64_t kMaxScore = std::int64_t{1} << 53;
@@ -64,7 +67,8 @@ Forage::Forage(const map::Map& map, std::uint32_t tick_hz)
       mode_(*map.definition.modes.forage),
       images_(images_of(map)),
       harvest_ticks_(std::min(ticks_of(kHarvest), ticks_of(mode_.round_s) / 3)),
-      slots_(mode_.crumbs) {
+      slots_(mode_.crumbs),
+      map_of_crumbs_(map.terrain->domain(), images_, mode_.radius + kUsualWay + kSlack) {
   assert(mode_.crumbs >= 1 && mode_.crumbs <= map::kMaxCrumbs && mode_.summits <= mode_.crumbs);
   const terrain::Rectangle& domain = map.terrain->domain();
   std::tie(low_.x, high_.x) = units_of(domain.x_min, domain.x_max, kMargin, images_.wraps());
@@ -141,6 +145,7 @@ void Forage::on_leave(state::LouseId louse) { players_.remove(louse); }
 void Forage::on_round(Step& step) {
   for (Player& player : players_) player = {player.id, 0, 0, 0};
   slots_.assign(slots_.size(), {});
+  is_map_stale_ = true;
   for (std::size_t slot = 0; slot < slots_.size(); ++slot) fill(slot, step);
 }
 
@@ -157,6 +162,7 @@ void Forage::judge(Step& step) {
   for (const std::size_t slot : order) {
     eat(slot, *eaten[slot].player, step.tick * kMomentsPerTick + eaten[slot].part);
     slots_[slot] = {{}, 0, step.tick + 1 + ticks_of(kRefill)};
+    is_map_stale_ = true;
   }
   const std::uint64_t now = step.tick + 1;
   for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
@@ -168,30 +174,37 @@ void Forage::judge(Step& step) {
 /// Who eats what, all by the points before the step.
 Forage::Claims Forage::claims(const Step& step) {
   Claims claims;
-  const std::vector<Crumb> lying = crumbs();
+  if (std::exchange(is_map_stale_, false)) {
+    map_of_crumbs_.clear();
+    for (const Crumb& crumb : crumbs()) map_of_crumbs_.add(crumb.slot, crumb.position);
+  }
   const std::span<const state::Louse> lice = step.world.lice();
   auto player = players_.begin();
   for (std::size_t k = 0; k < lice.size(); ++k) {
     while (player != players_.end() && player->id < lice[k].id) ++player;
     if (player == players_.end()) break;
-    if (player->id == lice[k].id) claim(step.starts[k], lice[k], *player, lying, claims);
+    if (player->id == lice[k].id) claim(step.starts[k], lice[k], *player, claims);
   }
   return claims;
 }
 
-void Forage::claim(const Start& start, const state::Louse& louse, Player& player,
-                   std::span<const Crumb> lying, Claims& claims) const {
+void Forage::claim(const Start& start, const state::Louse& louse, Player& player, Claims& claims) const {
   const core::Vec2 from = start.position;
   const core::Vec2 way = images_.nearest(from, louse.position) - from;
-  for (const Crumb& crumb : lying) {
-    const std::optional<double> part = reach(from - images_.nearest(from, crumb.position), way, mode_.radius);
+  std::uint64_t candidates = is_nearer(way, kUsualWay) ? map_of_crumbs_.near(from) : ~std::uint64_t{0};
+  for (; candidates != 0; candidates &= candidates - 1) {
+    const auto slot = static_cast<std::size_t>(std::countr_zero(candidates));
+    if (slot >= slots_.size()) break;
+    if (slots_[slot].value == 0) continue;
+    const core::Vec2 crumb = position(slots_[slot].place);
+    const std::optional<double> part = reach(from - images_.nearest(from, crumb), way, mode_.radius);
     if (!part) continue;
     if (louse.phase == state::Phase::kFlying && louse.flight_z - ground_at(louse.position).z > kReach) return;
     const Claim own{&player, static_cast<std::uint64_t>(static_cast<double>(kMomentsPerTick) * *part)};
     const auto key = [](const Claim& claim) {
       return std::tuple(claim.part, claim.player->score, claim.player->id);
     };
-    Claim& first = claims[crumb.slot];
+    Claim& first = claims[slot];
     if (first.player == nullptr || key(own) < key(first)) first = own;
   }
 }
@@ -220,6 +233,7 @@ void Forage::fill(std::size_t slot, const Step& step) {
   next.value = summits.empty() ? kOnGround : kOnSummit;
   next.place = summits.empty() ? ground_for(random, step.world) : summits[random.next() % summits.size()];
   slots_[slot] = next;
+  is_map_stale_ = true;
   changed_ |= std::uint64_t{1} << slot;
   note_change();
 }
@@ -289,6 +303,7 @@ void Forage::write(StateWriter& out) const {
 }
 
 bool Forage::read(StateReader& in, std::span<const state::LouseId> ids) {
+  is_map_stale_ = true;
   for (Slot& slot : slots_) {
     slot.place = {in.get_signed(), in.get_signed()};
     slot.value = in.get<std::uint8_t>();

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "shared/core/random.h"
+#include "shared/rules/crumb_map.h"
 #include "shared/rules/gate.h"
 #include "shared/rules/players.h"
 #include "shared/rules/rules.h"
@@ -86,8 +87,7 @@ class Forage final : public Rules {
   bool read(StateReader& in, std::span<const state::LouseId> ids) override;
 
   [[nodiscard]] Claims claims(const Step& step);
-  void claim(const Start& start, const state::Louse& louse, Player& player, std::span<const Crumb> lying,
-             Claims& claims) const;
+  void claim(const Start& start, const state::Louse& louse, Player& player, Claims& claims) const;
   void eat(std::size_t slot, Player& player, Moment moment);
   void fill(std::size_t slot, const Step& step);
   [[nodiscard]] std::vector<Place> free_summits(const physics::World& world) const;
@@ -106,6 +106,8 @@ class Forage final : public Rules {
   std::vector<Slot> slots_;
   Players<Player> players_;
   std::uint64_t changed_ = 0;
+  CrumbMap map_of_crumbs_;  ///< of those that lie, for ways of at most kUsualWay
+  bool is_map_stale_ = true;
 };
 
 }  // namespace woodlouse::rules

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::uint64_t kWarning = 5, kBlame = 3, kReward = 3;   // [s]
 constexpr std::uint64_t kLongestRound = 900, kLongestHolds = 3;  // [s], times what wins
+constexpr std::size_t kMostTold = 4;                             // bumps a tick
 constexpr double kToldImpulse = 0.25;  // what is less is pressing, and no event [m/s]
 constexpr std::uint64_t kMostHeld = std::uint64_t{1} << 53;
 constexpr double kMaxDistance = 1e15;  // [m]
@@ -174,6 +175,7 @@ void Hill::bump_all(Step& step) {
   for (std::size_t k = 0; k < bumpers.size(); ++k) {
     if (bumpers[k].is_bumped) world.set_motion(bumpers[k].id, places[k], bumpers[k].body.velocity);
   }
+  tell_bumps();
 }
 
 void Hill::note_bump(state::LouseId first, state::LouseId second, double impulse, std::uint64_t now) {
@@ -185,10 +187,19 @@ void Hill::note_bump(state::LouseId first, state::LouseId second, double impulse
     note_change();
   }
   if (impulse >= kToldImpulse)
-    say({EventKind::kBump,
-         first,
-         now * kMomentsPerTick,
-         {second, static_cast<std::int64_t>(1000.0 * impulse), 0, 0}});
+    bumps_.push_back({EventKind::kBump,
+                      first,
+                      now * kMomentsPerTick,
+                      {second, static_cast<std::int64_t>(1000.0 * impulse), 0, 0}});
+}
+
+/// The hardest: in a crowd everybody meets somebody in every tick, and all hear of it.
+void Hill::tell_bumps() {
+  std::stable_sort(bumps_.begin(), bumps_.end(),
+                   [](const Event& a, const Event& b) { return a.values[1] > b.values[1]; });
+  bumps_.resize(std::min(bumps_.size(), kMostTold));
+  for (const Event& bump : bumps_) say(bump);
+  bumps_.clear();
 }
 
 void Hill::bring_back(Step& step) {

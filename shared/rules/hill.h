@@ -75,6 +75,7 @@ class Hill final : public Rules {
   void fall(Player& player, double distance, std::uint64_t now);
   void bump_all(Step& step);
   void note_bump(state::LouseId first, state::LouseId second, double impulse, std::uint64_t now);
+  void tell_bumps();
   void bring_back(Step& step);
   [[nodiscard]] const map::SpawnPoint& farthest_spawn(const physics::World& world) const;
   void move_place(std::uint64_t now);
@@ -90,6 +91,7 @@ class Hill final : public Rules {
   state::LouseId holder_ = 0;
   bool is_contested_ = false;
   Players<Player> players_;
+  std::vector<Event> bumps_;  ///< of the step that is judged
 };
 
 }  // namespace woodlouse::rules

@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 
@@ -14,7 +15,10 @@ class StateWriter {
  public:
   template <std::unsigned_integral T>
   void put(T value) {
-    for (std::size_t k = 0; k < sizeof value; ++k) bytes_ += static_cast<char>((value >> (8 * k)) & 0xff);
+    static_assert(std::endian::native == std::endian::little);
+    char raw[sizeof value];
+    std::memcpy(raw, &value, sizeof value);
+    bytes_.append(raw, sizeof value);
   }
   void put_signed(std::int64_t value) { put(static_cast<std::uint64_t>(value)); }
   /// A double as the bits it has.

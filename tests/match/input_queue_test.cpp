@@ -140,3 +140,17 @@ TEST_CASE("whose thrusts end has one behind each input that waits, and nothing o
   std::erase_if(others, [](const AppliedInput& one) { return one.player == 2; });
   CHECK(queue.waiting() == others);
 }
+
+TEST_CASE("whose thrusts end again and again has one end a step, not one each time") {
+  InputQueue queue(1000);
+  queue.add_player(1);
+  queue.file(input(1, 1, 8), 5);
+  queue.file(input(1, 2, 9), 5);
+  std::uint32_t seq = queue.end_thrusts(1, 3, {5});
+  CHECK(queue.waiting().size() == 5);
+  for (int k = 0; k < 300; ++k) seq = queue.end_thrusts(1, seq, {5});
+  CHECK(queue.waiting().size() == 5);
+  CHECK(queue.file(input(1, seq, 9), 5).outcome == Outcome::kFiled);
+  queue.end_thrusts(1, seq + 1, {});
+  CHECK(queue.waiting().size() == 7);
+}

@@ -93,3 +93,31 @@ TEST_CASE("who leaves while answers wait is told that they are left out") {
           return line.find("what you asked for is left out") != std::string::npos;
         }) == 2);
 }
+
+TEST_CASE(
+    "lines of too many bytes are read late, by the session's measure and its address's, and none is lost") {
+  protocol::Limits limits;
+  limits.messages_per_s = 100000;
+  limits.burst = 100000;
+  limits.line_bytes_per_s = 1024;
+  const std::string chat = "{\"type\":\"ping\",\"t\":1,\"x\":\"" + std::string(994, 'x') + "\"}\n";
+  REQUIRE(chat.size() == 1024);
+  Stage stage(limits);
+  stage.start_joined();
+  const auto pongs = [&] {
+    const auto lines = stage.lines();
+    return std::count_if(lines.begin(), lines.end(),
+                         [](const std::string& line) { return line.find("pong") != std::string::npos; });
+  };
+  std::string many;
+  for (int k = 0; k < 20; ++k) many += chat;
+  stage.send(many);
+  const auto at_once = pongs();
+  CHECK((at_once >= 7 && at_once <= 8));
+  stage.pass(milliseconds(3500));
+  CHECK((pongs() >= at_once + 3 && pongs() <= at_once + 4));
+  stage.address->charge(Spending::kLineBytes, 1e9, stage.timekeeper.now());
+  const auto before = pongs();
+  stage.pass(seconds(5));
+  CHECK(pongs() == before);
+}

@@ -1,4 +1,4 @@
-#include "bench/lab/speed_maps.h"
+#include "bench/lab/speed/maps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -191,7 +191,9 @@ std::string growth_picture(const std::vector<std::vector<Table::Cell>>& rows) {
   return script.str();
 }
 
-core::Expected<std::vector<MapPointer>> maps_of(std::filesystem::path folder) {
+}  // namespace
+
+core::Expected<std::vector<std::shared_ptr<const map::Map>>> maps_of(std::filesystem::path folder) {
   if (folder.empty()) {
     const auto shipped = map::find_map("volcano");
     if (!shipped) return tl::unexpected(shipped.error());
@@ -213,8 +215,6 @@ core::Expected<std::vector<MapPointer>> maps_of(std::filesystem::path folder) {
   }
   return maps;
 }
-
-}  // namespace
 
 core::Expected<void> measure_maps(const std::filesystem::path& folder, const Output& output) {
   const auto maps = maps_of(folder);

@@ -1,4 +1,4 @@
-#include "bench/lab/speed_steps.h"
+#include "bench/lab/speed/steps.h"
 
 #include <cmath>
 #include <iostream>

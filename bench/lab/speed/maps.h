@@ -2,10 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <vector>
 
 #include "bench/lab/report/output.h"
+#include "shared/map/map_definition.h"
 
 namespace woodlouse::lab {
+
+/// The maps of a folder, by name; empty: the project's own.
+core::Expected<std::vector<std::shared_ptr<const map::Map>>> maps_of(std::filesystem::path folder);
 
 /// The maps of `folder` (empty: the project's own), by name: every instruction set this machine has, thrusts
 /// held and new each tick, with the state hash and without; then from one louse to a million. Writes

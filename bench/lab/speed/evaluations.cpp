@@ -1,4 +1,4 @@
-#include "bench/lab/speed_evaluations.h"
+#include "bench/lab/speed/evaluations.h"
 
 #include <array>
 #include <cmath>
