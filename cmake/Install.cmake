@@ -10,8 +10,7 @@ install(DIRECTORY maps DESTINATION ${data_folder})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY bots/python DESTINATION ${data_folder}
-        FILES_MATCHING PATTERN "*.py" PATTERN "test_*" EXCLUDE PATTERN "scripted_server.py" EXCLUDE
-        PATTERN "__pycache__" EXCLUDE)
+        FILES_MATCHING PATTERN "*.py" PATTERN "tests" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 
 # For programs of others: woodlouse::match and woodlouse::replay without Boost, woodlouse::bot with its headers.
 set(rooms core state json terrain physics document map protocol rules match replay)

@@ -9,7 +9,7 @@ import sys
 import threading
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import woodlouse
 from scripted_server import BYE, HELLO, KEY, Scripted, WELCOME, expect, joined
 

@@ -11,8 +11,7 @@ import sys
 import threading
 import unittest
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, HERE)
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import woodlouse
 from running import PATIENCE_S, ROOT, example, serve
 from woodlouse_motion import ALONG_HEADING, FLYING, HELD, Motion, MOVING, RESTING, body_of_ack, body_of_row

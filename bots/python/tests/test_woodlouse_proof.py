@@ -5,7 +5,7 @@ import struct
 import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import woodlouse
 from scripted_server import BYE, HELLO, Scripted, WELCOME, expect
 

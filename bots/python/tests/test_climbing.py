@@ -14,8 +14,7 @@ import os
 import sys
 import unittest
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, HERE)
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import woodlouse
 from running import ROOT, Running, Witness, example, program, readme_bot, readme_code, serve
 

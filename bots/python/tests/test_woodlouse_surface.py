@@ -8,7 +8,7 @@ import os
 import sys
 import unittest
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from woodlouse_surface import FunctionSurface, SplineSurface
 
 ORIGIN, SPACING, COLUMNS, ROWS = (-2.0, 1.0), (0.5, 0.25), 9, 7

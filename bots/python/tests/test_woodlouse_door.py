@@ -8,7 +8,7 @@ import time
 import unittest
 from unittest import mock
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import woodlouse
 import woodlouse_door
 from scripted_server import BYE, HELLO, KEY, Scripted, WELCOME, expect

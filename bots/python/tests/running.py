@@ -13,9 +13,9 @@ import tempfile
 import threading
 import time
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-ROOT = os.path.dirname(os.path.dirname(HERE))
-sys.path.insert(0, HERE)
+KIT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+ROOT = os.path.dirname(os.path.dirname(KIT))
+sys.path.insert(0, KIT)
 import woodlouse
 
 PATIENCE_S = 60.0  # only a failing test takes so long
@@ -99,7 +99,7 @@ def serve(owner, played, *options):
 
 
 def example(name, address):
-    return Running(sys.executable, "-B", os.path.join(HERE, name + ".py"), address)
+    return Running(sys.executable, "-B", os.path.join(KIT, name + ".py"), address)
 
 
 def readme_code(*path):
@@ -110,7 +110,7 @@ def readme_code(*path):
 
 
 def readme_bot(address):
-    return Running("env", "PYTHONPATH=" + HERE, sys.executable, "-B", "-c", readme_code(), address)
+    return Running("env", "PYTHONPATH=" + KIT, sys.executable, "-B", "-c", readme_code(), address)
 
 
 class Witness:
