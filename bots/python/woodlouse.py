@@ -23,6 +23,7 @@ from woodlouse_frames import Frames
 from woodlouse_ground import Ground, complete
 from woodlouse_lines import DEFAULT_ADDRESS, MAX_LINE_BYTES, SILENCE_S, WoodlouseError
 from woodlouse_proof import ALL_FIELDS, prove, state_hash, xxh64
+from woodlouse_session import Session
 
 __all__ = ["ALL_FIELDS", "DEFAULT_ADDRESS", "Game", "Ground", "HELD", "MAX_LINE_BYTES", "SILENCE_S", "State",
            "WoodlouseError", "connect", "run", "state_hash", "xxh64"]
@@ -73,7 +74,7 @@ def run(main):
         sys.exit(141)
 
 
-class Game:
+class Game(Session):
     """A joined session. Attributes: id (your louse; 0 for a spectator), name (yours here: "ann#2" where there was an ann),
     room, fields, tick_hz, state_hz, extent (x_min, y_min, x_max, y_max) [m], players {id: name} of who has a louse,
     spectators [name] of who has none (of a former server; today's counts them: welcome["spectators"], rooms()), hello and
@@ -88,13 +89,10 @@ class Game:
     has asked for the map, from its definition."""
 
     def __init__(self, door, name, verify=False):
-        self._door = door
-        self._seq = 0
+        super().__init__(door)
         self.name = name
-        self.comebacks = 0
         self._verifies = verify
         self.verified = 0
-        self._resyncing = False
         self._ground = None
         self._pongs = {}
         self._rooms = None
@@ -103,7 +101,6 @@ class Game:
         self._state = None
         self.errors = collections.deque(maxlen=100)
         self.last_ack = None
-        self.bye = None
         self.welcome = None
         self.players = {}
         self.spectators = []
@@ -114,15 +111,6 @@ class Game:
 
     def __exit__(self, *exception):
         self.close()
-
-    def close(self):
-        """Leaves; the louse goes with you."""
-        try:
-            if self.bye is None:
-                self._lines.send({"type": "leave"})
-        except WoodlouseError:
-            pass  # it is gone already, and so are we
-        self._lines.close()
 
     # ---- what you see ----
 
@@ -209,59 +197,10 @@ class Game:
 
     # ---- the wire ----
 
-    def _begin(self, lines, hello, welcome):
-        self._lines, self.hello = lines, hello
-        self._seq, self._resyncing = 0, False
-        try:
-            self._take(welcome)
-        except BaseException:
-            lines.close()
-            raise
-
-    def _come_back(self, error):
-        self._lines.close()
-        self.on_lost(error)
-        self._begin(*self._door.come_back())
-        self.comebacks += 1
-        self.on_comeback()
-
-    def _send(self, message):
-        try:
-            self._lines.send(message)
-        except WoodlouseError as error:  # it is dropped; whoever looks for the next state comes back
-            if not self._door.brings_back(error):
-                raise
-
-    def _ask(self, question, done):
-        """Asks once on each connection."""
-        asked = None
-        while not done():
-            if self.bye is not None:
-                raise WoodlouseError(self.bye.get("code", "bye"), self.bye.get("text", ""))
-            if asked != self.comebacks:
-                asked = self.comebacks
-                self._send(question)
-            self._receive()
-
-    def _receive(self):
-        try:
-            self._take(self._lines.message())
-        except WoodlouseError as error:
-            if self.bye is not None or not self._door.brings_back(error):
-                raise
-            self._come_back(error)
-
-    def _take(self, message):
-        handler = getattr(self, "_on_" + str(message["type"]), None)
-        try:
-            if handler:  # types of later versions are passed over
-                handler(message)
-        except (KeyError, TypeError, ValueError, IndexError) as error:
-            raise WoodlouseError("protocol", "a %s out of shape (%s)" % (message["type"], error)) from None
-
     def _on_welcome(self, message):
         if self.welcome is None or self.welcome["map"]["hash"] != message["map"]["hash"]:
             self._ground, self.physics = None, dict(message["physics"])
+        self._seq, self._resyncing = 0, False
         self.welcome = message
         self.id = message["id"]
         self.name = message.get("name", self.name)
@@ -319,12 +258,6 @@ class Game:
         self.errors.append(message)
         self.on_error(message)
 
-    def _on_bye(self, message):
-        unasked = WoodlouseError(message["code"], message["text"])
-        if message["code"] == "left" and self._door.brings_back(unasked):
-            raise unasked  # something between us and the server ended our side: who leaves does not listen any more
-        self.bye = message
-
     def _on_map(self, message):
         definition = message["definition"]
         knots = message.get("knots") or definition["terrain"]
@@ -334,9 +267,6 @@ class Game:
 
     def _on_rooms(self, message):
         self._rooms = message["rooms"]
-
-    def _on_ping(self, message):
-        self._send({"type": "pong", "t": message["t"]})
 
     def _on_pong(self, message):
         self._pongs[message["t"]] = time.monotonic_ns() % (1 << 53)

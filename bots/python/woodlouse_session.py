@@ -1,0 +1,80 @@
+"""A joined connection that comes back when it breaks; the base of woodlouse.Game."""
+
+from woodlouse_lines import WoodlouseError
+
+
+class Session:
+    """Takes messages from the lines that a Door opens, and opens again: each goes to the method _on_TYPE of who inherits, if
+    there is one. Who inherits has on_lost(error) and on_comeback(), too."""
+
+    def __init__(self, door):
+        self._door = door
+        self.comebacks = 0
+        self.bye = None
+
+    def close(self):
+        """Leaves; the louse goes with you."""
+        try:
+            if self.bye is None:
+                self._lines.send({"type": "leave"})
+        except WoodlouseError:
+            pass  # it is gone already, and so are we
+        self._lines.close()
+
+    def _begin(self, lines, hello, welcome):
+        self._lines, self.hello = lines, hello
+        try:
+            self._take(welcome)
+        except BaseException:
+            lines.close()
+            raise
+
+    def _come_back(self, error):
+        self._lines.close()
+        self.on_lost(error)
+        self._begin(*self._door.come_back())
+        self.comebacks += 1
+        self.on_comeback()
+
+    def _send(self, message):
+        try:
+            self._lines.send(message)
+        except WoodlouseError as error:  # it is dropped; whoever looks for the next state comes back
+            if not self._door.brings_back(error):
+                raise
+
+    def _ask(self, question, done):
+        """Asks once on each connection."""
+        asked = None
+        while not done():
+            if self.bye is not None:
+                raise WoodlouseError(self.bye.get("code", "bye"), self.bye.get("text", ""))
+            if asked != self.comebacks:
+                asked = self.comebacks
+                self._send(question)
+            self._receive()
+
+    def _receive(self):
+        try:
+            self._take(self._lines.message())
+        except WoodlouseError as error:
+            if self.bye is not None or not self._door.brings_back(error):
+                raise
+            self._come_back(error)
+
+    def _take(self, message):
+        handler = getattr(self, "_on_" + str(message["type"]), None)
+        try:
+            if handler:  # types of later versions are passed over
+                handler(message)
+        except (KeyError, TypeError, ValueError, IndexError) as error:
+            raise WoodlouseError("protocol", "a %s out of shape (%s)" % (message["type"], error)) from None
+
+    def _on_ping(self, message):
+        self._send({"type": "pong", "t": message["t"]})
+
+    def _on_bye(self, message):
+        unasked = WoodlouseError(message["code"], message["text"])
+        if message["code"] == "left" and self._door.brings_back(unasked):
+            raise unasked  # something between us and the server ended our side: who leaves does not listen any more
+        self.bye = message
