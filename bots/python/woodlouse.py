@@ -23,10 +23,11 @@ from woodlouse_frames import Frames
 from woodlouse_ground import Ground, complete
 from woodlouse_lines import DEFAULT_ADDRESS, MAX_LINE_BYTES, SILENCE_S, WoodlouseError
 from woodlouse_proof import ALL_FIELDS, prove, state_hash, xxh64
+from woodlouse_rules import DEFAULT_FIELDS, MOMENTS_PER_TICK, Crumb, Round, Standing, with_standing
 from woodlouse_session import Session
 
-__all__ = ["ALL_FIELDS", "DEFAULT_ADDRESS", "Game", "Ground", "HELD", "MAX_LINE_BYTES", "SILENCE_S", "State",
-           "WoodlouseError", "connect", "run", "state_hash", "xxh64"]
+__all__ = ["ALL_FIELDS", "Crumb", "DEFAULT_ADDRESS", "Game", "Ground", "HELD", "MAX_LINE_BYTES", "Round", "SILENCE_S",
+           "Standing", "State", "WoodlouseError", "connect", "run", "state_hash", "xxh64"]
 
 HELD = 4294967295  # ticks_left of a thrust that holds until the next one
 
@@ -39,7 +40,8 @@ def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields
             verify=False, resume=True):
     """Connects to HOST:PORT and joins. Raises WoodlouseError. Use it in a `with`: that leaves at the end.
 
-    role: "bot", "player" or "spectator". fields: names of columns, or "all"; id x y vx vy when left out.
+    role: "bot", "player" or "spectator". fields: names of columns, or "all"; id x y vx vy when left out. A server with rules
+    of play is asked for those of a Standing besides, but with "all", for game.score and the like; rows don't show them.
     state_hz: how many states a second; the room's own when left out.
     verify: recompute the hash of every key from its rows. Asks for all fields in exact format, so leave out `fields`
     and `format`; game.verified counts the keys, and one that differs raises WoodlouseError with the code "differs".
@@ -55,7 +57,7 @@ def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields
     for field, value in (("room", room), ("fields", fields), ("state_hz", state_hz)):
         if value is not None:
             join[field] = value
-    return Game(Door(address, join, resume), name, verify)
+    return Game(Door(address, join, resume, with_standing(fields)), name, verify, fields)
 
 
 def run(main):
@@ -82,16 +84,23 @@ class Game(Session):
     the connection broke and came back; welcome["resumed"] is true where it came back to its louse, else id is another),
     and bye once the server said it.
 
+    What is played: mode ("roam", "race", "forage", "hill"), rules (the mode as the map has it, its defaults filled in:
+    rules["gates"], rules["places"] ...; {} in roam), round (the newest Round; None in roam and before the first state),
+    standings {id: Standing} of all lice on the map, and score, gate, lap, lap_start, best_lap as the own one has them, or
+    had them while it is out. These five are None before the louse is on the map and for a spectator; they, and standings
+    {}, also of a server that knows no rules, and where "all" columns were asked for.
+
     physics: gravity [m/s^2], drag [1/s], friction (Coulomb's), thrust_max [m/s^2], edge_restitution (0 to 1); equations
     ("exact", "local_plane", "as_printed"), method ("standard", "cheap", "precise", "false_euler"), contact ("bilateral",
-    "unilateral"), edges ("walls", "wrap"), central_gravity (k of k / r^2 [m^3/s^2]; 0: none), core_radius (within which
-    that pull is smooth [m]; 0 where there is none). Of a server that does not send the last six they are there once map()
-    has asked for the map, from its definition."""
+    "unilateral"), edges ("walls", "wrap", "open"), central_gravity (k of k / r^2 [m^3/s^2]; 0: none), core_radius (within
+    which that pull is smooth [m]; 0 where there is none). Of a server that does not send the last six they are there once
+    map() has asked for the map, from its definition."""
 
-    def __init__(self, door, name, verify=False):
+    def __init__(self, door, name, verify=False, fields=None):
         super().__init__(door)
         self.name = name
         self._verifies = verify
+        self._wanted = fields
         self.verified = 0
         self._ground = None
         self._pongs = {}
@@ -139,12 +148,23 @@ class Game(Session):
 
     def take_events(self):
         """The events since the last call, oldest first: dicts with n, tick, kind (joined, left, chat, respawned), id
-        (0 for each spectator: the name tells them apart), name."""
+        (0 for each spectator: the name tells them apart), name. Those of rules of play (gate, lap, run, crumb, harvest,
+        bump, holds, contested, moving, fell, returned, round) have moment and the fields of docs/protocol.md besides."""
         return _drain(self._events)
 
     def take_acks(self):
         """The acks since the last call, oldest first: dicts with seq, tick, margin_us, late, dropped, clamped, you."""
         return _drain(self._acks)
+
+    def seconds_of(self, moments):
+        """Of a time that rules tell, [s]."""
+        return moments / MOMENTS_PER_TICK / self.tick_hz
+
+    score = property(lambda self: self._standing and self._standing.score)
+    gate = property(lambda self: self._standing and self._standing.gate)
+    lap = property(lambda self: self._standing and self._standing.lap)
+    lap_start = property(lambda self: self._standing and self._standing.lap_start)
+    best_lap = property(lambda self: self._standing and self._standing.best_lap)
 
     def ping(self):
         """The round-trip time [s]."""
@@ -178,9 +198,10 @@ class Game(Session):
         """Says something to everybody in the room."""
         self._send({"type": "chat", "text": text})
 
-    def respawn(self):
-        """Goes back to a spawn point."""
-        self._send({"type": "respawn"})
+    def respawn(self, at=None):
+        """Goes back to a spawn point; in a race with at="gate" to where you drove through your last gate, as fast as then:
+        the run is practice from there on."""
+        self._send({"type": "respawn"} if at is None else {"type": "respawn", "at": at})
 
     def on_error(self, error):
         """Called for each `error` of the server that does not end the session; override or assign it."""
@@ -207,14 +228,22 @@ class Game(Session):
         self.room = message["room"]
         self.tick_hz = message["tick_hz"]
         self.state_hz = message["state_hz"]
-        self.fields = message["fields"]
+        self.fields = self._columns(message["fields"])
+        self.mode, self.rules = message.get("mode", "roam"), message.get("rules") or {}
+        self.round, self.standings, self._standing = None, {}, None
         self.extent = tuple(message["map"]["extent"])
         # All spectators have the id 0, which therefore names none of them.
         self.players = {player["id"]: player["name"] for player in message["players"] if player["id"]}
         if self.id and "name" in message:
             self.players[self.id] = self.name
         self.spectators = [player["name"] for player in message["players"] if not player["id"]]
-        self._frames = Frames(self.fields, message["quantum"])
+        self._frames = Frames(message["fields"], message["quantum"], self.fields)
+
+    def _columns(self, fields):
+        """Those of the columns that were asked for, where they are there: a room with many choices may send more."""
+        asked = fields if self._wanted == "all" else list(DEFAULT_FIELDS if self._wanted is None else self._wanted)
+        asked = ["id"] + [field for field in asked if field != "id"]
+        return asked if set(asked) <= set(fields) else fields
 
     def _on_key(self, message):
         if self._verifies:
@@ -224,15 +253,17 @@ class Game(Session):
         self._show(message["tick"], self._frames.key(message))
 
     def _on_delta(self, message):
-        lice = self._frames.delta(message)
-        if lice is not None:
-            return self._show(message["tick"], lice)
+        frame = self._frames.delta(message)
+        if frame is not None:
+            return self._show(message["tick"], frame)
         if not self._resyncing:
             self._resyncing = True
             self._send({"type": "resync"})
 
-    def _show(self, tick, lice):
-        self._state = State(tick, lice, lice.get(self.id))
+    def _show(self, tick, frame):
+        self.round, self.standings = frame.round, frame.standings
+        self._standing = frame.standings.get(self.id, self._standing)
+        self._state = State(tick, frame.lice, frame.lice.get(self.id))
 
     def _on_ack(self, message):
         self.last_ack = message

@@ -11,12 +11,14 @@ _PASSING = {"connection", "idle", "slow", "left", "rate_limited", "too_many_conn
 
 
 class Door:
-    """Joins, and joins again. resumes: the louse is to wait when the connection breaks, and is asked for then."""
+    """Joins, and joins again. resumes: the louse is to wait when the connection breaks, and is asked for then. fields: asked
+    for instead of the join's own where the server has rules of play; None: nothing instead."""
 
-    def __init__(self, address, join, resumes):
+    def __init__(self, address, join, resumes, fields=None):
         self._address = address
         self._join = dict(join)
         self._resumes = resumes
+        self._fields = fields
         if resumes and join["role"] != "spectator":
             self._join["resume"] = True
 
@@ -52,7 +54,8 @@ class Door:
             _raise_refusal(hello)
             if hello["type"] != "hello":
                 raise WoodlouseError("protocol", "this is no woodlouse server: it began with %r" % hello["type"])
-            lines.send(self._join)
+            has_rules = self._fields is not None and "rules" in hello.get("features", ())
+            lines.send(dict(self._join, fields=self._fields) if has_rules else self._join)
             while True:
                 message = lines.message()
                 _raise_refusal(message)

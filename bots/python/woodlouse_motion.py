@@ -2,9 +2,9 @@
 
 From an exact state - the `you` of an ack, or a row of all columns in exact format - `Motion.after` tells where the louse
 will be if its thrust stays as it is. Units: m, m/s, ticks. What it takes is some 10 ms of processor time for half a second
-of motion; how far it errs is tested against a server (tests/test_predict.py). Two things it knows but roughly: who comes to a wall
-at less than 5 cm/s, whom it does not throw back here, and who grazes a crest of a unilateral map - whether it hops there
-hangs on the server's own steps, and half a second later it may be two centimetres elsewhere.
+of motion; how far it errs is tested against a server (tests/test_predict.py). Two things it knows but roughly: who comes
+to a wall at less than 5 cm/s, whom it does not throw back here, and who grazes a crest of a unilateral map - whether it
+hops there hangs on the server's own steps, and half a second later it may be two centimetres elsewhere.
 """
 
 import collections
