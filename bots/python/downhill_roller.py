@@ -1,13 +1,19 @@
 #!/usr/bin/env python3
-"""Lives to roll: kicks itself uphill, lets go, and coasts until it lies still. [HOST:PORT]"""
+"""Lives to roll: kicks itself uphill, lets go, and coasts until it lies still. [HOST:PORT]
+
+Where something is played, it plays that.
+"""
 import math
 import random
 
 import woodlouse
+import woodlouse_play
 
 
 def main(address):
     with woodlouse.connect(address, name="Rolly") as game:
+        if woodlouse_play.plays(game):
+            return woodlouse_play.play(game)
         ground = game.map()
         fastest, moved = 0.0, 0
         for state in game.states():

@@ -1,8 +1,12 @@
 #!/usr/bin/env python3
-"""Climbs to the summit; where its thrust does not suffice, it swings itself higher. [HOST:PORT]"""
+"""Climbs to the summit; where its thrust does not suffice, it swings itself higher. [HOST:PORT]
+
+Where something is played, it plays that.
+"""
 from math import hypot, inf
 
 import woodlouse
+import woodlouse_play
 
 
 class Climber:
@@ -37,6 +41,8 @@ class Climber:
 
 def main(address):
     with woodlouse.connect(address, name="Sherpa") as game:
+        if woodlouse_play.plays(game):
+            return woodlouse_play.play(game)
         climber, ground, told = Climber(game), game.map(), -inf
         for state in game.states():
             if not state.me:

@@ -1,12 +1,18 @@
 #!/usr/bin/env python3
-"""Circles the middle of the map, as fast as the slope holds it on its orbit. [HOST:PORT]"""
+"""Circles the middle of the map, as fast as the slope holds it on its orbit. [HOST:PORT]
+
+Where something is played, it plays that.
+"""
 from math import atan2, hypot, pi, remainder, sqrt
 
 import woodlouse
+import woodlouse_play
 
 
 def main(address):
     with woodlouse.connect(address, name="Saturn") as game:
+        if woodlouse_play.plays(game):
+            return woodlouse_play.play(game)
         ground, gravity, full = game.map(), game.physics["gravity"], game.physics["thrust_max"]
         x0, y0, x1, y1 = game.extent
         orbit = 0.2 * min(x1 - x0, y1 - y0)

@@ -38,7 +38,8 @@ row.vx ...), in units. me: your own row; None for a spectator, and before your l
 
 def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields=None, format="quantized", state_hz=None,
             verify=False, resume=True):
-    """Connects to HOST:PORT and joins. Raises WoodlouseError. Use it in a `with`: that leaves at the end.
+    """Connects to HOST:PORT, or HOST:PORT/ROOM, and joins. Raises WoodlouseError. Use it in a `with`: that leaves at the
+    end.
 
     role: "bot", "player" or "spectator". fields: names of columns, or "all"; id x y vx vy when left out. A server with rules
     of play is asked for those of a Standing besides, but with "all", for game.score and the like; rows don't show them.
@@ -53,6 +54,8 @@ def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields
         if fields is not None:
             raise ValueError("verify needs all fields: leave out `fields`")
         fields, format = "all", "exact"
+    address, _, of_address = address.partition("/")
+    room = room or of_address or None
     join = {"type": "join", "protocol": 1, "role": role, "name": name, "format": format}
     for field, value in (("room", room), ("fields", fields), ("state_hz", state_hz)):
         if value is not None:
@@ -64,7 +67,7 @@ def run(main):
     """Calls main(address) with the address of the command line; turns errors and Ctrl-C into a clean end."""
     arguments = sys.argv[1:]
     if len(arguments) > 1 or (arguments and arguments[0].startswith("-")):
-        sys.exit("usage: %s [HOST:PORT]      (default %s)" % (sys.argv[0], DEFAULT_ADDRESS))
+        sys.exit("usage: %s [HOST:PORT[/ROOM]]      (default %s)" % (sys.argv[0], DEFAULT_ADDRESS))
     try:
         main(arguments[0] if arguments else DEFAULT_ADDRESS)
     except WoodlouseError as error:

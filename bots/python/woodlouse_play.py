@@ -1,0 +1,233 @@
+"""Plays what a room plays: drives races, eats crumbs, holds hills. A beginning to improve on.
+
+    import woodlouse, woodlouse_play
+
+    with woodlouse.connect("127.0.0.1:7777/volcano/race") as game:
+        if woodlouse_play.plays(game):
+            woodlouse_play.play(game)
+"""
+
+from math import hypot, inf, sqrt
+
+STUCK_S = 10.0  # without coming nearer, after which a racer begins again and others go elsewhere
+STALLED_S = 1.5  # without coming nearer, after which a louse swings itself up
+TOP_SPEED = 30.0  # [m/s]
+
+
+def plays(game):
+    """Whether its mode is one that is played here."""
+    return game.mode in _PLAYERS
+
+
+def player_of(game):
+    """Who plays the game's mode: push(state) is the thrust, a pair as Game.thrust takes it; None to leave it as it is.
+    REQUIRES plays(game)."""
+    return _PLAYERS[game.mode](game)
+
+
+def play(game):
+    """Plays until the game ends, and prints what comes of it. REQUIRES plays(game)."""
+    player = player_of(game)
+    for state in game.states():
+        for event in game.take_events():
+            line = told(game, event)
+            if line:
+                print("tick %d: %s" % (event["tick"], line), flush=True)
+        if state.me:
+            push = player.push(state)
+            if push:
+                game.thrust(push)
+
+
+def told(game, event):
+    """What an event says of your louse, or of the round's end; None where it is nothing."""
+    kind = event["kind"]
+    if kind == "round" and event["phase"] == "podium":
+        scores = ["%s %s" % (game.players.get(louse, louse), _score(game, score)) for louse, score in event["table"]]
+        return "round %d ends: %s" % (event["round"], ", ".join(scores) or "nobody was there")
+    if event["id"] != game.id:
+        return None
+    if kind in ("lap", "run"):
+        return "%s in %.3f s" % (kind, game.seconds_of(event["time"]))
+    if kind == "crumb":
+        return "a crumb of %d, %d in all" % (event["value"], event["score"])
+    return {"holds": "holds the place", "fell": "fell off the map"}.get(kind)
+
+
+def _score(game, score):
+    if game.mode == "forage":
+        return "%d" % score
+    return "%.3f s" % game.seconds_of(score) if game.mode == "race" else "%.1f s" % (score / game.tick_hz)
+
+
+class Driver:
+    """Steers to places: as fast as can be braked and turned, and where the thrust does not climb to one, swinging."""
+
+    def __init__(self, game):
+        self._ground, self._tick_hz = game.map(), game.tick_hz
+        self._gravity, self._drag, self._full = (game.physics[name] for name in ("gravity", "drag", "thrust_max"))
+        self.head_for(None, 0)
+
+    def head_for(self, goal, tick):
+        """Goes for another goal from now on; the progress counts anew. goal: anything that can be compared."""
+        self._goal, self._nearest, self._since, self._swings = goal, inf, tick, False
+
+    def stuck_s(self, tick):
+        """For how long it has not come nearer to its goal [s]."""
+        return (tick - self._since) / self._tick_hz
+
+    def way(self, me, place):
+        """(dx, dy) [m] to the place, and how far that is."""
+        dx, dy = self._ground.way(me.x, me.y, *place)
+        return dx, dy, hypot(dx, dy)
+
+    def push(self, tick, me, place, speed_there, goal=None):
+        """The thrust towards a place [m], to be there with so many m/s. goal: whose progress it is, the place's own where it
+        is left out."""
+        dx, dy, far = self.way(me, place)
+        goal = place if goal is None else goal
+        if goal != self._goal:
+            self.head_for(goal, tick)
+        if far < self._nearest - 0.5:
+            self._nearest, self._since = far, tick
+        speed, (gx, gy) = hypot(me.vx, me.vy), self._ground.gradient(me.x, me.y)
+        pull = self._gravity / (1 + gx * gx + gy * gy)  # times the gradient: what the slope takes away
+        stalled = speed < 1 and far > 1 and self.stuck_s(tick) > STALLED_S and pull * hypot(gx, gy) > 0.5 * self._full
+        if self._swings or stalled:
+            self._swings = self._needs_energy(me, place, speed, far)
+            if self._swings:
+                return (me.vx / speed, me.vy / speed) if speed > 0.3 else (-gx, -gy)
+        wanted = min(TOP_SPEED, sqrt(speed_there * speed_there + self._full * far))  # braking with half of the thrust
+        along = (dx / far, dy / far) if far > 0.01 else (0.0, 0.0)
+        wanted = min(wanted, 2 * far + speed_there)
+        return self._drive(me, (gx, gy), pull, along, wanted)
+
+    def _needs_energy(self, me, place, speed, far):
+        """Whether speed and thrust don't carry it up to the place."""
+        climb = self._gravity * (self._ground.height(*place) - self._ground.height(me.x, me.y))
+        return climb > 0 and 0.5 * speed * speed + 0.7 * self._full * far < 1.1 * climb
+
+    def _drive(self, me, gradient, pull, along, speed):
+        """The thrust that makes the velocity `speed` along a direction; what it takes across goes first, lest it is carried
+        off."""
+        ax, ay = (3 * (speed * along[i] - v) + pull * gradient[i] + self._drag * v for i, v in enumerate((me.vx, me.vy)))
+        size = hypot(ax, ay)
+        if size < 1e-6:
+            return 0.0, 0.0
+        slope = (gradient[0] * ax + gradient[1] * ay) / size
+        share = sqrt(1 + slope * slope) / (self._full or 1.0)
+        ax, ay = ax * share, ay * share
+        if hypot(ax, ay) <= 1 or along == (0.0, 0.0):
+            return ax, ay
+        across = max(-0.95, min(0.95, along[0] * ay - along[1] * ax))
+        onwards = sqrt(1 - across * across)
+        if along[0] * ax + along[1] * ay < 0:
+            onwards = -onwards
+        return onwards * along[0] - across * along[1], onwards * along[1] + across * along[0]
+
+
+class Racer:
+    """Drives through the next gate where the way to the one behind it is short, as fast as the turn lets it."""
+
+    def __init__(self, game):
+        self._game, self._driver, self._gates = game, Driver(game), game.rules["gates"]
+        self._back = None  # the gate that it drives back from, to come from its right-hand side
+
+    def push(self, state):
+        gate = self._game.gate
+        if gate is None or not gate < len(self._gates):
+            return None
+        if self._driver.stuck_s(state.tick) > STUCK_S:
+            self._game.respawn()
+            self._driver.head_for(None, state.tick)
+            return None
+        me, after = state.me, (gate + 1) % len(self._gates)
+        middle, along, across, half = self._shape(gate)
+        dx, dy, far = self._driver.way(me, middle)
+        behind = -(dx * across[0] + dy * across[1])  # so far past the gate's line it is [m]
+        if behind > 0:
+            self._back = gate
+        elif behind < -2:
+            self._back = None
+        if self._back == gate:
+            before = (middle[0] - 4 * across[0], middle[1] - 4 * across[1])
+            return self._driver.push(state.tick, me, before, 2.0, (gate, "back"))
+        # Seen from here, where the straight way on crosses the gate's line.
+        ox, oy = self._ground_way(middle, self._shape(after)[0])
+        there = ox * across[0] + oy * across[1]
+        share = -behind / max(0.1, there - behind) if there > 0 else 0.0
+        aside = (-dx + share * (dx + ox)) * along[0] + (-dy + share * (dy + oy)) * along[1]
+        room = max(0.3 * half, half - 1.5)
+        aside = max(-room, min(room, aside))
+        cross = (middle[0] + aside * along[0], middle[1] + aside * along[1])
+        # Past it, so that it does not brake for the line itself.
+        speed = TOP_SPEED if self._gates[gate].get("air") else self._speed_at(me, cross, self._shape(after)[0])
+        return self._driver.push(state.tick, me, cross, speed, gate)
+
+    def _ground_way(self, one, other):
+        return self._game.map().way(*one, *other)
+
+    def _shape(self, gate):
+        """Its middle, its direction from a to b, the direction in which it is driven through, and half of its length."""
+        (ax, ay), (bx, by) = self._gates[gate]["a"], self._gates[gate]["b"]
+        size = hypot(bx - ax, by - ay)
+        along = ((bx - ax) / size, (by - ay) / size)
+        return ((ax + bx) / 2, (ay + by) / 2), along, (-along[1], along[0]), size / 2
+
+    def _speed_at(self, me, cross, after):
+        """With which the turn from here over there to the place after it can be driven, with half of the thrust."""
+        dx, dy, come = self._driver.way(me, cross)
+        ox, oy = self._ground_way(cross, after)
+        go = hypot(ox, oy)
+        cosine = (dx * ox + dy * oy) / max(1e-9, come * go)
+        tangent = sqrt(max(0.0, 1 - cosine) / max(1e-6, 1 + cosine))  # of half the turn
+        radius = 0.5 * go / max(1e-3, tangent)
+        return max(2.0, min(TOP_SPEED, sqrt(0.5 * self._game.physics["thrust_max"] * radius)))
+
+
+class Forager:
+    """Goes for the crumb that gives most for the time it takes."""
+
+    def __init__(self, game):
+        self._game, self._driver = game, Driver(game)
+        self._target, self._given_up = None, set()
+
+    def push(self, state):
+        crumbs = self._game.round.crumbs if self._game.round else {}
+        wanted = {crumb for crumb in crumbs.values() if crumb not in self._given_up}
+        if self._driver.stuck_s(state.tick) > STUCK_S / 2 and self._target in wanted:
+            wanted.discard(self._target)
+            self._given_up.add(self._target)
+        if not wanted:
+            self._given_up.clear()
+            return (0.0, 0.0) if not crumbs else None
+        best = max(wanted, key=lambda crumb: self._worth(state.me, crumb) * (1.5 if crumb == self._target else 1))
+        if best != self._target:
+            self._target = best
+            self._driver.head_for((best.x, best.y), state.tick)
+        return self._driver.push(state.tick, state.me, (best.x, best.y), 3.0)
+
+    def _worth(self, me, crumb):
+        dx, dy, far = self._driver.way(me, (crumb.x, crumb.y))
+        forth = (me.vx * dx + me.vy * dy) / max(far, 0.1)  # [m/s] of its speed that lead there
+        return crumb.value / (1.0 + hypot(dx - 0.7 * me.vx, dy - 0.7 * me.vy) - 0.3 * max(-1.0, min(3.0, forth)))
+
+
+class Holder:
+    """Goes to the place that counts, and stays in its middle; to the next one when it moves soon and is another's."""
+
+    def __init__(self, game):
+        self._game, self._driver, self._places = game, Driver(game), game.rules["places"]
+
+    def push(self, state):
+        played = self._game.round
+        if not played or played.place is None:
+            return None
+        place = played.place
+        soon = 0 <= played.moves_at - state.tick < 4 * self._game.tick_hz
+        if soon and played.holder != self._game.id:
+            place += 1
+        return self._driver.push(state.tick, state.me, tuple(self._places[place % len(self._places)]["at"]), 0.0)
+
+
+_PLAYERS = {"race": Racer, "forage": Forager, "hill": Holder}
