@@ -42,6 +42,15 @@ core::Vec2 read_heading(const json::Value& value, json::Problems& problems) {
 
 }  // namespace
 
+state::Louse louse_at(const SpawnPoint& spawn, state::LouseId id) {
+  state::Louse louse;
+  louse.id = id;
+  louse.position = spawn.position;
+  louse.heading = spawn.heading;
+  louse.velocity = spawn.speed * spawn.heading;
+  return louse;
+}
+
 core::Vec2 heading_from_degrees(double degrees) {
   // The quadrant is taken off in degrees, where it is exact.
   const double turns = degrees / 90.0;

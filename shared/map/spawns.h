@@ -8,6 +8,7 @@
 #include "shared/json/fields.h"
 #include "shared/json/object_text.h"
 #include "shared/map/modes.h"
+#include "shared/state/louse.h"
 #include "shared/terrain/surface.h"
 
 namespace woodlouse::map {
@@ -20,6 +21,9 @@ void add_spawns(json::ObjectText& text, const std::vector<SpawnPoint>& spawns);
 
 /// Where lice start on a map that does not say: eight points on a ring around the middle, looking inwards.
 std::vector<SpawnPoint> default_spawns(const terrain::Rectangle& domain);
+
+/// Who begins there.
+state::Louse louse_at(const SpawnPoint& spawn, state::LouseId id);
 
 /// The unit vector at `degrees` counter-clockwise from +x; the same bits everywhere, exact at multiples
 /// of 90.

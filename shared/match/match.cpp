@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "shared/map/map_world.h"
+#include "shared/map/spawns.h"
 
 namespace woodlouse::match {
 
@@ -94,14 +95,11 @@ Filed Match::file(const Input& input, std::size_t per_tick) { return inputs_.fil
 void Match::spawn(PlayerId player, double distance) {
   const std::span<const map::SpawnPoint> spawns =
       rules_ != nullptr ? rules_->spawns() : std::span<const map::SpawnPoint>(map_->definition.spawns);
-  const map::SpawnPoint& point = spawns[static_cast<std::size_t>(random_.next() % spawns.size())];
-  state::Louse louse;
-  louse.id = player;
-  louse.position = point.position;
-  louse.heading = point.heading;
-  louse.velocity = point.speed * point.heading;
+  const auto drawn = static_cast<std::size_t>(random_.next() % spawns.size());
+  state::Louse louse = map::louse_at(spawns[drawn], player);
   louse.distance = distance;
   world_.insert(louse);
+  record_.spawned.push_back({player, static_cast<std::uint32_t>(drawn)});
 }
 
 void Match::put_at_gate(PlayerId player, const rules::Start& at, double distance) {
@@ -144,6 +142,7 @@ void Match::change(const RosterChange& change) {
 
 void Match::change_roster() {
   record_.roster.clear();
+  record_.spawned.clear();
   for (const RosterChange& change : pending_roster_) {
     // A respawn or leave of a louse that is gone by now changes nothing and is not recorded, nor does a
     // respawn of one that is out.

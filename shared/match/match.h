@@ -39,11 +39,18 @@ inline constexpr std::uint64_t kHorizonSeconds = 2;
 
 using PlayerId = state::LouseId;
 
+/// A louse that began at a spawn in a step, and which of the mode's that is.
+struct Spawned {
+  PlayerId player = 0;
+  std::uint32_t spawn = 0;
+};
+
 /// Everything one step did; with the header, all that a replay needs.
 struct StepRecord {
   std::uint64_t tick = 0;            ///< n: the step led from tick n to n + 1
   std::vector<RosterChange> roster;  ///< in the order applied
   std::vector<AppliedInput> inputs;  ///< in the order applied
+  std::vector<Spawned> spawned;      ///< in the order of the roster; no recording holds them
   std::vector<rules::Event> events;  ///< what the rules of play say happened; no recording holds them
   std::uint64_t hash = 0;            ///< of the state at tick n + 1; that of tick n where nothing changed
 };
@@ -114,6 +121,7 @@ class Match {
   [[nodiscard]] std::uint64_t tick() const { return tick_; }
   [[nodiscard]] const physics::World& world() const { return world_; }
   [[nodiscard]] const map::Map& map() const { return *map_; }
+  [[nodiscard]] const std::shared_ptr<const map::Map>& shared_map() const { return map_; }
   [[nodiscard]] const MatchSettings& settings() const { return settings_; }
   /// Of the state at tick(); 0 until a step has done something.
   [[nodiscard]] std::uint64_t hash() const { return hash_; }

@@ -16,9 +16,11 @@ constexpr state::StepEvents kJumps = state::kMetWall | state::kLanded | state::k
 }  // namespace
 
 Race::Race(const map::Map& map, std::uint32_t tick_hz)
+    : Race(map, tick_hz, std::uint64_t{map.definition.modes.race->round_s} * tick_hz) {}
+
+Race::Race(const map::Map& map, std::uint32_t tick_hz, std::uint64_t play)
     : Rules(state::Mode::kRace, map, tick_hz,
-            {0, std::uint64_t{map.definition.modes.race->round_s} * tick_hz,
-             std::uint64_t{map.definition.modes.race->podium_s} * tick_hz}),
+            {0, play, std::uint64_t{map.definition.modes.race->podium_s} * tick_hz}),
       mode_(*map.definition.modes.race),
       images_(images_of(map)) {
   assert(mode_.gates.size() >= map::kMinGates && mode_.gates.size() <= map::kMaxGates && mode_.laps >= 1);

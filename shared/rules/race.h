@@ -21,6 +21,8 @@ class Race final : public Rules {
  public:
   /// REQUIRES a map with that mode, which outlives it.
   Race(const map::Map& map, std::uint32_t tick_hz);
+  /// play: how long a round is [ticks], whatever the mode says.
+  Race(const map::Map& map, std::uint32_t tick_hz, std::uint64_t play);
 
   [[nodiscard]] std::span<const map::SpawnPoint> spawns() const override;
   [[nodiscard]] std::optional<Start> last_gate(state::LouseId louse) const override;
