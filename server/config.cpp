@@ -11,6 +11,7 @@
 #include "server/limit_options.h"
 #include "server/option_checks.h"
 #include "server/record_options.h"
+#include "server/records_options.h"
 #include "server/version.h"
 #include "shared/core/thread_team.h"
 
@@ -56,6 +57,7 @@ struct Typed {
   CheckConfig check;
   VerifyConfig verify;
   InspectConfig inspect;
+  RecordsConfig records;
 };
 
 /// Which games; a fork takes all of it from its recording.
@@ -83,6 +85,7 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
       ->check(whole_number(1, kMaxTickHz))
       ->capture_default_str();
   add_record_options(app, typed.record);
+  add_records_option(app, serve.records);
   app.add_flag("--shadow", serve.shadow,
                "Re-run every tick beside the game and compare; a difference is logged and kept")
       ->envname("WOODLOUSE_SHADOW");
@@ -262,6 +265,7 @@ core::Expected<Config> parse_config(int argc, const char* const* argv) {
   check->add_option("map", typed.check.maps, "Map files")->required();
   CLI::App* verify = add_verify(app, typed.verify.request);
   CLI::App* inspect = add_inspect(app, typed.inspect.request);
+  CLI::App* records = add_records_command(app, typed.records.request);
   CLI::App* fork = add_fork(app, typed);
   app.require_subcommand(0, 1);
   try {
@@ -270,8 +274,8 @@ core::Expected<Config> parse_config(int argc, const char* const* argv) {
     return Config{PrintConfig{std::string(kServerName) + "\n"}};
   } catch (const CLI::CallForHelp&) {
     CLI::App* shown = &app;
-    for (CLI::App* command : {check, verify, inspect, fork})
-      if (command->parsed()) shown = command;
+    for (CLI::App* command : {check, verify, inspect, records, fork})
+      if (command->parsed()) shown = command == records ? named_command(records) : command;
     return Config{PrintConfig{shown->help()}};
   } catch (const CLI::Error& error) {
     std::string hint = "see woodlouse-server ";
@@ -281,6 +285,7 @@ core::Expected<Config> parse_config(int argc, const char* const* argv) {
   if (check->parsed()) return Config{typed.check};
   if (verify->parsed()) return Config{typed.verify};
   if (inspect->parsed()) return Config{typed.inspect};
+  if (records->parsed()) return Config{typed.records};
   if (!fork->parsed()) return checked(app, typed.serve);
   typed.fork.serve.fork = typed.fork_point;
   return checked(*fork, typed.fork);

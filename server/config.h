@@ -12,6 +12,7 @@
 
 #include "server/commands/fork.h"
 #include "server/commands/inspect.h"
+#include "server/commands/records.h"
 #include "server/commands/verify.h"
 #include "server/log.h"
 #include "server/net/listen_address.h"
@@ -31,13 +32,14 @@ struct ServeConfig {
   std::uint32_t tick_hz = 60;   ///< 1..1000
   std::uint32_t state_hz = 20;  ///< divides tick_hz
   std::optional<RecordSettings> record;
-  bool shadow = false;                 ///< re-run and compare each tick beside the game
-  std::optional<std::uint64_t> ticks;  ///< stop after so many
-  std::optional<std::uint64_t> seed;   ///< empty: from the machine's entropy
-  std::optional<state::Mode> mode;     ///< empty: each that a map has, a room each
-  std::uint32_t bots = 0;              ///< of the house, in every room
-  bool bots_alone_play = false;        ///< they keep a room awake in which nobody is
-  std::uint32_t step_threads = 1;      ///< 1..core::ThreadTeam::kMostThreads; of a big room's tick
+  std::optional<std::filesystem::path> records;  ///< the folder of the races' boards; empty: there are none
+  bool shadow = false;                           ///< re-run and compare each tick beside the game
+  std::optional<std::uint64_t> ticks;            ///< stop after so many
+  std::optional<std::uint64_t> seed;             ///< empty: from the machine's entropy
+  std::optional<state::Mode> mode;               ///< empty: each that a map has, a room each
+  std::uint32_t bots = 0;                        ///< of the house, in every room
+  bool bots_alone_play = false;                  ///< they keep a room awake in which nobody is
+  std::uint32_t step_threads = 1;                ///< 1..core::ThreadTeam::kMostThreads; of a big room's tick
   LogFormat log_format = LogFormat::kText;
   std::optional<std::filesystem::path> log_file;  ///< empty: standard error
   std::string log_level = "info";                 ///< of log_levels()
@@ -53,12 +55,16 @@ struct VerifyConfig {
 struct InspectConfig {
   InspectRequest request;
 };
+struct RecordsConfig {
+  RecordsRequest request;
+};
 /// Help or the version was asked for.
 struct PrintConfig {
   std::string text;
 };
 
-using Config = std::variant<ServeConfig, CheckConfig, VerifyConfig, InspectConfig, PrintConfig>;
+using Config =
+    std::variant<ServeConfig, CheckConfig, VerifyConfig, InspectConfig, RecordsConfig, PrintConfig>;
 
 /// Frames fall on ticks. Of a fork it is known once its recording is read.
 core::Expected<void> check_state_hz(std::uint32_t state_hz, std::uint32_t tick_hz);

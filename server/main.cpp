@@ -17,6 +17,7 @@
 
 #include "server/commands/check.h"
 #include "server/commands/inspect.h"
+#include "server/commands/records.h"
 #include "server/commands/verify.h"
 #include "server/config.h"
 #include "server/log.h"
@@ -57,6 +58,7 @@ int run(const PrintConfig& config) {
 
 int run(const CheckConfig& config) { return printed(check_command(config.maps, std::cout)); }
 int run(const VerifyConfig& config) { return printed(verify_command(config.request, std::cout)); }
+int run(const RecordsConfig& config) { return printed(records_command(config.request, std::cout)); }
 int run(const InspectConfig& config) {
   return printed(inspect_command(config.request, std::cout, std::cerr));
 }
@@ -83,7 +85,7 @@ int run(const ServeConfig& config, const std::function<core::Expected<ServeConfi
   std::cout << "listening " << (*server)->address() << std::endl;
   (*server)->run();
   (*server)->print_summary(std::cout);
-  return printed((*server)->lost_recordings().empty() ? kOk : kFailed);
+  return printed((*server)->lost_recordings().empty() && (*server)->lost_records().empty() ? kOk : kFailed);
 }
 
 /// Where one of the three is closed, the next file opened would take its place, and what is printed go there.

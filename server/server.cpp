@@ -118,6 +118,7 @@ core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config, Outsi
   server->address_ = to_text(*endpoint);
   if (config.step_threads > 1) server->step_team_ = std::make_shared<core::ThreadTeam>(config.step_threads);
   if (config.record) server->recordings_.emplace(*config.record, server->log_);
+  if (config.records) server->records_.emplace(*config.records, server->log_);
   if (config.shadow) server->shadows_.emplace(tick_threads(std::max<std::size_t>(1, config.maps.size())));
   const auto opened = fork ? server->open_fork_room(config, std::move(*fork)) : server->open_rooms(config);
   if (!opened) return tl::unexpected(opened.error());
@@ -219,6 +220,11 @@ core::Expected<Watchers> Server::make_watchers(const ServeConfig& config, const 
     if (!opened) return tl::unexpected(opened.error());
     watchers.push_back(std::move(*opened));
   }
+  if (records_ && start.match->settings().mode == state::Mode::kRace) {
+    auto opened = records_->open(room, *start.match, start.map_file);
+    if (!opened) return tl::unexpected(opened.error());
+    watchers.push_back(std::move(*opened));
+  }
   if (shadows_)
     watchers.push_back(std::make_unique<Shadow>(room, start.map, std::move(header),
                                                 dump_of_shadow(config, room), *shadows_, log_));
@@ -247,6 +253,7 @@ void Server::run() {
   }
   threads.clear();
   if (recordings_) recordings_->end(Clock::now() + kLastMoment);
+  if (records_) records_->end(Clock::now() + kLastRecords);
   if (shadows_) shadows_->join();
 }
 
@@ -337,6 +344,7 @@ void Server::print_summary(std::ostream& out) const {
       << ", lines received " << traffic_.lines_received << '\n';
   for (const std::string& lost : lost_recordings())
     out << "RECORDING LOST: " << core::printable(lost) << '\n';
+  for (const std::string& lost : lost_records()) out << "RECORD LOST: " << core::printable(lost) << '\n';
 }
 
 }  // namespace woodlouse::server

@@ -26,6 +26,7 @@
 #include "server/config.h"
 #include "server/net/acceptor.h"
 #include "server/net/session.h"
+#include "server/records/records.h"
 #include "server/room/lanes.h"
 #include "server/room/lobby.h"
 #include "server/room/room.h"
@@ -52,6 +53,8 @@ class Server {
   static constexpr Duration kStopWithin = std::chrono::milliseconds(800);
   /// For what of a recording is still on its way then: one whose disk stands still is left behind.
   static constexpr Duration kLastMoment = std::chrono::milliseconds(30);
+  /// For runs that are still to be re-run and written.
+  static constexpr Duration kLastRecords = std::chrono::milliseconds(150);
 
   /// Loads the maps or the recording to go on from, opens the port, creates the recordings.
   static core::Expected<std::unique_ptr<Server>> create(ServeConfig config, Outside outside,
@@ -71,6 +74,10 @@ class Server {
 
   /// "FILE: why", of each recording that ended before its time. After run().
   [[nodiscard]] std::vector<std::string> lost_recordings() const;
+  /// "FILE: which run", of each record that is in no file. After run().
+  [[nodiscard]] std::vector<std::string> lost_records() const {
+    return records_ ? records_->lost() : std::vector<std::string>();
+  }
 
   /// Ticks, lateness, moves of the clock, frames; one line a room, one for all, and one a lost
   /// recording. After run().
@@ -122,7 +129,9 @@ class Server {
   std::size_t parts_running_ = 0;  ///< once stopping: rooms and the acceptor
   bool stopping_ = false;
 
-  std::optional<Recordings> recordings_;  ///< goes first: what it leaves behind touches nothing of the others
+  // These go first: what they leave behind touches nothing of the others.
+  std::optional<Recordings> recordings_;
+  std::optional<Records> records_;
 };
 
 }  // namespace woodlouse::server

@@ -35,6 +35,13 @@ std::optional<Spending> spending_of(const protocol::ClientMessage& message) {
   return std::nullopt;
 }
 
+bool waits_for_its_turn(const protocol::ClientMessage& message) {
+  return std::holds_alternative<protocol::GetMap>(message) ||
+         std::holds_alternative<protocol::Resync>(message) ||
+         std::holds_alternative<protocol::ListRecords>(message) ||
+         std::holds_alternative<protocol::GetGhost>(message);
+}
+
 Allowance::Allowance(const protocol::Limits& limits, std::shared_ptr<AddressAccount> address, Time now)
     : messages_per_s_(limits.messages_per_s),
       lines_(limits.messages_per_s, limits.burst, now),

@@ -19,6 +19,8 @@ namespace woodlouse::server {
 
 /// Whose budget a message is paid from; nothing: it costs nobody else.
 std::optional<Spending> spending_of(const protocol::ClientMessage& message);
+/// Whether a room answers it with many bytes: it goes through Allowance::ask().
+bool waits_for_its_turn(const protocol::ClientMessage& message);
 
 class Allowance {
  public:
@@ -37,7 +39,7 @@ class Allowance {
   Refusal spend(Spending what, Time now);
   void charge_answer(std::size_t bytes, Time now);
 
-  /// get_map or resync, answered as soon as due() gives it; refused where one of its kind waits.
+  /// One that waits_for_its_turn(), answered as soon as due() gives it; refused where one of its kind waits.
   Refusal ask(protocol::ClientMessage question);
   /// One whose turn it is; nothing: none waits, or it is too early. Whoever takes it charges for its answer.
   std::optional<protocol::ClientMessage> due(Time now);

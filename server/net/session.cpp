@@ -118,8 +118,7 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
     return push(Line(std::move(line)));
   }
   if (auto* wanted = std::get_if<protocol::Join>(&message)) return join(std::move(*wanted), now);
-  if (std::holds_alternative<protocol::GetMap>(message) || std::holds_alternative<protocol::Resync>(message))
-    return ask(std::move(message), now);
+  if (waits_for_its_turn(message)) return ask(std::move(message), now);
   if (std::holds_alternative<protocol::Leave>(message)) {
     if (!input_ended_) parting_ = Parting::kLeft;
     if (!door_) return say_goodbye();

@@ -15,6 +15,7 @@
 #include <boost/asio/post.hpp>
 #include <boost/system/error_code.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -39,6 +40,7 @@
 #include "server/timing/live_limits.h"
 #include "server/timing/timekeeper.h"
 #include "shared/protocol/codec.h"
+#include "shared/protocol/codes.h"
 #include "shared/protocol/framing.h"
 #include "shared/protocol/messages.h"
 
@@ -78,6 +80,11 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   void show(const Frame& frame) override;
   void show_again(const Frame& frame) override;
   void deliver_map(Line line) override;
+  void deliver_record(Line line) override {
+    boost::asio::post(lane_, [self = shared_from_this(), line = std::move(line)]() mutable {
+      self->push_record(std::move(line));
+    });
+  }
   void refuse_join(protocol::ErrorMessage error) override;
   void welcome(protocol::Welcome welcome, std::uint32_t divisor) override;
   void let_go() override {
@@ -119,10 +126,22 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   /// Charged before they are answered: many that are asked in one breath don't pass on one budget.
   void pass_on_due(Time now) {
     while (auto question = allowance_.due(now)) {
-      const bool is_map = std::holds_alternative<protocol::GetMap>(*question);
-      allowance_.charge_answer(is_map ? map_bytes_ : key_bytes_, now);
+      allowance_.charge_answer(bytes_of_answer(*question), now);
       door_->submit(id_, std::move(*question), now);
     }
+  }
+
+  [[nodiscard]] std::size_t bytes_of_answer(const protocol::ClientMessage& question) const {
+    if (std::holds_alternative<protocol::GetMap>(question)) return map_bytes_;
+    return std::holds_alternative<protocol::Resync>(question) ? key_bytes_ : record_bytes_;
+  }
+  void push_record(Line line) {
+    record_bytes_ = std::max(record_bytes_, line->size());
+    if (line->size() <= limits_->outbox_bytes / 2) return push(std::move(line));
+    say(protocol::ErrorMessage{std::string(protocol::code::kNoRecords),
+                               "the answer is more than half of what may wait for you",
+                               false,
+                               {}});
   }
 
   void show_here(const Frame& frame);
@@ -185,6 +204,7 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   std::uint32_t divisor_ = 1;
   // Of the answers to get_map and, about, to resync; guesses until the welcome has come.
   std::size_t map_bytes_ = 64u << 10, key_bytes_ = 4u << 10;
+  std::size_t record_bytes_ = 16u << 10;  ///< of the longest record or ghost so far; a guess before it
 
   std::unique_ptr<Alarm> watch_;
   Pulse pulse_;

@@ -35,6 +35,9 @@ class Events {
   /// What the rules said; name: of the louse's player, empty where it is nobody's.
   NumberedLine ruled(const rules::Event& event, const std::string& name, const rules::Rules& rules);
 
+  /// What a watcher tells; it has no number yet.
+  NumberedLine told(const protocol::Event& event) { return number(event); }
+
   /// Of the event made next.
   [[nodiscard]] std::uint64_t next() const { return next_; }
 

@@ -28,6 +28,7 @@
 #include "server/room/tick_watcher.h"
 #include "server/timing/clock.h"
 #include "shared/match/match.h"
+#include "shared/protocol/codes.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::server {
@@ -67,6 +68,8 @@ class Members {
   void answer(std::uint64_t tick, Time begun);
   /// What the rules of play said of the step.
   void tell(const match::StepRecord& step);
+  /// What a watcher has to tell.
+  void tell(const protocol::Event& event) { send(events_.told(event)); }
   /// The picture of every layout in use, where one is due.
   void send_frames();
 
@@ -96,6 +99,22 @@ class Members {
   }
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Resync&, Time);
   void on_message(Seat& seat, const SessionOccupant&, const protocol::Respawn&, Time arrived);
+  void on_message(Seat&, const SessionOccupant& occupant, const protocol::ListRecords& list, Time) {
+    look_up(occupant, list);
+  }
+  void on_message(Seat&, const SessionOccupant& occupant, const protocol::GetGhost& get, Time) {
+    look_up(occupant, get);
+  }
+  void look_up(const SessionOccupant& occupant, const protocol::ClientMessage& question) {
+    for (const auto& watcher : watchers_)
+      if (Line found = watcher->answer(question))
+        return occupant.subscriber->deliver_record(std::move(found));
+    occupant.subscriber->answer(protocol::ErrorMessage{
+        std::string(protocol::code::kNoRecords),
+        "there is no such record: the room keeps none, or its board has no row of that rank",
+        false,
+        {}});
+  }
   [[nodiscard]] bool refuse_when_busy(const Seat& seat, Spending what, Time arrived);
   void send(const NumberedLine& event) { outlet_->event(event.number, event.line); }
   void count(protocol::Role role, std::int32_t change);

@@ -89,7 +89,14 @@ void Room::begin_watching() {
     if (!self) return;
     asio::post(self->strand_, [self, notice] { self->members_.announce(notice); });
   };
-  for (const auto& watcher : watchers_) watcher->attach(announce);
+  const auto tell = [room = weak_from_this()](const protocol::Event& event) {
+    const auto self = room.lock();
+    if (self) asio::post(self->strand_, [self, event] { self->members_.tell(event); });
+  };
+  for (const auto& watcher : watchers_) {
+    watcher->attach(announce);
+    watcher->attach_events(tell);
+  }
   for (const auto& watcher : watchers_) watcher->begin(*game_);
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "server/frames/frame.h"
 #include "shared/protocol/messages.h"
@@ -32,6 +33,8 @@ class Subscriber {
   virtual void show_again(const Frame& frame) = 0;
   /// The answer to get_map.
   virtual void deliver_map(Line line) = 0;
+  /// The answer to list_records or get_ghost, which many share.
+  virtual void deliver_record(Line line) { deliver(std::move(line)); }
   /// The room did not take the join; another may be tried.
   virtual void refuse_join(protocol::ErrorMessage error) = 0;
   /// The welcome. `divisor`: the client takes every divisor-th frame.

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "server/frames/line.h"
 #include "server/timing/figures.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
@@ -27,6 +28,8 @@ class TickWatcher {
  public:
   /// Tells every session of the room, those that join later too; any thread.
   using Announce = std::function<void(const protocol::Notice&)>;
+  /// Tells those who are in the room, as one of its events, which the room numbers; any thread.
+  using Tell = std::function<void(const protocol::Event&)>;
 
   TickWatcher() = default;
   TickWatcher(const TickWatcher&) = delete;
@@ -35,6 +38,7 @@ class TickWatcher {
 
   /// First of all, once: whom it may tell.
   virtual void attach(Announce /*announce*/) {}
+  virtual void attach_events(Tell /*tell*/) {}
   /// Once. `game`: as it stands; nothing is queued in it.
   virtual void begin(const match::Match& game) = 0;
   virtual void chat(std::uint64_t /*tick*/, match::PlayerId /*player*/, const std::string& /*name*/,
@@ -49,6 +53,8 @@ class TickWatcher {
   virtual void fall_asleep(const match::Match& /*game*/) {}
   /// The next step follows.
   virtual void wake(const match::Match& /*game*/) {}
+  /// The line that answers a list_records or get_ghost; none: it has no such thing.
+  [[nodiscard]] virtual Line answer(const protocol::ClientMessage& /*question*/) const { return {}; }
   /// Last of all, once; `done` is called when its work is done, on some thread. It outlives that call.
   virtual void finish(const std::string& reason, std::function<void()> done) = 0;
 

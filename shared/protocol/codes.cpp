@@ -40,6 +40,8 @@ constexpr std::array kCodes = {
               "input dropped: too many of this player's inputs wait, or came later for the same step"},
     CodeEntry{code::kTooFar, "error", Ends::kNo, "input dropped: `tick` is more than 2 s ahead"},
     CodeEntry{code::kNoLouse, "error", Ends::kNo, "the session has no louse: it is a spectator"},
+    CodeEntry{code::kNoRecords, "error", Ends::kNo,
+              "the room keeps no records, or its board has no row of that rank"},
     CodeEntry{code::kLeft, "bye", Ends::kYes, "the client sent `leave`, or ended its sending side"},
     CodeEntry{code::kShutdown, "bye", Ends::kYes, "the server stops"},
     CodeEntry{code::kReplaced, "bye", Ends::kYes, "the player came back over another connection"},

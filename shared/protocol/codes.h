@@ -35,6 +35,8 @@ inline constexpr std::string_view kStaleSeq = "stale_seq";
 inline constexpr std::string_view kQueueFull = "queue_full";
 inline constexpr std::string_view kTooFar = "too_far";
 inline constexpr std::string_view kNoLouse = "no_louse";
+// What is not there.
+inline constexpr std::string_view kNoRecords = "no_records";
 // The end without a fault.
 inline constexpr std::string_view kLeft = "left";
 inline constexpr std::string_view kShutdown = "shutdown";

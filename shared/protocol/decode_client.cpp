@@ -3,6 +3,7 @@
 
 #include "shared/protocol/codec.h"
 #include "shared/protocol/codes.h"
+#include "shared/protocol/decode_records.h"
 #include "shared/protocol/field_reader.h"
 #include "shared/protocol/field_texts.h"
 #include "shared/protocol/input_line.h"
@@ -132,9 +133,22 @@ Decoded read_respawn(FieldReader& reader) {
   return reader.finish<ClientMessage>(respawn);
 }
 
+Decoded read_list_records(FieldReader& reader) {
+  ListRecords list;
+  reader.choice("board", list.board, kBoardTexts, board_from_text, Presence::kOptional);
+  return reader.finish<ClientMessage>(list);
+}
+
+Decoded read_get_ghost(FieldReader& reader) {
+  GetGhost get;
+  reader.choice("board", get.board, kBoardTexts, board_from_text, Presence::kOptional);
+  reader.integer("rank", get.rank, {1, kMostRank}, Presence::kOptional);
+  return reader.finish<ClientMessage>(get);
+}
+
 using Read = Decoded (*)(FieldReader&);
 
-constexpr std::array<std::pair<std::string_view, Read>, 10> kTypes = {{
+constexpr std::array<std::pair<std::string_view, Read>, 12> kTypes = {{
     {"join", read_join},
     {"input", read_input},
     {"chat", read_chat},
@@ -145,6 +159,8 @@ constexpr std::array<std::pair<std::string_view, Read>, 10> kTypes = {{
     {"leave", read_bare<Leave>},
     {"ping", read_time<Ping>},
     {"pong", read_time<Pong>},
+    {"list_records", read_list_records},
+    {"get_ghost", read_get_ghost},
 }};
 
 }  // namespace

@@ -67,4 +67,19 @@ Game read_game(FieldReader& reader, bool is_whole) {
   return game;
 }
 
+void read_ruling(FieldReader& reader, Event& event) {
+  reader.integer("moment", event.moment, kAnyTick);
+  const std::span<const std::string_view> names = value_names(event.kind);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto value = reader.field(names[k], "a whole number or null", Presence::kRequired);
+    if (!value || value->kind() == json::Kind::kNull) continue;
+    std::int64_t number = 0;
+    reader.integer(names[k], number, kAnyInteger);
+    event.values[k] = number;
+  }
+  if (event.kind != EventKind::kRound) return;
+  read_phase(reader, event.phase);
+  event.table = read_table(reader);
+}
+
 }  // namespace woodlouse::protocol

@@ -5,6 +5,7 @@
 
 #include "shared/protocol/field_reader.h"
 #include "shared/protocol/game.h"
+#include "shared/protocol/messages.h"
 
 namespace woodlouse::protocol {
 
@@ -14,5 +15,7 @@ Game read_game(FieldReader& game, bool is_whole);
 void read_phase(FieldReader& reader, GamePhase& out);
 /// The member `table`.
 std::vector<GameTableRow> read_table(FieldReader& reader);
+/// What an event of the rules, or of the boards, carries.
+void read_ruling(FieldReader& reader, Event& event);
 
 }  // namespace woodlouse::protocol

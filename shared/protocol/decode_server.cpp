@@ -4,6 +4,7 @@
 #include "shared/protocol/codes.h"
 #include "shared/protocol/decode_frame.h"
 #include "shared/protocol/decode_game.h"
+#include "shared/protocol/decode_records.h"
 #include "shared/protocol/field_reader.h"
 #include "shared/protocol/field_texts.h"
 #include "shared/protocol/text_cleaning.h"
@@ -193,22 +194,6 @@ void read_kind(FieldReader& reader, EventKind& out) {
   out = *kind;
 }
 
-/// What an event of the rules carries.
-void read_ruling(FieldReader& reader, Event& event) {
-  reader.integer("moment", event.moment, kAnyTick);
-  const std::span<const std::string_view> names = value_names(event.kind);
-  for (std::size_t k = 0; k < names.size(); ++k) {
-    const auto value = reader.field(names[k], "a whole number or null", Presence::kRequired);
-    if (!value || value->kind() == json::Kind::kNull) continue;
-    std::int64_t number = 0;
-    reader.integer(names[k], number, kAnyInteger);
-    event.values[k] = number;
-  }
-  if (event.kind != EventKind::kRound) return;
-  read_phase(reader, event.phase);
-  event.table = read_table(reader);
-}
-
 Decoded read_event(FieldReader& reader, const Context&) {
   Event event;
   reader.integer("n", event.n, {1, kMaxInteger});
@@ -319,7 +304,7 @@ Decoded read_time(FieldReader& reader, const Context&) {
 
 using Read = Decoded (*)(FieldReader&, const Context&);
 
-constexpr std::array<std::pair<std::string_view, Read>, 13> kTypes = {{
+constexpr std::array<std::pair<std::string_view, Read>, 15> kTypes = {{
     {"hello", read_hello},
     {"welcome", read_welcome},
     {"key", read_key},
@@ -333,6 +318,8 @@ constexpr std::array<std::pair<std::string_view, Read>, 13> kTypes = {{
     {"map", read_map},
     {"ping", read_time<Ping>},
     {"pong", read_time<Pong>},
+    {"records", read_records},
+    {"ghost", read_ghost},
 }};
 
 }  // namespace

@@ -52,6 +52,13 @@ void append_line(std::string& out, const Pong& pong) {
   json::ObjectText(out, "pong").integer("t", pong.t).end_line();
 }
 
+void append_line(std::string& out, const ListRecords& list) {
+  json::ObjectText(out, "list_records").text("board", to_text(list.board)).end_line();
+}
+void append_line(std::string& out, const GetGhost& get) {
+  json::ObjectText(out, "get_ghost").text("board", to_text(get.board)).integer("rank", get.rank).end_line();
+}
+
 }  // namespace
 
 std::string encode(const ClientMessage& message) {

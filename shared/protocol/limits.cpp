@@ -51,9 +51,10 @@ constexpr std::array kFields = {
                "of lines of a session; what exceeds it is read later, and nothing of it dropped"},
     LimitField{"line_bytes_per_s_address", &Limits::line_bytes_per_s_address, 1024, kMostBytes, "bytes/s",
                "the same for an address"},
-    LimitField{"answer_bytes_per_s", &Limits::answer_bytes_per_s, 1024, kMostBytes, "bytes/s",
-               "of answers to `get_map`, `resync` and `list` for a session; what exceeds it is answered "
-               "later, a `list` with `rate_limited`"},
+    LimitField{
+        "answer_bytes_per_s", &Limits::answer_bytes_per_s, 1024, kMostBytes, "bytes/s",
+        "of answers to `get_map`, `resync`, `list`, `list_records` and `get_ghost` for a session; what "
+        "exceeds it is answered later, a `list` with `rate_limited`"},
     LimitField{"answer_bytes_per_s_address", &Limits::answer_bytes_per_s_address, 1024, kMostBytes, "bytes/s",
                "the same for an address"},
     LimitField{"ping_s", &Limits::ping_s, 1, kDay, "s", "between two `ping` of the server"},

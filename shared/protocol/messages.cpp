@@ -56,8 +56,8 @@ constexpr std::array<EventEntry, kEventKindCount> kEvents = {
      event("gate", "gate", "lap", "split", "delta"), event("lap", "lap", "time", "best"),
      event("run", "time", "rank", "ranked"), event("crumb", "slot", "value", "chain", "score"),
      event("harvest"), event("bump", "other", "impulse"), event("holds"), event("contested"),
-     event("moving", "place", "at"), event("fell", "by"), event("returned"),
-     event("round", "round", "until")}};
+     event("moving", "place", "at"), event("fell", "by"), event("returned"), event("round", "round", "until"),
+     event("record", "time", "bots")}};
 
 }  // namespace
 

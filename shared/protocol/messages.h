@@ -15,6 +15,7 @@
 #include "shared/core/vec2.h"
 #include "shared/protocol/game.h"
 #include "shared/protocol/limits.h"
+#include "shared/protocol/records.h"
 #include "shared/state/louse.h"
 #include "shared/state/louse_fields.h"
 #include "shared/state/parameters.h"
@@ -152,7 +153,8 @@ struct Pong {
   friend bool operator==(const Pong&, const Pong&) = default;
 };
 
-using ClientMessage = std::variant<Join, Input, Chat, List, GetMap, Resync, Respawn, Leave, Ping, Pong>;
+using ClientMessage =
+    std::variant<Join, Input, Chat, List, GetMap, Resync, Respawn, Leave, Ping, Pong, ListRecords, GetGhost>;
 
 // ---- server to client ----------------------------------------------------------------------------------
 
@@ -252,14 +254,16 @@ enum class EventKind : std::uint8_t {
   kFell,
   kReturned,
   kRound,
+  // Of the boards.
+  kRecord,
 };
-inline constexpr std::size_t kEventKindCount = 16;
+inline constexpr std::size_t kEventKindCount = 17;
 std::string_view to_text(EventKind kind);
 std::optional<EventKind> event_kind_from_text(std::string_view text);
 
 inline constexpr std::size_t kMostEventValues = 4;
-/// What an event of the rules carries besides: whole numbers under these names, in the order of
-/// Event::values. Times are in moments, 1/65536 of a tick.
+/// What an event of the rules, or of the boards, carries besides: whole numbers under these names, in the
+/// order of Event::values. Times are in moments, 1/65536 of a tick.
 std::span<const std::string_view> value_names(EventKind kind);
 constexpr bool is_of_rules(EventKind kind) { return kind >= EventKind::kGate; }
 
@@ -320,7 +324,7 @@ struct MapMessage {
   friend bool operator==(const MapMessage&, const MapMessage&) = default;
 };
 
-using ServerMessage =
-    std::variant<Hello, Welcome, Frame, Ack, Event, Notice, ErrorMessage, Bye, Rooms, MapMessage, Ping, Pong>;
+using ServerMessage = std::variant<Hello, Welcome, Frame, Ack, Event, Notice, ErrorMessage, Bye, Rooms,
+                                   MapMessage, Ping, Pong, Records, GhostLine>;
 
 }  // namespace woodlouse::protocol
