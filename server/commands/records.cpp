@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "server/records/board_file.h"
+#include "server/records/board_rows.h"
 #include "server/records/course.h"
-#include "server/records/rows.h"
 #include "shared/core/printable.h"
 #include "shared/core/whole_file.h"
 #include "shared/map/map_file.h"
@@ -52,8 +52,8 @@ std::string day(std::uint64_t when) {
   return fmt::format("{:%Y-%m-%d %H:%M}Z", utc);
 }
 
-Rows rows_of(const ReadBoard& board) {
-  Rows rows;
+BoardRows rows_of(const ReadBoard& board) {
+  BoardRows rows;
   for (const FileRow& row : board.rows) rows.take({row.ghost.run, Line(row.text)});
   return rows;
 }
@@ -72,7 +72,7 @@ int list(const fs::path& file, std::ostream& out) {
   if (!board) return told_error(board.error(), out);
   out << about(file, board->header) << '\n';
   const bool has_faults = tell_faults(*board, file, out);
-  const Rows rows = rows_of(*board);
+  const BoardRows rows = rows_of(*board);
   for (const protocol::Board kind : protocol::kBoards) {
     if (rows.of(kind).empty()) continue;
     out << "  " << protocol::to_text(kind) << '\n';
@@ -134,7 +134,7 @@ int prune(const fs::path& file, std::size_t keep, std::ostream& out) {
   if (!opened) return told_error(opened.error(), out);
   if (tell_faults(opened->board, file, out))
     return told_error({file.string(), "is left as it is: what can't be read would be lost", ""}, out);
-  Rows rows = rows_of(opened->board);
+  BoardRows rows = rows_of(opened->board);
   rows.cut(keep);
   std::vector<std::string_view> lines;
   rows.for_each([&lines](const Row& row) { lines.emplace_back(*row.line); });
@@ -172,7 +172,7 @@ int add(const RecordsRequest& request, std::ostream& out) {
   const BoardHeader header = header_of(**map, ghost->tick_hz, map_file->string());
   auto opened = BoardFile::open(request.folder / board_file_name(header.key), header);
   if (!opened) return told_error(opened.error(), out);
-  Rows rows = rows_of(opened->board);
+  BoardRows rows = rows_of(opened->board);
   const Line line(protocol::encode(*ghost));
   const std::uint32_t rank = rows.take({ghost->run, line});
   if (rank == 0)

@@ -21,8 +21,8 @@
 
 #include "server/frames/line.h"
 #include "server/records/board_file.h"
+#include "server/records/board_rows.h"
 #include "server/records/course.h"
-#include "server/records/rows.h"
 #include "server/room/tick_watcher.h"
 #include "server/timing/clock.h"
 #include "server/watchers/job_thread.h"

@@ -209,7 +209,7 @@ void Board::Book::show() {
     Shown::Of& of = shown->boards[static_cast<std::size_t>(board)];
     of.records = shown_rows(board, rows);
     for (const Row& row : rows) of.ghosts.push_back(row.line);
-    if (rows.size() == Rows::kMost) of.worst = rows.back().run.time;
+    if (rows.size() == BoardRows::kMost) of.worst = rows.back().run.time;
   }
   const std::lock_guard lock(outside_);
   shown_ = std::move(shown);

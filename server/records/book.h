@@ -69,7 +69,7 @@ class Board::Book {
   // The thread's:
   std::unique_ptr<BoardFile> file_;
   std::vector<FileRow> of_file_;  ///< until begin()
-  Rows rows_;
+  BoardRows rows_;
   std::vector<Line> unwritten_;
   bool has_strange_lines_ = false;  ///< the file has some that are not on the boards: it is not rewritten
   bool is_failing_ = false;

@@ -19,7 +19,7 @@ struct Row {
 
 /// A better run takes the place of the older one of that name and role: names are no proof of who drove, and
 /// a board of one name's runs would be of no use.
-class Rows {
+class BoardRows {
  public:
   static constexpr std::size_t kMost = protocol::kMostRank;  ///< of each board
 
