@@ -4,7 +4,8 @@ From an exact state - the `you` of an ack, or a row of all columns in exact form
 will be if its thrust stays as it is. Units: m, m/s, ticks. What it takes is some 10 ms of processor time for half a second
 of motion; how far it errs is tested against a server (tests/test_predict.py). Two things it knows but roughly: who comes
 to a wall at less than 5 cm/s, whom it does not throw back here, and who grazes a crest of a unilateral map - whether it
-hops there hangs on the server's own steps, and half a second later it may be two centimetres elsewhere.
+hops there hangs on the server's own steps, and half a second later it may be two centimetres elsewhere. Bumps it does not
+know, nor what rules of play make of who stands at an open edge.
 """
 
 import collections
@@ -58,7 +59,8 @@ class Motion:
         self._gravity, self._drag, self._friction = physics["gravity"], physics["drag"], physics["friction"]
         self._full, self._bounce = physics["thrust_max"], physics["edge_restitution"]
         self._central, self._core = physics["central_gravity"], physics["core_radius"]
-        self._wraps, self._flies = physics["edges"] == "wrap", physics["contact"] == "unilateral"
+        self._wraps, self._opens = physics["edges"] == "wrap", physics["edges"] == "open"
+        self._flies = physics["contact"] == "unilateral"
         # The server looks for the ends of contact and of flight where its own steps end, mostly a tick long: who looks more
         # often sees hops over crests that are none there.
         self._longest = self._tick if self._flies else LONGEST_S
@@ -97,9 +99,15 @@ class Motion:
             ax, ay, load = self._forces(ground, at, drive, self._leant_on(at))
             if _in_space(ground, ax, ay) <= self._hold(ground, load, drive):
                 return body._replace(vx=0.0, vy=0.0, phase=RESTING), left
+            if self._lets_out(at, (ax, ay)):
+                return self._left(body, at, drive), left
             at = at[:2] + (1e-9 * ax, 1e-9 * ay) + at[4:]  # off it goes: the speed of a nanosecond
             walls = self._leant_on(at)
+        elif self._lets_out(at, (ax, ay)):
+            return self._left(body, at, drive), left
         end = self._runge_kutta(at, drive, walls, h)
+        if self._opens and self._beyond(end):
+            return self._left(body, self._reached(at, drive, walls, h)[0], drive), left
         if not self._wraps and self._beyond(end):
             end, h = self._at_wall(at, drive, walls, h)
         if self._flies and self._lifts_off(end, drive, walls):
@@ -196,7 +204,7 @@ class Motion:
 
     def _leant_on(self, at):
         """The walls it touches without a velocity along their normals."""
-        if self._wraps:
+        if self._wraps or self._opens:
             return NO_WALLS
         x, y = self._touched(at[0], at[1])
         return 0 if at[2] else x, 0 if at[3] else y
@@ -204,15 +212,29 @@ class Motion:
     def _at_wall(self, at, drive, walls, h):
         """Where the step meets a wall, with the velocity as the wall throws it back, the heading likewise; and when. Who
         comes slowly keeps no velocity into the wall."""
-        h = _first(lambda t: self._beyond(self._runge_kutta(at, drive, walls, t)), h)
-        x, y, vx, vy, hx, hy = self._runge_kutta(at, drive, walls, h)
-        x0, y0, x1, y1 = self._extent
-        x, y = min(max(x, x0), x1), min(max(y, y0), y1)
+        (x, y, vx, vy, hx, hy), h = self._reached(at, drive, walls, h)
         ground, touched = self._sample(x, y), self._touched(x, y)
         slow = max(touched[0] * vx, touched[1] * vy) < SLOWEST_BOUNCE
         heading = bounced(ground, touched, (hx, hy), self._bounce)
         return ((x, y) + bounced(ground, touched, (vx, vy), 0.0 if slow else self._bounce) +
                 (_unit(*heading) if heading != (0, 0) else (hx, hy))), h
+
+    def _reached(self, at, drive, walls, h):
+        """The end of a step that the map's edge ends, and when."""
+        h = _first(lambda t: self._beyond(self._runge_kutta(at, drive, walls, t)), h)
+        end = self._runge_kutta(at, drive, walls, h)
+        x0, y0, x1, y1 = self._extent
+        return (min(max(end[0], x0), x1), min(max(end[1], y0), y1)) + end[2:], h
+
+    def _lets_out(self, at, a):
+        """Whether an open edge ends a motion there that an acceleration draws on."""
+        x, y = self._touched(at[0], at[1]) if self._opens else NO_WALLS
+        return x * (at[2] or a[0]) > 0 or y * (at[3] or a[1]) > 0
+
+    def _left(self, body, at, drive):
+        """It stands at an open edge for the rest of the tick."""
+        heading = at[4:] if drive.turns else _unit(*at[2:4]) if at[2] or at[3] else None
+        return self._moved(body._replace(phase=MOVING), at[:2] + (0.0, 0.0), heading)
 
     def _moved(self, body, end, heading=None):
         """heading: where it has one of its own; left out: the velocity's direction."""
@@ -232,6 +254,8 @@ class Motion:
         if self._ends_flight(body, h):
             h = _first(lambda t: self._ends_flight(body, t), h)
         end, x_out, y_out = self._in_air(body, h)
+        if self._opens and (x_out or y_out):  # it falls from there
+            return self._moved(end._replace(flight_vz=0.0), (end.x, end.y, 0.0, 0.0), _unit(end.vx, end.vy)), left
         vx, vy = end.vx * (-self._bounce if x_out else 1), end.vy * (-self._bounce if y_out else 1)
         _, zx, zy, _, _, _ = self._sample(end.x, end.y)
         if self._is_down(end):  # the velocity along the normal is lost

@@ -70,8 +70,14 @@ MAPS["walls"] = {"name": "walls", "terrain": {"origin": [-20, -20], "spacing": 1
 # To and fro in a small room, thrown back with the heading.
 MAPS["bounces"] = {"name": "bounces", "terrain": {"heights": [[0] * 4] * 4, "spacing": 3}, "physics": {"edge_restitution": 0.8},
                    "spawns": [{"position": [1, 0.5], "heading": 30}, {"position": [0, -1], "heading": -80}]}
+# Over a slope and over a crest to edges that end a motion, and back.
+MAPS["open"] = dict(MAPS["walls"], name="open", edges="open",
+                    spawns=[{"position": [-19, -12], "heading": 180, "speed": 2},
+                            {"position": [15, -19], "heading": -60, "speed": 2}])
+MAPS["open_jumps"] = dict(shipped("jumps"), edges="open",
+                          spawns=[{"position": [17, 3], "speed": 9}, {"position": [3, -17], "heading": -90, "speed": 9}])
 GRAZED = ("jumps", "walls")  # a crest or a wall that one of the two just misses: rare, but not never
-NEAR_WALLS = ("walls", "bounces")  # where those near a wall are what is compared
+NEAR_WALLS = ("walls", "bounces", "open", "open_jumps")  # where those near a wall are what is compared
 AT_WALLS = ((1.0, None), ((-0.5, -0.8), None), ((-0.5, 0.6), None), (0.8, None), ((0.6, -0.5), None), ((0.6, 0.7), None),
             (0.9, 6))
 
@@ -103,7 +109,9 @@ def push(round_number, me, name):
         return ((1.0, None), (0.7, None), (1.0, 12))[round_number % 3]
     if name == "bounces":
         return (1.0, 0.6, 0.9)[round_number % 3], None
-    if name == "walls":
+    if name == "open_jumps":
+        return (1.0, 0.3, 0.0)[round_number % 3], None
+    if name in ("walls", "open"):
         return AT_WALLS[round_number % len(AT_WALLS)]
     if name in ("torus", "coarse_torus") and round_number % 3:
         return 0.3, None
@@ -140,7 +148,7 @@ def play(address, name, first):
             if not state.me or waiting:
                 continue
             number = first + len(rounds)
-            if name == "natural" or (name == "walls" and number % 2 == 0):
+            if name in ("natural", "open_jumps") or (name in ("walls", "open") and number % 2 == 0):
                 game.respawn()
             elif name in FROM_REST and number % 3 == 0:
                 if respawned is None:
@@ -238,6 +246,14 @@ class TheMotion(unittest.TestCase):
         rounds = [each for each in self.compared("bounces") if each.thrown_back]
         self.assertGreater(len(rounds), 5)
         self.assertLess(max(each.wrong_heading for each in rounds), 1e-3)
+
+    def test_at_open_edges_too(self):
+        for name in ("open", "open_jumps"):
+            with self.subTest(name):
+                rounds = [each for each in self.compared(name) if each.touches_wall]
+                self.assertGreater(len(rounds), 5)
+                self.assertGreater(sum((each.told.vx, each.told.vy) == (0, 0) for each in rounds), 3)
+                self.assertLess(sorted(each.wrong_heading for each in rounds)[len(rounds) // 2], 1e-6)
 
     def test_the_example_says_how_near_it_was(self):
         near = []

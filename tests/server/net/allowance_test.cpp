@@ -100,7 +100,7 @@ TEST_CASE(
   limits.messages_per_s = 100000;
   limits.burst = 100000;
   limits.line_bytes_per_s = 1024;
-  const std::string chat = "{\"type\":\"ping\",\"t\":1,\"x\":\"" + std::string(994, 'x') + "\"}\n";
+  const std::string chat = "{\"type\":\"ping\",\"t\":1,\"x\":\"" + std::string(995, 'x') + "\"}\n";
   REQUIRE(chat.size() == 1024);
   Stage stage(limits);
   stage.start_joined();
@@ -116,8 +116,12 @@ TEST_CASE(
   CHECK((at_once >= 7 && at_once <= 8));
   stage.pass(milliseconds(3500));
   CHECK((pongs() >= at_once + 3 && pongs() <= at_once + 4));
-  stage.address->charge(Spending::kLineBytes, 1e9, stage.timekeeper.now());
+  // The others of that address send so much that it takes six seconds to make up for.
+  const double saved_and_more = (protocol::kSavedSeconds + 6.0) * limits.line_bytes_per_s_address;
+  stage.address->charge(Spending::kLineBytes, saved_and_more, stage.timekeeper.now());
   const auto before = pongs();
   stage.pass(seconds(5));
   CHECK(pongs() == before);
+  stage.pass(seconds(20));
+  CHECK(pongs() == 20);
 }
