@@ -25,11 +25,13 @@ constexpr std::uint64_t kMaxJobs = 256;
 constexpr const char* kExamples = R"(Examples:
   woodlouse-server --map maps/volcano.json --bots 3 --record game.ndjson --shadow
   woodlouse-server --map volcano hills --record /var/games/ --record-every 1h --record-keep 10G
+  woodlouse-server --map volcano --mode race --records records/
   woodlouse-server verify game.ndjson
+  woodlouse-server records verify records/
   woodlouse-server fork game.ndjson --tick 1200 --listen :7778
 
-Exit: 0 fine; 1 a recording that differs or ended before its game, or what can't
-be read or served; 2 usage.)";
+Exit: 0 fine; 1 a recording or a record that differs or is not whole, or what
+can't be read or served; 2 usage.)";
 
 constexpr const char* kForkExamples =
     R"(Its lice go on as they were; with --adopt-by-name who joins under a recorded name

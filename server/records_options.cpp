@@ -24,6 +24,7 @@ CLI::App* add_action(CLI::App& records, RecordsRequest& request, RecordsRequest:
                      const std::string& name, const std::string& what) {
   CLI::App* command = records.add_subcommand(name, what);
   command->add_option("folder", request.folder, "Folder of boards, as --records has it")->required();
+  command->footer(std::string());
   command->final_callback([&request, action] { request.action = action; });
   return command;
 }

@@ -156,6 +156,8 @@ std::string describe_ruling(const protocol::Event& event, std::uint32_t you, std
     case EventKind::kRun:
       return formatted("%s ran %s, #%ld", event.name.c_str(), span_text(value(0), tick_hz).c_str(),
                        static_cast<long>(value(1)));
+    case EventKind::kRecord:
+      return formatted("%s drove a record: %s", event.name.c_str(), span_text(value(0), tick_hz).c_str());
     case EventKind::kHarvest:
       return "harvest: crumbs count twice";
     case EventKind::kHolds:

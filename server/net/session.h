@@ -133,10 +133,12 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
 
   [[nodiscard]] std::size_t bytes_of_answer(const protocol::ClientMessage& question) const {
     if (std::holds_alternative<protocol::GetMap>(question)) return map_bytes_;
-    return std::holds_alternative<protocol::Resync>(question) ? key_bytes_ : record_bytes_;
+    if (std::holds_alternative<protocol::GetGhost>(question)) return ghost_bytes_;
+    return std::holds_alternative<protocol::Resync>(question) ? key_bytes_ : records_bytes_;
   }
   void push_record(Line line) {
-    record_bytes_ = std::max(record_bytes_, line->size());
+    std::size_t& longest = line->starts_with(R"({"type":"ghost")") ? ghost_bytes_ : records_bytes_;
+    longest = std::max(longest, line->size());
     if (line->size() <= limits_->outbox_bytes / 2) return push(std::move(line));
     say(protocol::ErrorMessage{std::string(protocol::code::kNoRecords),
                                "the answer is more than half of what may wait for you",
@@ -204,7 +206,7 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   std::uint32_t divisor_ = 1;
   // Of the answers to get_map and, about, to resync; guesses until the welcome has come.
   std::size_t map_bytes_ = 64u << 10, key_bytes_ = 4u << 10;
-  std::size_t record_bytes_ = 16u << 10;  ///< of the longest record or ghost so far; a guess before it
+  std::size_t records_bytes_ = 4u << 10, ghost_bytes_ = 16u << 10;  ///< of the longest so far, or guesses
 
   std::unique_ptr<Alarm> watch_;
   Pulse pulse_;

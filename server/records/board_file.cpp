@@ -91,6 +91,7 @@ core::Expected<protocol::GhostLine> read_ghost_line(std::string_view line, const
   if (ghost == nullptr) return core::fail(place, "is no ghost", "one begins with {\"type\":\"ghost\",");
   if (ghost->run.splits.empty() || ghost->run.splits.back() != ghost->run.time)
     return core::fail(place, "its time is not its last split");
+  if (ghost->run.role == state::Role::kSpectator) return core::fail(place, "a spectator drives nothing");
   return std::move(*ghost);
 }
 

@@ -104,8 +104,12 @@ void Board::Book::begin() {
 void Board::Book::take(const LiveRun& run) {
   const match::DrivenRun& driven = run.driven;
   const std::string whose = fmt::format("room {}: {}", run.room, run_name(run.name, driven.time));
-  const match::Rerun again = match::rerun(*map_, tick_hz_, driven.ghost);
-  const std::string why = match::departure(*map_, driven.times, driven.ghost, again);
+  std::string why = match::why_no_ghost(*map_, tick_hz_, driven.ghost);
+  match::Rerun again;
+  if (why.empty()) {
+    again = match::rerun(*map_, tick_hz_, driven.ghost);
+    why = match::departure(*map_, driven.times, driven.ghost, again);
+  }
   if (!why.empty()) {
     const bool began_before =
         !again.times.gates.empty() && again.times.gates[0] < driven.counted_from * rules::kMomentsPerTick;

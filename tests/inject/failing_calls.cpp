@@ -59,11 +59,14 @@ enum Kind {
   kLock,
   kClose,
   kThread,
+  kSync,
+  kRename,
+  kCut,
   kAlloc,
 };
 constexpr std::array<std::string_view, kAlloc + 1> kKinds = {
-    "write", "log",   "open",   "descriptor", "accept", "send",   "recv",
-    "timer", "epoll", "option", "lock",       "close",  "thread", "alloc"};
+    "write",  "log",  "open",  "descriptor", "accept", "send",   "recv", "timer", "epoll",
+    "option", "lock", "close", "thread",     "sync",   "rename", "cut",  "alloc"};
 
 struct Name {
   std::string_view text;
@@ -219,6 +222,14 @@ int close(int descriptor) {
 }
 int flock(int descriptor, int operation) {
   return fails(kLock) ? -1 : static_cast<int>(::syscall(SYS_flock, descriptor, operation));
+}
+
+int fsync(int descriptor) { return fails(kSync) ? -1 : static_cast<int>(::syscall(SYS_fsync, descriptor)); }
+int rename(const char* from, const char* to) noexcept {
+  return fails(kRename) ? -1 : static_cast<int>(::syscall(SYS_rename, from, to));
+}
+int ftruncate(int descriptor, off_t size) noexcept {
+  return fails(kCut) ? -1 : static_cast<int>(::syscall(SYS_ftruncate, descriptor, size));
 }
 
 int socket(int domain, int type, int protocol) noexcept {

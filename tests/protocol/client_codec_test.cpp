@@ -60,7 +60,11 @@ TEST_CASE("every client message comes back as it was sent") {
                                                Leave{},
                                                Ping{kMaxInteger},
                                                Ping{-kMaxInteger},
-                                               Pong{0}};
+                                               Pong{0},
+                                               ListRecords{},
+                                               ListRecords{Board::kHandedIn},
+                                               GetGhost{},
+                                               GetGhost{Board::kBots, 100}};
   for (const ClientMessage& message : messages) {
     INFO(line_of(message));
     CHECK(decoded(line_of(message)) == message);

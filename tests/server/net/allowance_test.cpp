@@ -79,6 +79,25 @@ TEST_CASE("answers of too many bytes come late, one of each kind waits, and a li
   CHECK(stage.volcano->messages.size() == 3);
 }
 
+TEST_CASE("records and ghosts are paid for by what the longest took") {
+  protocol::Limits limits;
+  limits.answer_bytes_per_s = 4096;
+  Stage stage(limits);
+  stage.start_joined();
+  const auto asked = [&stage] { return stage.volcano->messages.size(); };
+  stage.send("{\"type\":\"list_records\"}\n{\"type\":\"list_records\"}\n{\"type\":\"get_ghost\"}\n");
+  CHECK(asked() == 3);  // 32,768 saved, guesses of 4,096 and 16,384
+  stage.volcano->member->deliver_record(
+      Line(R"({"type":"ghost","inputs":")" + std::string(60'000, 'x') + "\"}\n"));
+  stage.run();
+  CHECK(stage.has_got("\"inputs\""));
+  stage.send("{\"type\":\"get_ghost\"}\n{\"type\":\"get_ghost\"}\n{\"type\":\"get_ghost\"}\n");
+  CHECK(asked() == 4);
+  CHECK(stage.has_got("you have asked for it already"));
+  stage.pass(seconds(16));  // one is paid
+  CHECK(asked() == 5);
+}
+
 TEST_CASE("who leaves while answers wait is told that they are left out") {
   protocol::Limits limits;
   limits.answer_bytes_per_s = 1000;

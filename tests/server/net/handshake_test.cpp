@@ -35,7 +35,8 @@ TEST_CASE("before the join only join, list, ping, pong and leave are legal") {
   for (const protocol::ClientMessage& early :
        {protocol::ClientMessage{protocol::Input{}}, protocol::ClientMessage{protocol::Chat{"hi"}},
         protocol::ClientMessage{protocol::GetMap{}}, protocol::ClientMessage{protocol::Resync{}},
-        protocol::ClientMessage{protocol::Respawn{}}}) {
+        protocol::ClientMessage{protocol::Respawn{}}, protocol::ClientMessage{protocol::ListRecords{}},
+        protocol::ClientMessage{protocol::GetGhost{}}}) {
     const auto error = told(handshake, early);
     REQUIRE(error);
     CHECK(error->code == "not_joined");
@@ -63,6 +64,8 @@ TEST_CASE("a player may do everything, a spectator everything that needs no lous
   CHECK_FALSE(told(handshake, protocol::ClientMessage{protocol::Chat{"hi"}}));
   CHECK_FALSE(told(handshake, protocol::ClientMessage{protocol::GetMap{}}));
   CHECK_FALSE(told(handshake, protocol::ClientMessage{protocol::Resync{}}));
+  CHECK_FALSE(told(handshake, protocol::ClientMessage{protocol::ListRecords{}}));
+  CHECK_FALSE(told(handshake, protocol::ClientMessage{protocol::GetGhost{}}));
   const auto input = told(handshake, protocol::ClientMessage{protocol::Input{}});
   const auto respawn = told(handshake, protocol::ClientMessage{protocol::Respawn{}});
   CHECK(input.has_value() == (role == protocol::Role::kSpectator));
