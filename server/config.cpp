@@ -45,6 +45,7 @@ Examples:
 struct TypedServe {
   ServeConfig serve;
   std::string listen = "127.0.0.1:7777";
+  std::string bots_skill{bots::to_text(bots::Skill::kFair)};
   std::string bots_alone = "stand";
   std::string mode = "all";
   std::string log_format = "text";
@@ -103,6 +104,10 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
   app.add_option("--bots", serve.bots, "The house's own bots, in every room")
       ->envname("WOODLOUSE_BOTS")
       ->check(whole_number(0, kMaxBots))
+      ->capture_default_str();
+  app.add_option("--bots-skill", typed.bots_skill, "How well they play by a room's rules")
+      ->envname("WOODLOUSE_BOTS_SKILL")
+      ->check(CLI::IsMember({"easy", "fair", "hard"}))
       ->capture_default_str();
   app.add_option("--bots-alone", typed.bots_alone,
                  "What they do while nobody is there: play, or stand still with the room after 10 s")
@@ -227,6 +232,7 @@ core::Expected<Config> checked(CLI::App& app, TypedServe& typed) {
   auto record = checked_record(typed.record, serve.maps.size());
   if (!record) return tl::unexpected(record.error());
   serve.record = std::move(*record);
+  serve.bots_skill = bots::skill_from_text(typed.bots_skill).value_or(bots::Skill::kFair);
   serve.bots_alone_play = typed.bots_alone == "play";
   serve.mode = state::mode_from_text(typed.mode);
   serve.log_format = typed.log_format == "json" ? LogFormat::kJson : LogFormat::kText;

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "server/bots/skill.h"
 #include "server/commands/fork.h"
 #include "server/commands/inspect.h"
 #include "server/commands/records.h"
@@ -38,8 +39,9 @@ struct ServeConfig {
   std::optional<std::uint64_t> seed;             ///< empty: from the machine's entropy
   std::optional<state::Mode> mode;               ///< empty: each that a map has, a room each
   std::uint32_t bots = 0;                        ///< of the house, in every room
-  bool bots_alone_play = false;                  ///< they keep a room awake in which nobody is
-  std::uint32_t step_threads = 1;                ///< 1..core::ThreadTeam::kMostThreads; of a big room's tick
+  bots::Skill bots_skill = bots::Skill::kFair;
+  bool bots_alone_play = false;    ///< they keep a room awake in which nobody is
+  std::uint32_t step_threads = 1;  ///< 1..core::ThreadTeam::kMostThreads; of a big room's tick
   LogFormat log_format = LogFormat::kText;
   std::optional<std::filesystem::path> log_file;  ///< empty: standard error
   std::string log_level = "info";                 ///< of log_levels()

@@ -129,8 +129,7 @@ core::Expected<void> Server::open_rooms(const ServeConfig& config) {
   const std::uint64_t seed = config.seed ? *config.seed : entropy();
   std::set<std::string> names;
   std::vector<std::pair<std::string, Start>> rooms;
-  // Rooms of one file share its map: what many rooms step over then stays in the caches. A big map's tiles
-  // are built for those who are near, and counted: each room has its own.
+  // Rooms of one file share its map, which stays in the caches; of a big one's tiles each room has its own.
   std::map<fs::path, std::shared_ptr<const map::Map>> shared;
   for (const fs::path& word : config.maps) {
     const auto file = map::find_map(word.string());
@@ -177,6 +176,7 @@ core::Expected<void> Server::open_room(const ServeConfig& config, const std::str
   settings.name = name;
   settings.state_hz = config.state_hz;
   settings.bots = config.bots;
+  settings.bots_skill = config.bots_skill;
   settings.bots_alone_play = config.bots_alone_play;
   settings.tick_limit = config.ticks;
   settings.limits = *limits_.now();

@@ -8,18 +8,36 @@
 
 namespace woodlouse::server {
 
-void HouseCrew::reserve(std::uint32_t bots, std::uint32_t tick_hz) {
+void HouseCrew::reserve(std::uint32_t bots, const match::Match& game, bots::Skill skill) {
   assert(by_turn_.empty());
-  by_turn_.resize(std::max(1u, tick_hz / HouseBot::kDecisionsPerSecond));
+  by_turn_.resize(std::max(1u, game.settings().tick_hz / HouseBot::kDecisionsPerSecond));
   for (auto& turn : by_turn_) turn.reserve(bots / by_turn_.size() + 1);
+  mode_ = game.settings().mode;
+  if (mode_ != state::Mode::kRoam && bots > 0) team_.emplace(game.map(), game.settings(), skill, bots);
+}
+
+std::string HouseCrew::name_of(std::uint32_t number, const HouseBot& bot) const {
+  return team_ ? bots::player_name(mode_, number) : bot.name();
 }
 
 void HouseCrew::take(Seat& seat) {
   assert(!by_turn_.empty() && std::holds_alternative<BotOccupant>(seat.occupant));
-  by_turn_[seat.louse % by_turn_.size()].push_back(&seat);
+  if (!team_) return by_turn_[seat.louse % by_turn_.size()].push_back(&seat);
+  team_->take(seat.louse, std::get<BotOccupant>(seat.occupant).number, seat.next_seq);
+  seats_[seat.louse] = &seat;
 }
 
-void HouseCrew::steer(match::Match& game) {
+std::span<Seat* const> HouseCrew::steer(match::Match& game) {
+  respawned_.clear();
+  if (!team_) {
+    roam(game);
+  } else {
+    for (const match::PlayerId louse : team_->steer(game)) respawned_.push_back(seats_.at(louse));
+  }
+  return respawned_;
+}
+
+void HouseCrew::roam(match::Match& game) {
   assert(!by_turn_.empty());
   const std::uint64_t period = by_turn_.size();
   const auto& world = game.world();

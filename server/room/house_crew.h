@@ -1,10 +1,17 @@
-// The house's own bots of a room, which look and push in turns: no tick pays for all of them.
-// The room's strand owns it.
+// The house's own bots of a room, which look and push in turns: no tick pays for all of them. Where there are
+// no rules they are the four characters (house_bots.h); else they play by the rules (bots/team.h). The room's
+// strand owns it.
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
+#include "server/bots/skill.h"
+#include "server/bots/team.h"
 #include "server/room/seats.h"
 #include "shared/match/match.h"
 
@@ -12,15 +19,23 @@ namespace woodlouse::server {
 
 class HouseCrew {
  public:
-  /// Before the first take().
-  void reserve(std::uint32_t bots, std::uint32_t tick_hz);
+  /// Before the first take(): for so many, who play the game's mode as well as that.
+  void reserve(std::uint32_t bots, const match::Match& game, bots::Skill skill);
+  /// Of the one with that number and that bot of the four characters.
+  [[nodiscard]] std::string name_of(std::uint32_t number, const HouseBot& bot) const;
   /// One more. The seat is a bot's and stays where it is.
   void take(Seat& seat);
-  /// Before each tick: those whose turn it is, each ten times a second.
-  void steer(match::Match& game);
+  /// Before each tick: those whose turn it is. Who went back to a spawn; valid until the next call.
+  std::span<Seat* const> steer(match::Match& game);
 
  private:
-  std::vector<std::vector<Seat*>> by_turn_;  ///< by the tick of a period at which they look
+  void roam(match::Match& game);
+
+  std::vector<std::vector<Seat*>> by_turn_;  ///< of roam: by the tick of a period at which they look
+  std::optional<bots::Team> team_;           ///< of a mode with rules
+  state::Mode mode_ = state::Mode::kRoam;
+  std::map<match::PlayerId, Seat*> seats_;  ///< of the team
+  std::vector<Seat*> respawned_;
 };
 
 }  // namespace woodlouse::server

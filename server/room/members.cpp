@@ -72,10 +72,10 @@ void Members::give_louse(Seat& seat) {
 }
 
 void Members::add_house_bots() {
-  crew_.reserve(settings_.bots, game_.settings().tick_hz);
+  crew_.reserve(settings_.bots, game_, settings_.bots_skill);
   for (std::uint32_t number = 0; number < settings_.bots; ++number) {
     HouseBot bot(number, game_.settings().seed);
-    Seat seat{0, bot.name(), protocol::Role::kBot, 0, BotOccupant{number, std::move(bot)}};
+    Seat seat{0, crew_.name_of(number, bot), protocol::Role::kBot, 0, BotOccupant{number, std::move(bot)}};
     give_louse(seat);
     crew_.take(seats_.add(std::move(seat)));
     count(protocol::Role::kBot, +1);

@@ -45,7 +45,9 @@ class Members {
           std::vector<Seat> unclaimed, Time now, std::shared_ptr<spdlog::logger> log);
 
   void add_house_bots();  ///< once, before the first tick
-  void steer_house_bots() { crew_.steer(game_); }
+  void steer_house_bots() {
+    for (const Seat* seat : crew_.steer(game_)) send(events_.respawned(game_.tick(), *seat));
+  }
 
   void admit(Arrival arrival);
   static void refuse_closed(Subscriber& subscriber);

@@ -5,14 +5,16 @@
 #include <optional>
 #include <string>
 
+#include "server/bots/skill.h"
 #include "shared/protocol/limits.h"
 
 namespace woodlouse::server {
 
 struct RoomSettings {
   std::string name;
-  std::uint32_t state_hz = 20;              ///< divides the match's tick_hz
-  std::uint32_t bots = 0;                   ///< of the house
+  std::uint32_t state_hz = 20;  ///< divides the match's tick_hz
+  std::uint32_t bots = 0;       ///< of the house
+  bots::Skill bots_skill = bots::Skill::kFair;
   bool bots_alone_play = false;             ///< the house's bots keep a room awake in which nobody is
   bool adopts_by_name = false;              ///< who joins under a recorded name takes that louse over
   std::optional<std::uint64_t> tick_limit;  ///< ends after so many

@@ -27,7 +27,8 @@ SHARED = LIBRARY - {"physics/lanes"}  # reached through physics/batch.h
 ARROWS |= {
     "server/timing": SHARED,
     "server/frames": SHARED,
-    "server/room": SHARED | {"server/frames", "server/timing"},
+    "server/bots": SHARED,
+    "server/room": SHARED | {"server/bots", "server/frames", "server/timing"},
     "server/watchers": SHARED | {"server/room", "server/timing"},
     "server/records": SHARED | {"server/frames", "server/room", "server/timing", "server/watchers"},
     "server/net": SHARED | {"server/frames", "server/room", "server/timing"},

@@ -88,6 +88,8 @@ TEST_CASE("flags are read, several maps make several rooms") {
                                     "18446744073709551615",
                                     "--bots",
                                     "3",
+                                    "--bots-skill",
+                                    "hard",
                                     "--bots-alone",
                                     "play",
                                     "--step-threads",
@@ -102,6 +104,7 @@ TEST_CASE("flags are read, several maps make several rooms") {
   CHECK(config.ticks == 7u);
   CHECK(config.seed == 18446744073709551615u);
   CHECK(config.bots == 3);
+  CHECK(config.bots_skill == bots::Skill::kHard);
   CHECK(config.bots_alone_play);
   CHECK(config.step_threads == 64);
   CHECK(config.log_format == LogFormat::kJson);
@@ -137,6 +140,7 @@ TEST_CASE("a wrong option is refused by its name") {
       {{"--map", "a", "--state-hz", "120"}, "--state-hz"},
       {{"--map", "a", "--bots", "-1"}, "--bots"},
       {{"--map", "a", "--bots-alone", "sleep"}, "--bots-alone"},
+      {{"--map", "a", "--bots-skill", "unfair"}, "--bots-skill"},
       {{"--map", "a", "--ticks", "0"}, "--ticks"},
       {{"--map", "a", "--seed", "1.5"}, "--seed"},
       {{"--map", "a", "--step-threads", "0"}, "--step-threads"},

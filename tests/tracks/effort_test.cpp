@@ -1,0 +1,67 @@
+#include "server/bots/effort.h"
+
+#include <catch2/catch.hpp>
+
+#include <memory>
+#include <string>
+
+#include "shared/map/map_file.h"
+#include "shared/map/map_text.h"
+#include "tests/tracks/game.h"
+
+namespace woodlouse::server::bots {
+namespace {
+
+state::Louse louse_at(core::Vec2 position, core::Vec2 velocity = {}) {
+  state::Louse louse;
+  louse.id = 1;
+  louse.position = position;
+  louse.velocity = velocity;
+  return louse;
+}
+
+}  // namespace
+
+TEST_CASE("the slope that a thrust climbs is that of the maps' description") {
+  state::Parameters physics;
+  CHECK(climbable_slope(physics) == Approx(0.39).margin(0.005));
+  physics.thrust_max = 6.0;
+  CHECK(climbable_slope(physics) == Approx(0.69).margin(0.005));
+  physics.gravity = 4.0;
+  CHECK(climbable_slope(physics) >= 100.0);
+}
+
+TEST_CASE("on level ground the guess is the time that full thrust takes") {
+  const auto map = tests::shipped_map("arena");
+  const Effort effort(*map, 1.0);
+  const Goal goal = Goal::near({10.0, 0.0}, 1.0);
+  // 3.5 m/s^2 are left of 4, and the drag takes a little: sqrt(2 * 10 / 3.5) and more.
+  const double from_rest = effort.seconds_to(louse_at({0.0, 0.0}), goal);
+  CHECK(from_rest > 2.35);
+  CHECK(from_rest < 2.8);
+  CHECK(effort.seconds_to(louse_at({0.0, 0.0}, {5.0, 0.0}), goal) < from_rest);
+  CHECK(effort.seconds_to(louse_at({0.0, 0.0}, {-5.0, 0.0}), goal) > from_rest);
+  CHECK(effort.lack({0.0, 0.0}, {}, {10.0, 0.0}) == 0.0);
+}
+
+TEST_CASE("up a slope that is too steep energy is wanting, less with a run-up") {
+  const auto map = tests::shipped_map("parabolic_pot");  // z = r^2 / 40, a slope of 0.5 at 10 m
+  const Effort effort(*map, 1.0);
+  const double from_rest = effort.lack({10.0, 0.0}, {}, {14.0, 0.0});
+  CHECK(from_rest > 1.0);
+  CHECK(effort.lack({10.0, 0.0}, {3.0, 0.0}, {14.0, 0.0}) < from_rest);
+  CHECK(effort.lack({10.0, 0.0}, {9.0, 0.0}, {14.0, 0.0}) == 0.0);
+  CHECK(effort.lack({10.0, 0.0}, {}, {2.0, 0.0}) == 0.0);
+}
+
+TEST_CASE("who is behind a gate heads for a point before it") {
+  const auto map = tests::shipped_map("arena");
+  const Effort effort(*map, 1.0);
+  const Goal goal = Goal::through({{0.0, 3.0}, {0.0, -3.0}, false});  // driven through to the east
+  CHECK(goal.way().x == Approx(1.0));
+  CHECK(effort.aim(louse_at({-5.0, 1.0}), goal).x == Approx(0.0));
+  CHECK(effort.aim(louse_at({-5.0, 1.0}), goal).y == Approx(1.0));
+  CHECK(effort.aim(louse_at({5.0, 1.0}), goal).x < -1.0);
+}
+
+}  // namespace woodlouse::server::bots
