@@ -32,7 +32,13 @@ Board::Board(std::shared_ptr<Book> book)
 
 bool Board::offer(LiveRun run) {
   auto shared = std::make_shared<const LiveRun>(std::move(run));
-  if (thread_.post([book = book_, shared] { book->take(*shared); })) return true;
+  book_->expect(true);
+  const bool is_in = thread_.post([book = book_, shared] {
+    book->take(*shared);
+    book->expect(false);
+  });
+  if (is_in) return true;
+  book_->expect(false);
   book_->say(spdlog::level::warn,
              fmt::format("room {}: \"{}\"'s run of {:.2f} ticks is left out: {} others wait to be re-run",
                          shared->room, core::printable(shared->name),
@@ -55,7 +61,8 @@ Line Board::ghost(protocol::Board board, std::uint32_t rank) const {
 
 void Board::end(Time latest) {
   thread_.close();
-  book_->leave_behind(thread_.wait_until(latest));
+  static_cast<void>(thread_.wait_until(latest));
+  book_->leave_behind();
 }
 
 std::vector<std::string> Board::lost() const { return book_->lost(); }

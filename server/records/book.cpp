@@ -67,9 +67,10 @@ void Board::Book::say(spdlog::level::level_enum level, const std::string& text) 
   if (log_) log_->log(level, text);
 }
 
-void Board::Book::leave_behind(bool is_done) {
+void Board::Book::leave_behind() {
+  is_left_ = true;
   const std::lock_guard lock(outside_);
-  is_cut_off_ = !is_done;
+  is_cut_off_ = expected_ != 0;
   log_ = nullptr;
 }
 
@@ -85,6 +86,10 @@ std::vector<std::string> Board::Book::lost() const {
 
 void Board::Book::begin() {
   for (FileRow& row : std::exchange(of_file_, {})) {
+    if (is_left_) {
+      has_strange_lines_ = true;  // those that are not looked at
+      return;
+    }
     const protocol::GhostLine& ghost = row.ghost;
     const std::string why = ghost.tick_hz != tick_hz_ || ghost.behavior != match::kBehavior
                                 ? "it is of another tick rate or behavior"

@@ -5,6 +5,8 @@
 #include <spdlog/logger.h>
 
 #include <array>
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -36,8 +38,10 @@ class Board::Book {
   };
   [[nodiscard]] std::shared_ptr<const Shown> shown() const;
   void say(spdlog::level::level_enum level, const std::string& text);
+  /// One more run comes, or does not after all.
+  void expect(bool comes) { comes ? ++expected_ : --expected_; }
   /// Neither log nor rooms are touched again.
-  void leave_behind(bool is_done);
+  void leave_behind();
   [[nodiscard]] std::vector<std::string> lost() const;
 
   // ---- its thread
@@ -60,6 +64,8 @@ class Board::Book {
   const std::uint32_t tick_hz_;
   const std::string name_;
 
+  std::atomic<std::size_t> expected_{0};  ///< runs that are not taken or refused yet
+  std::atomic<bool> is_left_{false};
   mutable std::mutex outside_;  ///< held while somebody is told, who never waits, and for what is shown
   std::shared_ptr<spdlog::logger> log_;  ///< null: left behind
   std::shared_ptr<const Shown> shown_;
@@ -71,7 +77,7 @@ class Board::Book {
   std::vector<FileRow> of_file_;  ///< until begin()
   BoardRows rows_;
   std::vector<Line> unwritten_;
-  bool has_strange_lines_ = false;  ///< the file has some that are not on the boards: it is not rewritten
+  bool has_strange_lines_ = false;  ///< the file has some that are on no board: it is not rewritten
   bool is_failing_ = false;
   Time told_at_{};
 };
