@@ -9,8 +9,12 @@
 
 from math import hypot, inf, sqrt
 
+from woodlouse_ways import Ways
+
 STUCK_S = 10.0  # without coming nearer, after which a racer begins again and others go elsewhere
-STALLED_S = 1.5  # without coming nearer, after which a louse swings itself up
+STALLED_S = 1.0  # of standing, after which a louse takes a run-up
+SLOW_S = 2.0  # without coming nearer, after which it looks for another way than straight
+RUN_UPS = 3  # each of which gets that time anew
 TOP_SPEED = 30.0  # [m/s]
 
 
@@ -57,20 +61,25 @@ def told(game, event):
 def _score(game, score):
     if game.mode == "forage":
         return "%d" % score
-    return "%.3f s" % game.seconds_of(score) if game.mode == "race" else "%.1f s" % (score / game.tick_hz)
+    if game.mode == "race":
+        return "%.3f s" % game.seconds_of(score) if score else "none"
+    return "%.1f s" % (score / game.tick_hz)
 
 
 class Driver:
-    """Steers to places: as fast as can be braked and turned, and where the thrust does not climb to one, swinging."""
+    """Steers to places, as fast as can be braked: straight, where that gets nowhere by a way that is less steep, and where
+    it comes to a stand with a run-up."""
 
     def __init__(self, game):
         self._ground, self._tick_hz = game.map(), game.tick_hz
         self._gravity, self._drag, self._full = (game.physics[name] for name in ("gravity", "drag", "thrust_max"))
+        self._ways = Ways(self._ground, game.physics)
         self.head_for(None, 0)
 
     def head_for(self, goal, tick):
         """Goes for another goal from now on; the progress counts anew. goal: anything that can be compared."""
-        self._goal, self._nearest, self._since, self._swings = goal, inf, tick, False
+        self._goal, self._nearest, self._since, self._moved = goal, inf, tick, tick
+        self._swings, self._swings_until = 0, -inf
 
     def stuck_s(self, tick):
         """For how long it has not come nearer to its goal [s]."""
@@ -81,6 +90,18 @@ class Driver:
         dx, dy = self._ground.way(me.x, me.y, *place)
         return dx, dy, hypot(dx, dy)
 
+    def carries(self, me, place):
+        """Whether it comes straight to the place, by its speed and its thrust."""
+        return self._ways.carries(me, place)
+
+    def cost(self, me, place):
+        """Of the way from there to a place: metres, more where it is steep."""
+        return self._ways.cost(me.x, me.y, place)
+
+    def cost_between(self, one, other):
+        """The same from place to place."""
+        return self._ways.cost(*one, other)
+
     def push(self, tick, me, place, speed_there, goal=None):
         """The thrust towards a place [m], to be there with so many m/s. goal: whose progress it is, the place's own where it
         is left out."""
@@ -88,24 +109,26 @@ class Driver:
         goal = place if goal is None else goal
         if goal != self._goal:
             self.head_for(goal, tick)
-        if far < self._nearest - 0.5:
-            self._nearest, self._since = far, tick
+        left = self._ways.cost(me.x, me.y, place)
+        if left < self._nearest - 0.5:
+            self._nearest, self._since = left, tick
         speed, (gx, gy) = hypot(me.vx, me.vy), self._ground.gradient(me.x, me.y)
         pull = self._gravity / (1 + gx * gx + gy * gy)  # times the gradient: what the slope takes away
-        stalled = speed < 1 and far > 1 and self.stuck_s(tick) > STALLED_S and pull * hypot(gx, gy) > 0.5 * self._full
-        if self._swings or stalled:
-            self._swings = self._needs_energy(me, place, speed, far)
-            if self._swings:
-                return (me.vx / speed, me.vy / speed) if speed > 0.3 else (-gx, -gy)
+        if speed > 0.5 or (far < 1 and speed_there == 0):  # it drives, or is where it is to stay
+            self._moved = tick
+        if tick - self._moved > STALLED_S * self._tick_hz:  # a run-up, longer each time
+            self._swings, self._moved = self._swings + 1, tick
+            self._since = tick if self._swings <= RUN_UPS else self._since
+            self._swings_until = tick + (0.5 + self._swings) * self._tick_hz
+        if tick < self._swings_until:
+            return (me.vx / speed, me.vy / speed) if speed > 0.5 else (-gx, -gy)
+        if far > 1 and (speed < 2 or self.stuck_s(tick) > SLOW_S) and not self._ways.carries(me, place):
+            dx, dy, far = self.way(me, self._ways.on_the_way(me, place))
+            speed_there = max(speed_there, speed, 4.0)  # it will want it uphill
         wanted = min(TOP_SPEED, sqrt(speed_there * speed_there + self._full * far))  # braking with half of the thrust
         along = (dx / far, dy / far) if far > 0.01 else (0.0, 0.0)
         wanted = min(wanted, 2 * far + speed_there)
         return self._drive(me, (gx, gy), pull, along, wanted)
-
-    def _needs_energy(self, me, place, speed, far):
-        """Whether speed and thrust don't carry it up to the place."""
-        climb = self._gravity * (self._ground.height(*place) - self._ground.height(me.x, me.y))
-        return climb > 0 and 0.5 * speed * speed + 0.7 * self._full * far < 1.1 * climb
 
     def _drive(self, me, gradient, pull, along, speed):
         """The thrust that makes the velocity `speed` along a direction; what it takes across goes first, lest it is carried
@@ -131,6 +154,7 @@ class Racer:
 
     def __init__(self, game):
         self._game, self._driver, self._gates = game, Driver(game), game.rules["gates"]
+        self._chosen = None, None  # a gate, and where on it
         self._back = None  # the gate that it drives back from, to come from its right-hand side
 
     def push(self, state):
@@ -160,9 +184,19 @@ class Racer:
         room = max(0.3 * half, half - 1.5)
         aside = max(-room, min(room, aside))
         cross = (middle[0] + aside * along[0], middle[1] + aside * along[1])
-        # Past it, so that it does not brake for the line itself.
+        if not self._driver.carries(me, cross):
+            cross = self._easiest(me, gate, [(middle[0] + share * room * along[0], middle[1] + share * room * along[1])
+                                             for share in (0.0, -0.5, 0.5, -1.0, 1.0)])
         speed = TOP_SPEED if self._gates[gate].get("air") else self._speed_at(me, cross, self._shape(after)[0])
         return self._driver.push(state.tick, me, cross, speed, gate)
+
+    def _easiest(self, me, gate, places):
+        """Of places on a gate that from which the way on is easiest, as seen when it was looked for first."""
+        if self._chosen[0] != gate:
+            after = self._shape((gate + 1) % len(self._gates))[0]
+            self._chosen = gate, min(places, key=lambda place: self._driver.cost(me, place) +
+                                     self._driver.cost_between(place, after))
+        return self._chosen[1]
 
     def _ground_way(self, one, other):
         return self._game.map().way(*one, *other)
@@ -224,7 +258,7 @@ class Holder:
         if not played or played.place is None:
             return None
         place = played.place
-        soon = 0 <= played.moves_at - state.tick < 4 * self._game.tick_hz
+        soon = 0 < played.moves_at - state.tick < 4 * self._game.tick_hz
         if soon and played.holder != self._game.id:
             place += 1
         return self._driver.push(state.tick, state.me, tuple(self._places[place % len(self._places)]["at"]), 0.0)
