@@ -121,7 +121,9 @@ class Driver:
             self._since = tick if self._swings <= RUN_UPS else self._since
             self._swings_until = tick + (0.5 + self._swings) * self._tick_hz
         if tick < self._swings_until:
-            return (me.vx / speed, me.vy / speed) if speed > 0.5 else (-gx, -gy)
+            if speed > 0.5:
+                return me.vx / speed, me.vy / speed
+            return (-gx, -gy) if hypot(gx, gy) > 0.05 else (-dx / max(far, 0.1), -dy / max(far, 0.1))  # down, or back
         if far > 1 and (speed < 2 or self.stuck_s(tick) > SLOW_S) and not self._ways.carries(me, place):
             dx, dy, far = self.way(me, self._ways.on_the_way(me, place))
             speed_there = max(speed_there, speed, 4.0)  # it will want it uphill
@@ -248,10 +250,12 @@ class Forager:
 
 
 class Holder:
-    """Goes to the place that counts, and stays in its middle; to the next one when it moves soon and is another's."""
+    """Goes to the place that counts, and stays in its middle; to the next one when it moves soon and is another's. Who
+    contests it is charged."""
 
     def __init__(self, game):
         self._game, self._driver, self._places = game, Driver(game), game.rules["places"]
+        self._contested_since = None
 
     def push(self, state):
         played = self._game.round
@@ -261,7 +265,29 @@ class Holder:
         soon = 0 < played.moves_at - state.tick < 4 * self._game.tick_hz
         if soon and played.holder != self._game.id:
             place += 1
+        other = self._contester(state, self._places[played.place]) if played.contested and not soon else None
+        if other:
+            return self._charge(state, other)
+        self._contested_since = None
         return self._driver.push(state.tick, state.me, tuple(self._places[place % len(self._places)]["at"]), 0.0)
+
+
+    def _contester(self, state, place):
+        """The nearest other louse on the place, where it is on it itself."""
+        ways = {louse: self._driver.way(row, place["at"])[2] for louse, row in state.lice.items()}
+        there = [row for louse, row in state.lice.items() if louse != self._game.id and ways[louse] <= place["radius"]]
+        if not there or ways[self._game.id] > place["radius"]:
+            return None
+        return min(there, key=lambda row: self._driver.way(state.me, (row.x, row.y))[2])
+
+    def _charge(self, state, other):
+        """Two seconds at it, one back."""
+        if self._contested_since is None:
+            self._contested_since = state.tick
+        if (state.tick - self._contested_since) % (3 * self._game.tick_hz) < 2 * self._game.tick_hz:
+            return self._driver.push(state.tick, state.me, (other.x, other.y), 5.0, "charge")
+        dx, dy, far = self._driver.way(state.me, (other.x, other.y))
+        return -dx / max(far, 0.1), -dy / max(far, 0.1)
 
 
 _PLAYERS = {"race": Racer, "forage": Forager, "hill": Holder}

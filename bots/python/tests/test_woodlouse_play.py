@@ -119,6 +119,23 @@ class Playing(unittest.TestCase):
         played.round = woodlouse.Round("play", place=1, holder=9, contested=False, moves_at=0)
         self.assertLess(player.push(seen(Me(0, 0)))[0], -0.5)
 
+    def test_who_is_kept_off_its_place_takes_a_run_up(self):
+        played = game("hill", {"places": [{"at": [5, 0], "radius": 3}]})
+        player = woodlouse_play.player_of(played)
+        played.round = woodlouse.Round("play", place=0, holder=9, contested=True, moves_at=0)
+        pushes = [player.push(seen(Me(3.4, 0), tick))[0] for tick in range(0, 120, 3)]
+        self.assertGreater(pushes[0], 0.5)
+        self.assertLess(pushes[-1], -0.5)
+
+    def test_a_holder_charges_who_is_on_the_place_as_well_and_backs_off_between(self):
+        played = game("hill", {"places": [{"at": [0, 0], "radius": 3}]})
+        player = woodlouse_play.player_of(played)
+        played.round = woodlouse.Round("play", place=0, holder=0, contested=True, moves_at=0)
+        me, other = Me(0, 0), Me(-2, 0)
+        pushes = [player.push(woodlouse.State(tick, {2: me, 9: other}, me))[0] for tick in range(0, 180, 3)]
+        self.assertLess(pushes[0], -0.5)
+        self.assertGreater(pushes[-1], 0.5)
+
     def test_no_push_is_longer_than_one(self):
         played = game("hill", {"places": [{"at": [10, 3], "radius": 3}]}, of=RIDGE)
         played.round = woodlouse.Round("play", place=0, holder=0, contested=False, moves_at=0)
