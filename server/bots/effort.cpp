@@ -133,11 +133,6 @@ Effort::Leg Effort::way(Vec2 from, Vec2 velocity, Vec2 to, bool flies) const {
   return whole;
 }
 
-double Effort::lack(Vec2 from, Vec2 velocity, Vec2 to) const {
-  const Vec2 near = images_.nearest(from, to);
-  return leg(from, std::max(0.0, core::dot(velocity, direction(near - from))), near, false).lack;
-}
-
 Vec2 Effort::aim(const state::Louse& louse, const Goal& goal) const {
   const Vec2 shift = images_.shift(louse.position, goal.at);
   if (goal.kind != GoalKind::kGate) return goal.at + shift;

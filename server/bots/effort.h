@@ -23,9 +23,6 @@ class Effort {
   [[nodiscard]] double seconds_to(const state::Louse& louse, const Goal& goal) const;
   /// Where to head for it: a point of the gate that lies ahead, before it where the louse is behind it.
   [[nodiscard]] core::Vec2 aim(const state::Louse& louse, const Goal& goal) const;
-  /// Energy that is wanting to get there straight ahead, per unit mass [J/kg]; 0: it will do.
-  [[nodiscard]] double lack(core::Vec2 from, core::Vec2 velocity, core::Vec2 to) const;
-
   /// The ground at a place, which may be an image outside of the map, or past its edge.
   [[nodiscard]] terrain::SurfaceSample ground(core::Vec2 place) const;
   /// What is left of it beside friction on level ground [m/s^2].

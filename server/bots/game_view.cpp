@@ -39,7 +39,7 @@ void look(const match::Match& game, GameView& out) {
 
 void Sight::look(const match::Match& game) {
   const std::uint32_t tick_hz = game.settings().tick_hz;
-  const std::uint64_t every = std::max(1u, tick_hz / kFramesPerSecond);
+  const std::uint64_t every = (tick_hz + kFramesPerSecond - 1) / kFramesPerSecond;  // no more than that
   if (game.tick() % every != 0) return;
   const auto old = static_cast<std::uint64_t>(std::ceil(kOldest * tick_hz)) + every;
   GameView frame;
