@@ -7,7 +7,7 @@
 namespace woodlouse::server {
 namespace {
 
-constexpr double kLogLinesOfAnAddress = 4.0;  // a second: about 500 bytes
+constexpr double kLogLinesOfAnAddress = 3.0;  // a second: about 400 bytes
 constexpr std::chrono::hours kLongest{1};
 
 std::size_t index(Spending what) { return static_cast<std::size_t>(what); }

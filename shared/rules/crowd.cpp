@@ -12,6 +12,7 @@ constexpr double kMostCells = 40.0;  // along an axis: laid out anew each time
 
 Crowd::Crowd(const terrain::Rectangle& domain, const Images& images, double distance)
     : images_(images),
+      distance_(distance),
       distance2_(distance * distance),
       x_(axis_of(domain.x_min, domain.x_max, distance)),
       y_(axis_of(domain.y_min, domain.y_max, distance)) {
@@ -69,8 +70,21 @@ void Crowd::add_pairs(std::size_t k, std::span<const core::Vec2> places, std::ui
   }
 }
 
+/// The cells need not be more than the crowd: where nothing wraps they are laid over it alone.
+void Crowd::lay_cells(std::span<const core::Vec2> places) {
+  if (images_.wraps() || places.empty()) return;
+  core::Vec2 low = places[0], high = places[0];
+  for (const core::Vec2 place : places) {
+    low = {std::min(low.x, place.x), std::min(low.y, place.y)};
+    high = {std::max(high.x, place.x), std::max(high.y, place.y)};
+  }
+  x_ = axis_of(low.x, std::max(high.x, low.x + distance_), distance_);
+  y_ = axis_of(low.y, std::max(high.y, low.y + distance_), distance_);
+}
+
 std::span<const Crowd::Pair> Crowd::pairs(std::span<const core::Vec2> places) {
   pairs_.clear();
+  lay_cells(places);
   sort_into_cells(places);
   for (std::size_t k = 0; k < places.size(); ++k) {
     const auto [column, columns] = around(cells_[k].column, x_);

@@ -25,7 +25,6 @@ class Crowd {
   Crowd(const terrain::Rectangle& domain, const Images& images, double distance);
 
   /// All pairs of these places that are near each other, by (first, second); valid until the next call.
-  /// Places a little outside the domain are at its edge.
   std::span<const Pair> pairs(std::span<const core::Vec2> places);
 
  private:
@@ -41,11 +40,12 @@ class Crowd {
     std::uint32_t column = 0, row = 0;
   };
   [[nodiscard]] std::size_t number_of(Cell cell) const { return cell.row * x_.cells + cell.column; }
+  void lay_cells(std::span<const core::Vec2> places);
   void sort_into_cells(std::span<const core::Vec2> places);
   void add_pairs(std::size_t k, std::span<const core::Vec2> places, std::uint32_t begin, std::uint32_t end);
 
   Images images_;
-  double distance2_;
+  double distance_, distance2_;
   Axis x_, y_;
   std::vector<std::uint32_t> begins_;  ///< of each cell, in sorted_
   std::vector<std::uint32_t> sorted_;  ///< indices of places, cell by cell, ascending in each

@@ -137,6 +137,7 @@ void Hill::fall(Player& player, double distance, std::uint64_t now) {
 void Hill::bump_all(Step& step) {
   struct Bumper {
     state::LouseId id = 0;
+    Player* player = nullptr;  ///< null: nobody's
     Body body;
     bool knows_ground = false;
     bool is_bumped = false;
@@ -144,9 +145,12 @@ void Hill::bump_all(Step& step) {
   physics::World& world = step.world;
   std::vector<Bumper> bumpers;
   std::vector<core::Vec2> places;
+  auto player = players_.begin();
   for (const state::Louse& louse : world.lice()) {
     if (louse.phase == state::Phase::kFlying) continue;
-    bumpers.push_back({louse.id, {louse.velocity, {}}});
+    while (player != players_.end() && player->id < louse.id) ++player;
+    const bool is_played = player != players_.end() && player->id == louse.id;
+    bumpers.push_back({louse.id, is_played ? &*player : nullptr, {louse.velocity, {}}});
     places.push_back(louse.position);
   }
   const state::Parameters& physics = world.parameters();
@@ -170,7 +174,8 @@ void Hill::bump_all(Step& step) {
     first.body.velocity = bumped->first;
     second.body.velocity = bumped->second;
     first.is_bumped = second.is_bumped = true;
-    note_bump(first.id, second.id, bumped->impulse, step.tick + 1);
+    if (first.player != nullptr && second.player != nullptr)
+      note_bump(*first.player, *second.player, bumped->impulse, step.tick + 1);
   }
   for (std::size_t k = 0; k < bumpers.size(); ++k) {
     if (bumpers[k].is_bumped) world.set_motion(bumpers[k].id, places[k], bumpers[k].body.velocity);
@@ -178,19 +183,16 @@ void Hill::bump_all(Step& step) {
   tell_bumps();
 }
 
-void Hill::note_bump(state::LouseId first, state::LouseId second, double impulse, std::uint64_t now) {
-  for (const auto& [own, other] : {std::pair(first, second), std::pair(second, first)}) {
-    Player* player = players_.find(own);
-    if (player == nullptr || players_.find(other) == nullptr) continue;
-    player->bumped_by = other;
-    player->bumped_at = now;
-    note_change();
-  }
+void Hill::note_bump(Player& first, Player& second, double impulse, std::uint64_t now) {
+  first.bumped_by = second.id;
+  second.bumped_by = first.id;
+  first.bumped_at = second.bumped_at = now;
+  note_change();
   if (impulse >= kToldImpulse)
     bumps_.push_back({EventKind::kBump,
-                      first,
+                      first.id,
                       now * kMomentsPerTick,
-                      {second, static_cast<std::int64_t>(1000.0 * impulse), 0, 0}});
+                      {second.id, static_cast<std::int64_t>(1000.0 * impulse), 0, 0}});
 }
 
 /// The hardest: in a crowd everybody meets somebody in every tick, and all hear of it.

@@ -74,7 +74,7 @@ class Hill final : public Rules {
   void take_fallen(Step& step);
   void fall(Player& player, double distance, std::uint64_t now);
   void bump_all(Step& step);
-  void note_bump(state::LouseId first, state::LouseId second, double impulse, std::uint64_t now);
+  void note_bump(Player& first, Player& second, double impulse, std::uint64_t now);
   void tell_bumps();
   void bring_back(Step& step);
   [[nodiscard]] const map::SpawnPoint& farthest_spawn(const physics::World& world) const;

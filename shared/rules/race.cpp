@@ -105,6 +105,13 @@ void Race::on_round(Step&) {
   }
 }
 
+/// Its image that is nearest.
+inline map::Gate Race::shown_from(core::Vec2 place, const map::Gate& gate) const {
+  if (!images_.wraps()) return gate;
+  const core::Vec2 shift = images_.shift(place, 0.5 * (gate.a + gate.b));
+  return {gate.a + shift, gate.b + shift, gate.in_air};
+}
+
 void Race::judge(Step& step) {
   if (round().phase != Phase::kPlay) return;
   const std::span<const state::Louse> lice = step.world.lice();
@@ -116,6 +123,9 @@ void Race::judge(Step& step) {
     if (player->id != lice[k].id) continue;
     const Start& start = step.starts[k];
     const core::Vec2 end = images_.nearest(start.position, lice[k].position);
+    // Few go through their gate in a step; the others need no more than this.
+    const map::Gate gate = shown_from(start.position, mode_.gates[player->next]);
+    if (!(side_of(gate, start.position) < 0.0 && side_of(gate, end) >= 0.0)) continue;
     drive(*player, start, lice[k],
           {start.position, start.velocity, end, lice[k].velocity, step.world.step_seconds(),
            (met[k] & kJumps) == 0},
@@ -128,12 +138,7 @@ void Race::drive(Player& player, const Start& start, const state::Louse& louse, 
   const bool is_flying = start.is_flying || louse.phase == state::Phase::kFlying;
   double last = -1.0;
   for (std::size_t passed = 0; passed < mode_.gates.size(); ++passed) {
-    map::Gate gate = mode_.gates[player.next];
-    if (images_.wraps()) {
-      const core::Vec2 shift = images_.shift(start.position, 0.5 * (gate.a + gate.b));
-      gate.a += shift;
-      gate.b += shift;
-    }
+    const map::Gate gate = shown_from(start.position, mode_.gates[player.next]);
     const std::optional<double> fraction = crossing(gate, way);
     if (!fraction || !(*fraction > last) || (gate.in_air && !is_flying)) return;
     last = *fraction;

@@ -56,6 +56,7 @@ class Race final : public Rules {
   void write(StateWriter& out) const override;
   bool read(StateReader& in, std::span<const state::LouseId> ids) override;
 
+  [[nodiscard]] map::Gate shown_from(core::Vec2 place, const map::Gate& gate) const;
   void drive(Player& player, const Start& start, const state::Louse& louse, Way way, std::uint64_t tick);
   void pass(Player& player, Moment moment);
   void end_lap(Player& player, Moment moment);

@@ -10,6 +10,7 @@ a louse is steered at 20 states a second. A push straight uphill gets below 0 in
 down. On maunga_whau it stops at 0.8.
 """
 
+import json
 import os
 import sys
 import unittest
@@ -20,6 +21,8 @@ from running import ROOT, Running, Witness, example, program, readme_bot, readme
 
 MAPS = ("hills", "jumps", "maunga_whau", "parabolic_pot", "torus", "volcano", "wavy_pot")
 LEVEL = ("arena", "kepler")
+COURSES = ("crater_king", "crater_loop", "endless", "figure_eight", "long_jump", "maunga_climb", "maunga_crumbs", "orchard", "picnic",
+           "table")  # made to be played by rules: tests/tracks, test_modes
 PAPER = ("hoffmann_2002",)  # by the paper's equations, which make and lose energy: its dents hold who pushes uphill
 SHARE = 0.9
 SECONDS = 240  # of the game. They take 6 to 60: on rough ground a run of bad luck may double that
@@ -97,7 +100,10 @@ class Climbing(unittest.TestCase):
 class TheReadme(unittest.TestCase):
     def test_every_shipped_map_is_climbed_or_level_or_the_papers(self):
         shipped = {file[:-5] for file in os.listdir(os.path.join(ROOT, "maps")) if file.endswith(".json")}
-        self.assertEqual(shipped, set(MAPS) | set(LEVEL) | set(PAPER))
+        self.assertEqual(shipped, set(MAPS) | set(LEVEL) | set(PAPER) | set(COURSES))
+        for course in COURSES:
+            with open(os.path.join(ROOT, "maps", course + ".json"), encoding="utf-8") as file:
+                self.assertTrue({"race", "forage", "hill"} & set(json.load(file)), course)
 
     def test_its_bot_has_about_ten_lines_and_is_that_of_the_bots_readme(self):
         code = readme_code()
