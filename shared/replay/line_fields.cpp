@@ -40,7 +40,7 @@ match::PlayerLabel label_of(const json::Value& name, const json::Value& role, js
   return {json::any_text(name, kMaxTextBytes, problems), plays ? *known : state::Role::kPlayer};
 }
 
-std::string bytes_of(const json::Value& value, Problems& problems) {
+std::string bytes_of(const json::Value& value, json::Problems& problems) {
   const auto digit = [](char c) {
     return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
   };
