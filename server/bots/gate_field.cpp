@@ -150,7 +150,7 @@ double GateField::seconds(Vec2 place, Vec2 velocity) const {
     // Who is before the gate is not where those behind it are, nor the other way round.
     const int side = passes(near.gate, place, images.nearest(place, moves_.middle(square)));
     if (side < 0) continue;
-    const auto of = [&](std::size_t course) {
+    const auto of = [&, square = square](std::size_t course) {
       return side > 0 && speed >= lift_ ? through(square, course, speed) : value(square, course, speed);
     };
     sum += weight * ((1.0 - part) * of(first) + part * of(second));
