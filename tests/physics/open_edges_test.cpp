@@ -129,8 +129,10 @@ TEST_CASE(
         core::Random random(7);
         const auto symmetric = [&](double size) { return size * (2.0 * random.uniform() - 1.0); };
         for (LouseId id = 1; id <= 60; ++id) {
-          const state::Louse louse =
-              moving({symmetric(19), symmetric(19)}, {symmetric(fastest), symmetric(fastest)}, id);
+          // One after the other: compilers draw a call's arguments in orders of their own.
+          const core::Vec2 velocity{symmetric(fastest), symmetric(fastest)};
+          const core::Vec2 position{symmetric(19), symmetric(19)};
+          const state::Louse louse = moving(position, velocity, id);
           for (World* world : {&walls, &open}) {
             world->insert(louse);
             world->set_thrust(id, {ThrustKind::kMapVector, {std::sin(id), std::cos(id)}}, kHeld);
