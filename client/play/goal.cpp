@@ -68,11 +68,12 @@ std::string race_line(const GoalFacts& facts, const map::RaceMode& race) {
 
 std::string forage_line(const GoalFacts& facts) {
   std::string line = formatted("score %ld", static_cast<long>(facts.you->standing.score));
+  const Ways ways(facts.map->terrain->domain(), facts.map->definition.physics.edges);
   const protocol::GameCrumb* best = nullptr;
   double shortest = 0.0;
   for (const protocol::GameCrumb& crumb : facts.game.crumbs) {
     if (crumb.value == 0) continue;
-    const core::Vec2 way = crumb.position - facts.you->position;
+    const core::Vec2 way = ways.way(facts.you->position, crumb.position);
     const double distance = std::hypot(way.x, way.y);
     if (best != nullptr &&
         (crumb.value < best->value || (crumb.value == best->value && distance >= shortest)))

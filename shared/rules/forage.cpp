@@ -107,23 +107,20 @@ std::vector<TableRow> Forage::table() const {
   return rows;
 }
 
-Forage::Crumb Forage::crumb(std::uint32_t slot) const {
+ShownCrumb Forage::crumb(std::uint32_t slot) const {
   assert(slot < slots_.size());
   const Slot& own = slots_[slot];
   return {slot, own.value != 0 ? position(own.place) : core::Vec2{}, own.value};
 }
 
 std::vector<ShownCrumb> Forage::shown_crumbs() const {
-  std::vector<ShownCrumb> shown;
-  for (std::uint32_t slot = 0; slot < slots_.size(); ++slot) {
-    const Crumb lies = crumb(slot);
-    shown.push_back({slot, lies.position, lies.value});
-  }
-  return shown;
+  std::vector<ShownCrumb> all;
+  for (std::uint32_t slot = 0; slot < slots_.size(); ++slot) all.push_back(crumb(slot));
+  return all;
 }
 
-std::vector<Forage::Crumb> Forage::crumbs() const {
-  std::vector<Crumb> all;
+std::vector<ShownCrumb> Forage::crumbs() const {
+  std::vector<ShownCrumb> all;
   for (std::uint32_t slot = 0; slot < slots_.size(); ++slot) {
     if (slots_[slot].value != 0) all.push_back(crumb(slot));
   }
@@ -176,7 +173,7 @@ Forage::Claims Forage::claims(const Step& step) {
   Claims claims;
   if (std::exchange(is_map_stale_, false)) {
     map_of_crumbs_.clear();
-    for (const Crumb& crumb : crumbs()) map_of_crumbs_.add(crumb.slot, crumb.position);
+    for (const ShownCrumb& crumb : crumbs()) map_of_crumbs_.add(crumb.slot, crumb.position);
   }
   const std::span<const state::Louse> lice = step.world.lice();
   auto player = players_.begin();

@@ -37,18 +37,11 @@ class Forage final : public Rules {
 
   [[nodiscard]] std::vector<ShownCrumb> shown_crumbs() const override;
 
-  /// What lies in a slot.
-  struct Crumb {
-    std::uint32_t slot = 0;
-    core::Vec2 position;     ///< [m]
-    std::uint8_t value = 0;  ///< 1, 3; 0: nothing lies there now
-    friend bool operator==(const Crumb&, const Crumb&) = default;
-  };
   [[nodiscard]] std::size_t slots() const { return slots_.size(); }
   /// REQUIRES slot < slots().
-  [[nodiscard]] Crumb crumb(std::uint32_t slot) const;
+  [[nodiscard]] ShownCrumb crumb(std::uint32_t slot) const;
   /// Those that lie, by slot.
-  [[nodiscard]] std::vector<Crumb> crumbs() const;
+  [[nodiscard]] std::vector<ShownCrumb> crumbs() const;
   /// The slots that the last step has changed: bit 1 << slot. None after restore().
   [[nodiscard]] std::uint64_t changed() const { return changed_; }
   /// The tick from which crumbs count twice, in play; 0: they won't, or it is not play.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string_view>
 
 namespace woodlouse::rules {
 
@@ -13,20 +12,6 @@ enum class Phase : std::uint8_t {
   kPodium = 3,  ///< the table stands, lice drive
 };
 inline constexpr std::uint8_t kPhases = 4;
-
-constexpr std::string_view to_text(Phase phase) {
-  switch (phase) {
-    case Phase::kCountdown:
-      return "countdown";
-    case Phase::kPlay:
-      return "play";
-    case Phase::kPodium:
-      return "podium";
-    case Phase::kGather:
-      break;
-  }
-  return "gather";
-}
 
 struct Round {
   Phase phase = Phase::kGather;

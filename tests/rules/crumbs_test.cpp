@@ -39,12 +39,12 @@ TEST_CASE("crumbs lie from the beginning of play on, within the map, apart, and 
     REQUIRE(crumbs.size() == slots);
     CHECK(game.rules().changed() == (slots == 64 ? ~0ull : (1ull << slots) - 1));
     std::size_t good = 0;
-    for (const Forage::Crumb& crumb : crumbs) {
+    for (const ShownCrumb& crumb : crumbs) {
       CHECK((std::abs(crumb.position.x) <= 19 && std::abs(crumb.position.y) <= 19));
       CHECK((crumb.value == 1 || crumb.value == 3));
       CHECK(crumb.position.x * 1024 == std::floor(crumb.position.x * 1024));
       bool is_apart = true;
-      for (const Forage::Crumb& other : crumbs)
+      for (const ShownCrumb& other : crumbs)
         is_apart &= other.slot >= crumb.slot || std::hypot(other.position.x - crumb.position.x,
                                                            other.position.y - crumb.position.y) >= 1.5;
       for (const state::Louse& louse : game.world().lice())
@@ -65,7 +65,7 @@ TEST_CASE("where a crumb lies follows from the hash and its slot alone") {
   // Of the step before play begins.
   const std::uint64_t hash = core::stable_hash(std::to_string(game.tick() - 1));
   std::vector<core::Vec2> before;
-  for (const Forage::Crumb& crumb : game.rules().crumbs()) {
+  for (const ShownCrumb& crumb : game.rules().crumbs()) {
     char bytes[16];
     for (int k = 0; k < 8; ++k) {
       bytes[k] = static_cast<char>(hash >> (8 * k));
@@ -101,7 +101,7 @@ TEST_CASE("crumbs worth three lie on summits, as many as the mode says, and not 
   for (int round = 0; round < 200; ++round) {
     while (game.rules().round().phase != Phase::kPlay) game.step();
     std::set<std::pair<double, double>> taken;
-    for (const Forage::Crumb& crumb : game.rules().crumbs()) {
+    for (const ShownCrumb& crumb : game.rules().crumbs()) {
       ++all;
       if (crumb.value != 3) continue;
       ++high;

@@ -229,7 +229,7 @@ TEST_CASE("a crumb beyond the seam is near, for who stands and for who crosses i
   // And crumbs lie up to the seam.
   game.step(2000);
   for (int k = 0; k < 40; ++k) {
-    for (const Forage::Crumb& crumb : game.rules().crumbs()) {
+    for (const ShownCrumb& crumb : game.rules().crumbs()) {
       CHECK((crumb.position.x >= -20 && crumb.position.x < 20));
       game.put(1, crumb.position);
       game.step();

@@ -7,9 +7,8 @@
 
 namespace woodlouse::lab {
 
-/// Each mode of each map of `folder` (empty: the project's own) beside the same map without rules, in turns:
-/// whole ticks of a match, their hash included, of 20, 200 and 1,000 lice that are pushed about. Writes
-/// lab-speed-modes.csv.
+/// Each mode of each map of `folder` (empty: the project's own): a tick with its hash, of 20, 200 and 1,000
+/// lice that are pushed about, and what the rules take within it; medians. Writes lab-speed-modes.csv.
 core::Expected<void> measure_modes(const std::filesystem::path& folder, const Output& output);
 
 }  // namespace woodlouse::lab

@@ -247,3 +247,11 @@ TEST_CASE("what a session says behind its join is heard, however many come befor
   }
   CHECK(house.room->census().spectators == 0);
 }
+
+TEST_CASE("what the rules say goes by one name in recordings and on the wire") {
+  for (int kind = 0; kind <= static_cast<int>(rules::EventKind::kRound); ++kind) {
+    const auto ruled = static_cast<rules::EventKind>(kind);
+    const auto shown = static_cast<protocol::EventKind>(kind + static_cast<int>(protocol::EventKind::kGate));
+    CHECK(rules::to_text(ruled) == protocol::to_text(shown));
+  }
+}
