@@ -21,6 +21,7 @@ namespace {
 constexpr std::uint64_t kMaxTickHz = 1000;
 constexpr std::uint64_t kMaxBots = 1000;
 constexpr std::uint64_t kMaxJobs = 256;
+constexpr std::uint64_t kMostRounds = 1000;
 
 constexpr const char* kExamples = R"(Examples:
   woodlouse-server --map maps/volcano.json --bots 3 --record game.ndjson --shadow
@@ -64,7 +65,8 @@ struct Typed {
 };
 
 /// Which games; a fork takes all of it from its recording.
-void add_game_options(CLI::App& app, ServeConfig& serve) {
+void add_game_options(CLI::App& app, TypedServe& typed) {
+  ServeConfig& serve = typed.serve;
   app.add_option("--map", serve.maps,
                  "Map file, or the name of one that came with this; several make as many rooms, at most 256")
       ->envname("WOODLOUSE_MAP");
@@ -75,6 +77,18 @@ void add_game_options(CLI::App& app, ServeConfig& serve) {
   app.add_option("--seed", serve.seed, "Seed of spawns and bots; another one each time when left out")
       ->envname("WOODLOUSE_SEED")
       ->check(whole_number(0));
+  app.add_option(
+         "--mode", typed.mode,
+         "What is played: one mode, or all that a map has, each in a room of its own (volcano, volcano/race)")
+      ->envname("WOODLOUSE_MODE")
+      ->check(CLI::IsMember({"all", "roam", "race", "forage", "hill"}))
+      ->capture_default_str();
+  app.add_option(
+         "--rotate", serve.rotate,
+         "One room, `rotation`, for all of them: each is played for so many rounds (of 5 minutes where there "
+         "are no rules), or until most players vote to skip it")
+      ->envname("WOODLOUSE_ROTATE")
+      ->check(whole_number(1, kMostRounds));
 }
 
 void add_serve_options(CLI::App& app, TypedServe& typed) {
@@ -95,12 +109,6 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
   app.add_option("--ticks", serve.ticks, "Stop after so many ticks")
       ->envname("WOODLOUSE_TICKS")
       ->check(whole_number(1));
-  app.add_option(
-         "--mode", typed.mode,
-         "What is played: one mode, or all that a map has, each in a room of its own (volcano, volcano/race)")
-      ->envname("WOODLOUSE_MODE")
-      ->check(CLI::IsMember({"all", "roam", "race", "forage", "hill"}))
-      ->capture_default_str();
   app.add_option("--bots", serve.bots, "The house's own bots, in every room")
       ->envname("WOODLOUSE_BOTS")
       ->check(whole_number(0, kMaxBots))
@@ -229,7 +237,7 @@ core::Expected<Config> checked(CLI::App& app, TypedServe& typed) {
   auto listen = parse_listen_address(typed.listen);
   if (!listen) return tl::unexpected(listen.error());
   serve.listen = std::move(*listen);
-  auto record = checked_record(typed.record, serve.maps.size());
+  auto record = checked_record(typed.record, serve.rotate ? 1 : serve.maps.size());
   if (!record) return tl::unexpected(record.error());
   serve.record = std::move(*record);
   serve.bots_skill = bots::skill_from_text(typed.bots_skill).value_or(bots::Skill::kFair);
@@ -267,7 +275,7 @@ core::Expected<Config> parse_config(int argc, const char* const* argv) {
   CLI::App app("Woodlouse: a game server for wood-lice on a spline hill.", "woodlouse-server");
   app.set_version_flag("--version", std::string(kServerName));
   app.footer(kExamples);
-  add_game_options(app, typed.serve.serve);
+  add_game_options(app, typed.serve);
   add_serve_options(app, typed.serve);
   CLI::App* check = app.add_subcommand("check", "Say what is wrong with map files");
   check->add_option("map", typed.check.maps, "Map files")->required();

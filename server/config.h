@@ -38,6 +38,7 @@ struct ServeConfig {
   std::optional<std::uint64_t> ticks;            ///< stop after so many
   std::optional<std::uint64_t> seed;             ///< empty: from the machine's entropy
   std::optional<state::Mode> mode;               ///< empty: each that a map has, a room each
+  std::optional<std::uint32_t> rotate;           ///< one room for all of them, each for so many rounds
   std::uint32_t bots = 0;                        ///< of the house, in every room
   bots::Skill bots_skill = bots::Skill::kFair;
   bool bots_alone_play = false;    ///< they keep a room awake in which nobody is

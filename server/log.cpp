@@ -20,6 +20,7 @@
 #include <thread>
 #include <utility>
 
+#include "server/timing/clock.h"
 #include "shared/core/printable.h"
 #include "shared/core/utf8.h"
 #include "shared/json/text.h"
@@ -172,7 +173,6 @@ Log::Log(LogFormat format, spdlog::sink_ptr sink)
 /// that it holds.
 Log::~Log() {
   logger_.reset();
-  using Clock = std::chrono::steady_clock;
   std::size_t waiting = thread_->queue_size();
   const auto latest = Clock::now() + kLongest;
   for (auto moved = Clock::now(); waiting > 0 && Clock::now() < std::min(latest, moved + kPatience);) {

@@ -9,9 +9,7 @@
 #include <cassert>
 #include <csignal>
 #include <cstdint>
-#include <map>
 #include <random>
-#include <set>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -27,8 +25,6 @@
 #include "shared/core/printable.h"
 #include "shared/core/stable_hash.h"
 #include "shared/core/thread_team.h"
-#include "shared/map/map_file.h"
-#include "shared/map/map_search_file.h"
 #include "shared/protocol/codes.h"
 
 namespace woodlouse::server {
@@ -36,6 +32,9 @@ namespace {
 
 namespace asio = boost::asio;
 namespace fs = std::filesystem;
+
+/// Where games take turns.
+constexpr const char* kRotationRoom = "rotation";
 
 /// Beside the recording, or where the server was started.
 fs::path dump_of_shadow(const ServeConfig& config, const std::string& room) {
@@ -56,17 +55,6 @@ core::Expected<Start> begin_fork(ServeConfig& config) {
   const std::uint64_t begin = config.fork->tick;
   if (config.ticks) config.ticks = begin + std::min(*config.ticks, UINT64_MAX - begin);
   return start;
-}
-
-std::string unique_name(const std::string& name, std::set<std::string>& taken) {
-  std::string result = name;
-  for (int number = 2; !taken.insert(result).second; ++number) result = name + '-' + std::to_string(number);
-  return result;
-}
-
-/// Roam, which every map has, goes by the map's name alone.
-std::string room_name(const std::string& map, state::Mode mode) {
-  return mode == state::Mode::kRoam ? map : fmt::format("{}/{}", map, state::to_text(mode));
 }
 
 std::uint64_t entropy() {
@@ -127,38 +115,33 @@ core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config, Outsi
 
 core::Expected<void> Server::open_rooms(const ServeConfig& config) {
   const std::uint64_t seed = config.seed ? *config.seed : entropy();
-  std::set<std::string> names;
-  std::vector<std::pair<std::string, Start>> rooms;
-  // Rooms of one file share its map, which stays in the caches; of a big one's tiles each room has its own.
-  std::map<fs::path, std::shared_ptr<const map::Map>> shared;
-  for (const fs::path& word : config.maps) {
-    const auto file = map::find_map(word.string());
-    if (!file) return tl::unexpected(file.error());
-    std::shared_ptr<const map::Map>& map = shared[*file];
-    if (map == nullptr || std::holds_alternative<terrain::TiledGround>(map->terrain->surface())) {
-      auto loaded = map::load_map(*file);
-      if (!loaded) return tl::unexpected(loaded.error());
-      map = std::move(*loaded);
-    }
-    const std::size_t before = rooms.size();
-    for (const state::Mode mode : state::kModes) {
-      if (!map->definition.modes.has(mode) || config.mode.value_or(mode) != mode) continue;
-      const match::MatchSettings settings{config.tick_hz, seed + rooms.size(), mode};
-      rooms.emplace_back(unique_name(room_name(map->definition.name, mode), names),
-                         Start{map, std::make_unique<match::Match>(map, settings), file->string(), {}, {}});
-    }
-    if (rooms.size() == before)
-      return core::fail(file->string(), fmt::format("has no {}", state::to_text(*config.mode)),
-                        "its modes stand in the map file: maps/README.md");
-  }
-  if (rooms.size() > kMaxRooms)
-    return core::fail("--map", fmt::format("{} rooms, of all modes together", rooms.size()),
-                      fmt::format("at most {}; --mode takes one of each map", kMaxRooms));
+  auto games = choose_games(config);
+  if (!games) return tl::unexpected(games.error());
   take_signals();
-  for (auto& [name, start] : rooms) {
-    if (auto opened = open_room(config, name, std::move(start)); !opened) return opened;
+  if (config.rotate) return open_rotation(config, std::move(*games), seed);
+  for (std::size_t k = 0; k < games->size(); ++k) {
+    const ChosenGame& game = (*games)[k];
+    if (auto opened = open_room(config, game.room, start_of(game, config, seed + k)); !opened) return opened;
   }
   return {};
+}
+
+core::Expected<void> Server::open_rotation(const ServeConfig& config, std::vector<ChosenGame> games,
+                                           std::uint64_t seed) {
+  Start first = start_of(games.front(), config, seed);
+  log_->info(fmt::format("room {}: {} games in turns, of {} rounds each", kRotationRoom, games.size(),
+                         *config.rotate));
+  // What can't be written any more costs the record, not the game.
+  rotation_.emplace(std::move(games), seed, [this, config](const ChosenGame& game, std::uint64_t its_seed) {
+    std::vector<core::Error> failed;
+    NextGame next{start_of(game, config, its_seed), {}};
+    next.watchers = make_watchers(config, kRotationRoom, next.start, failed);
+    for (const core::Error& error : failed)
+      log_->error(fmt::format("room {}: NOT WRITTEN: {}: {}", kRotationRoom, error.where, error.what));
+    next.start.match->use(step_team_);
+    return next;
+  });
+  return open_room(config, kRotationRoom, std::move(first));
 }
 
 core::Expected<void> Server::open_fork_room(const ServeConfig& config, Start start) {
@@ -181,14 +164,17 @@ core::Expected<void> Server::open_room(const ServeConfig& config, const std::str
   settings.tick_limit = config.ticks;
   settings.limits = *limits_.now();
   settings.adopts_by_name = config.fork && config.fork->adopts_by_name;
-  auto watchers = make_watchers(config, name, start);
-  if (!watchers) return tl::unexpected(watchers.error());
+  if (rotation_) settings.rounds_a_game = *config.rotate;
+  std::vector<core::Error> failed;
+  Watchers watchers = make_watchers(config, name, start, failed);
+  if (!failed.empty()) return tl::unexpected(failed.front());
   start.match->use(step_team_);
   log_opened(name, config, start);
   ++rooms_running_;
-  const bool is_new = lobby_.open(Room::make(ticks_, lanes_, std::move(settings), std::move(start),
-                                             std::move(*watchers), timekeeper_, log_),
-                                  [this] { asio::post(strand_, [this] { room_ended(); }); });
+  const bool is_new =
+      lobby_.open(Room::make(ticks_, lanes_, std::move(settings), std::move(start), std::move(watchers),
+                             timekeeper_, log_, rotation_ ? &*rotation_ : nullptr),
+                  [this] { asio::post(strand_, [this] { room_ended(); }); });
   assert(is_new);
   static_cast<void>(is_new);
   return {};
@@ -209,22 +195,23 @@ void Server::log_opened(const std::string& room, const ServeConfig& config, cons
                            config.tick_hz, config.state_hz, match.settings().seed, threads));
 }
 
-core::Expected<Watchers> Server::make_watchers(const ServeConfig& config, const std::string& room,
-                                               const Start& start) {
+Watchers Server::make_watchers(const ServeConfig& config, const std::string& room, const Start& start,
+                               std::vector<core::Error>& failed) {
   Watchers watchers;
+  const auto take = [&](auto opened) {
+    if (opened)
+      watchers.push_back(std::move(*opened));
+    else
+      failed.push_back(opened.error());
+  };
   replay::Header header = replay::make_header(*start.match, kServerName, start.map_file);
   if (recordings_) {
     replay::Header recorded = header;
     recorded.parent = start.parent;
-    auto opened = recordings_->open(room, std::move(recorded));
-    if (!opened) return tl::unexpected(opened.error());
-    watchers.push_back(std::move(*opened));
+    take(recordings_->open(room, std::move(recorded)));
   }
-  if (records_ && start.match->settings().mode == state::Mode::kRace) {
-    auto opened = records_->open(room, *start.match, start.map_file);
-    if (!opened) return tl::unexpected(opened.error());
-    watchers.push_back(std::move(*opened));
-  }
+  if (records_ && start.match->settings().mode == state::Mode::kRace)
+    take(records_->open(room, *start.match, start.map_file));
   if (shadows_)
     watchers.push_back(std::make_unique<Shadow>(room, start.map, std::move(header),
                                                 dump_of_shadow(config, room), *shadows_, log_));
@@ -252,6 +239,7 @@ void Server::run() {
     throw;
   }
   threads.clear();
+  rotation_.reset();
   if (recordings_) recordings_->end(Clock::now() + kLastMoment);
   if (records_) records_->end(Clock::now() + kLastRecords);
   if (shadows_) shadows_->join();

@@ -16,6 +16,7 @@
 #include <boost/asio/thread_pool.hpp>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -23,7 +24,9 @@
 #include <string>
 #include <vector>
 
+#include "server/chosen_games.h"
 #include "server/config.h"
+#include "server/game_rotation.h"
 #include "server/net/acceptor.h"
 #include "server/net/session.h"
 #include "server/records/records.h"
@@ -86,13 +89,16 @@ class Server {
  private:
   Server(const ServeConfig& config, Outside outside, std::shared_ptr<spdlog::logger> log);
   core::Expected<void> open_rooms(const ServeConfig& config);
+  core::Expected<void> open_rotation(const ServeConfig& config, std::vector<ChosenGame> games,
+                                     std::uint64_t seed);
   core::Expected<void> open_fork_room(const ServeConfig& config, Start start);
   /// From here on a signal waits for run(), which writes down and says bye. Before, nothing is begun that it
   /// would cut short: maps, which may take long, are loaded, and no recording is created.
   void take_signals();
   core::Expected<void> open_room(const ServeConfig& config, const std::string& name, Start start);
-  core::Expected<Watchers> make_watchers(const ServeConfig& config, const std::string& room,
-                                         const Start& start);
+  /// failed: what can't be written; it has no watcher.
+  Watchers make_watchers(const ServeConfig& config, const std::string& room, const Start& start,
+                         std::vector<core::Error>& failed);
   void log_opened(const std::string& room, const ServeConfig& config, const Start& start) const;
   void await_signal();
   void on_signal(int signal);
@@ -132,6 +138,7 @@ class Server {
   // These go first: what they leave behind touches nothing of the others.
   std::optional<Recordings> recordings_;
   std::optional<Records> records_;
+  std::optional<GameRotation> rotation_;
 };
 
 }  // namespace woodlouse::server

@@ -46,6 +46,9 @@ core::Expected<void> play(bots::LineClient& client, std::uint32_t id) {
         input.thrust.value = chase(me->second, view);  // the server cuts it to length 1
         sent = client.send(input);
       }
+    } else if (const auto* welcome = std::get_if<protocol::Welcome>(&*message)) {
+      id = welcome->id;  // of the room's next game
+      view = WorldView();
     } else if (const auto* ping = std::get_if<protocol::Ping>(&*message)) {
       sent = client.send(protocol::Pong{ping->t});
     } else if (const auto* error = std::get_if<protocol::ErrorMessage>(&*message)) {

@@ -88,9 +88,6 @@ core::Expected<protocol::Welcome> LineClient::connect_and_join(std::chrono::seco
     if (const auto* bye = std::get_if<protocol::Bye>(&*message)) return core::fail(bye->code, bye->text);
     const auto* welcome = std::get_if<protocol::Welcome>(&*message);
     if (!welcome) continue;
-    fields_ = welcome->fields;
-    format_ = welcome->format;
-    join_.resume = welcome->resume_token;
     return *welcome;
   }
 }
@@ -109,7 +106,10 @@ core::Expected<protocol::ServerMessage> LineClient::receive(std::chrono::seconds
     while (const auto line = framer_.next()) {
       if (line->oversize) return core::fail("server", "a line of more than 128 MiB");
       auto message = protocol::decode_server(line->text, fields_, format_);
-      if (message) return std::move(*message);
+      if (message) {
+        if (const auto* welcome = std::get_if<protocol::Welcome>(&*message)) take(*welcome);
+        return std::move(*message);
+      }
       if (message.error().code != protocol::code::kUnknownType)
         return core::fail("server", message.error().text);
     }
@@ -124,6 +124,13 @@ core::Expected<protocol::ServerMessage> LineClient::receive(std::chrono::seconds
     if (error) return broken("connection", error.message());
     framer_.append({incoming_.data(), size});
   }
+}
+
+/// What follows is by its columns; of a room that plays several games each has one.
+void LineClient::take(const protocol::Welcome& welcome) {
+  fields_ = welcome.fields;
+  format_ = welcome.format;
+  join_.resume = welcome.resume_token;
 }
 
 /// Until what was begun on the socket has ended, or is given up.

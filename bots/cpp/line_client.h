@@ -53,6 +53,7 @@ class LineClient {
   core::Expected<protocol::Welcome> try_until_joined(Trying trying);
   core::Expected<protocol::Welcome> connect_and_join(std::chrono::seconds patience);
   core::Expected<protocol::ServerMessage> receive(std::chrono::seconds patience);
+  void take(const protocol::Welcome& welcome);
   void run(std::chrono::seconds patience);
   tl::unexpected<core::Error> broken(const std::string& where, const std::string& what,
                                      const std::string& hint = {});

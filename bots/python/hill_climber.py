@@ -39,20 +39,22 @@ class Climber:
         return ((2 * (pace * dx - vx) + pull * gx) / self._full, (2 * (pace * dy - vy) + pull * gy) / self._full)
 
 
+def climb(game):
+    climber, ground, told = Climber(game), game.map(), -inf
+    for state in game.states():
+        if not state.me:
+            continue
+        game.thrust(climber.push(state.tick, *state.me[1:]))
+        z = ground.height(state.me.x, state.me.y)
+        if z > told + 0.25:
+            told = z
+            print("tick %d: %.2f m up, %s" % (state.tick, z, "swinging" if climber.swinging else "climbing"),
+                  flush=True)
+
+
 def main(address):
     with woodlouse.connect(address, name="Sherpa") as game:
-        if woodlouse_play.plays(game):
-            return woodlouse_play.play(game)
-        climber, ground, told = Climber(game), game.map(), -inf
-        for state in game.states():
-            if not state.me:
-                continue
-            game.thrust(climber.push(state.tick, *state.me[1:]))
-            z = ground.height(state.me.x, state.me.y)
-            if z > told + 0.25:
-                told = z
-                print("tick %d: %.2f m up, %s" % (state.tick, z, "swinging" if climber.swinging else "climbing"),
-                      flush=True)
+        woodlouse_play.play_all(game, climb)
 
 
 if __name__ == "__main__":

@@ -85,7 +85,8 @@ class Game(Session):
     spectators [name] of who has none (of a former server; today's counts them: welcome["spectators"], rooms()), hello and
     welcome as they came, last_ack, verified (how many keys were right; 0 unless asked to verify), comebacks (how often
     the connection broke and came back; welcome["resumed"] is true where it came back to its louse, else id is another),
-    and bye once the server said it.
+    games (how many it is in since it joined: some rooms play several in turns, and each is as if it had joined anew; only
+    seqs go on), and bye once the server said it.
 
     What is played: mode ("roam", "race", "forage", "hill"), rules (the mode as the map has it, its defaults filled in:
     rules["gates"], rules["places"] ...; {} in roam), round (the newest Round; None in roam and before the first state),
@@ -114,6 +115,8 @@ class Game(Session):
         self.errors = collections.deque(maxlen=100)
         self.last_ack = None
         self.welcome = None
+        self.games = 0
+        self._welcomed_on = None
         self.players = {}
         self.spectators = []
         self._begin(*door.enter())
@@ -128,17 +131,18 @@ class Game(Session):
 
     def states(self):
         """Yields a State for each frame, always the newest: one that came while you were thinking replaces those
-        before it. Ends when the server says bye; goes on over breaks of the connection that it comes back from, and raises
-        WoodlouseError at others."""
-        while self.bye is None:
+        before it. Ends when the server says bye, and when the room begins another game (games): call it again, and map(), for
+        that. Goes on over breaks of the connection that it comes back from, and raises WoodlouseError at others."""
+        games = self.games
+        while self.bye is None and self.games == games:
             self._state = None
-            while self.bye is None and (self._state is None or self._lines.waiting()):
+            while self.bye is None and self.games == games and (self._state is None or self._lines.waiting()):
                 self._receive()
-            if self._state is not None:
+            if self._state is not None and self.games == games:
                 yield self._state
 
     def map(self):
-        """The Ground of this room; asked for once."""
+        """The Ground of what the room plays; asked for once a map."""
         if self._ground is None:
             self._ask({"type": "get_map"}, lambda: self._ground is not None)
         return self._ground
@@ -150,7 +154,7 @@ class Game(Session):
         return self._rooms
 
     def take_events(self):
-        """The events since the last call, oldest first: dicts with n, tick, kind (joined, left, chat, respawned), id
+        """The events since the last call, oldest first: dicts with n, tick, kind (joined, left, chat, respawned, skip), id
         (0 for each spectator: the name tells them apart), name. Those of rules of play (gate, lap, run, crumb, harvest,
         bump, holds, contested, moving, fell, returned, round) have moment and the fields of docs/protocol.md besides."""
         return _drain(self._events)
@@ -197,6 +201,10 @@ class Game(Session):
         self._send(message)
         return self._seq
 
+    def skip(self):
+        """Votes for the room's next game, if it plays several in turns; players may, bots not."""
+        self._send({"type": "skip"})
+
     def chat(self, text):
         """Says something to everybody in the room."""
         self._send({"type": "chat", "text": text})
@@ -222,9 +230,14 @@ class Game(Session):
     # ---- the wire ----
 
     def _on_welcome(self, message):
-        if self.welcome is None or self.welcome["map"]["hash"] != message["map"]["hash"]:
+        before, is_comeback = self.welcome, self._lines is not self._welcomed_on
+        if before is None or before["map"]["hash"] != message["map"]["hash"]:
             self._ground, self.physics = None, dict(message["physics"])
-        self._seq, self._resyncing = 0, False
+        if is_comeback:
+            self._seq, self._welcomed_on = 0, self._lines
+        if before is None or not is_comeback or any(before.get(what) != message.get(what) for what in ("map", "mode")):
+            self.games += 1
+        self._resyncing, self._state = False, None
         self.welcome = message
         self.id = message["id"]
         self.name = message.get("name", self.name)

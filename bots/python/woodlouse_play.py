@@ -3,8 +3,7 @@
     import woodlouse, woodlouse_play
 
     with woodlouse.connect("127.0.0.1:7777/volcano/race") as game:
-        if woodlouse_play.plays(game):
-            woodlouse_play.play(game)
+        woodlouse_play.play_all(game, roam=my_own_way)
 """
 
 from math import hypot, inf, sqrt
@@ -27,6 +26,13 @@ def player_of(game):
     """Who plays the game's mode: push(state) is the thrust, a pair as Game.thrust takes it; None to leave it as it is.
     REQUIRES plays(game)."""
     return _PLAYERS[game.mode](game)
+
+
+def play_all(game, roam):
+    """Plays until the server says bye: what is played here, and by roam(game) what is not. Where a room plays several games in
+    turns roam returns when states() has ended."""
+    while game.bye is None:
+        play(game) if plays(game) else roam(game)
 
 
 def play(game):

@@ -25,8 +25,9 @@ void Lead::observe(const protocol::Ack& ack) {
   margin_ = std::clamp(margin_ - 0.1 * std::clamp(early - kTarget, -1.0, 1.0), kSmallest, kLargest);
 }
 
-Pilot::Pilot(const map::Map& map, std::uint32_t tick_hz, std::uint32_t id, state::Mode mode)
-    : id_(id), steering_(tick_hz), lead_(tick_hz) {
+Pilot::Pilot(const map::Map& map, std::uint32_t tick_hz, std::uint32_t id, state::Mode mode,
+             std::uint32_t last_seq)
+    : id_(id), steering_(tick_hz), lead_(tick_hz), seq_(last_seq) {
   if (map.detail != map::Detail::kExact) return;
   ways_ = {map.terrain->domain(), map.definition.physics.edges};
   prediction_.emplace(map, tick_hz, mode);

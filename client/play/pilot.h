@@ -44,8 +44,9 @@ class Lead {
 class Pilot {
  public:
   /// Of a map that is an overview nothing is predicted: it is not the ground that is played on.
-  /// REQUIRES a map that has the mode.
-  Pilot(const map::Map& map, std::uint32_t tick_hz, std::uint32_t id, state::Mode mode = state::Mode::kRoam);
+  /// last_seq: of the connection's inputs so far. REQUIRES a map that has the mode.
+  Pilot(const map::Map& map, std::uint32_t tick_hz, std::uint32_t id, state::Mode mode = state::Mode::kRoam,
+        std::uint32_t last_seq = 0);
 
   /// Runs the prediction on to now and says what to send, at most one input a tick.
   std::optional<protocol::Input> update(core::Time now, ServerClock& clock, double rtt_seconds);
@@ -58,6 +59,7 @@ class Pilot {
   Steering& steering() { return steering_; }
   [[nodiscard]] const Steering& steering() const { return steering_; }
   [[nodiscard]] std::uint32_t id() const { return id_; }
+  [[nodiscard]] std::uint32_t last_seq() const { return seq_; }
   /// The louse as it is to be drawn now; nothing before the first exact state, and where nothing is
   /// predicted.
   [[nodiscard]] std::optional<LouseSample> sample() const;
@@ -75,7 +77,7 @@ class Pilot {
   Steering steering_;
   std::optional<Prediction> prediction_;
   Lead lead_;
-  std::uint32_t seq_ = 0;
+  std::uint32_t seq_;
   std::uint64_t last_tick_ = 0;      ///< the step the last input asked for
   double ahead_ = 0.0;               ///< fractional tick the louse is drawn at
   bool heading_taken_ = false;       ///< the steering points where the louse does

@@ -84,6 +84,12 @@ core::Expected<void> RoomView::on_message(const protocol::ServerMessage& message
 
 void RoomView::take(const protocol::Welcome& welcome, core::Time now) {
   if (was_here_) notice(what_became(welcome), now);
+  if (welcome_) {  // another game of the room, on the same connection
+    notice(core::joined({"now: ", welcome.mode, " on ", welcome.map_name}), now);
+    if (pilot_) last_seq_ = pilot_->last_seq();
+    lice_.clear();
+    trails_.clear();
+  }
   was_here_ = false;
   welcome_ = welcome;
   roster_.welcome(welcome);
@@ -120,7 +126,7 @@ void RoomView::begin_piloting() {
   if (welcome_->id == 0) return;
   const state::Mode mode = state::mode_from_text(welcome_->mode).value_or(state::Mode::kRoam);
   const bool has_mode = map_->definition.modes.has(mode);
-  pilot_.emplace(*map_, welcome_->tick_hz, welcome_->id, has_mode ? mode : state::Mode::kRoam);
+  pilot_.emplace(*map_, welcome_->tick_hz, welcome_->id, has_mode ? mode : state::Mode::kRoam, last_seq_);
 }
 
 void RoomView::take(const protocol::Frame& frame, core::Time now) {
@@ -200,6 +206,7 @@ void RoomView::on_lost() {
   clock_.reset();
   view_.reset();
   pilot_.reset();
+  last_seq_ = 0;
   round_trips_.clear();
   pinged_.reset();
   counted_.reset();

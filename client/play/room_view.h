@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "client/net/server_clock.h"
@@ -33,6 +34,7 @@ class RoomView {
   static constexpr std::size_t kRoundTrips = 8;
   static constexpr std::chrono::milliseconds kResyncEvery{1000};  ///< asked for at most so often
   static constexpr std::chrono::milliseconds kNoticeFor{4000};
+  static constexpr std::string_view kSkip = "/skip";
 
   /// One message of the server. Error: the server can't be played with (its map is unreadable); leave.
   core::Expected<void> on_message(const protocol::ServerMessage& message, core::Time now);
@@ -43,7 +45,11 @@ class RoomView {
   void update(core::Time now);
   [[nodiscard]] std::vector<protocol::ClientMessage> take_outgoing();
 
-  void say(std::string text) { outgoing_.emplace_back(protocol::Chat{std::move(text)}); }
+  /// Chat; `/skip` is a vote for the room's next game.
+  void say(std::string text) {
+    if (text == kSkip) return outgoing_.emplace_back(protocol::Skip{}), void();
+    outgoing_.emplace_back(protocol::Chat{std::move(text)});
+  }
   void respawn() { outgoing_.emplace_back(protocol::Respawn{}); }
   /// What the rules of play want of you, in a line or two; empty where there are none.
   [[nodiscard]] const std::vector<std::string>& goal() const { return goal_; }
@@ -86,6 +92,7 @@ class RoomView {
   std::optional<ViewState> view_;
   KeyVerifier verifier_;
   std::optional<Pilot> pilot_;
+  std::uint32_t last_seq_ = 0;  ///< of the connection's inputs, when the game began
   Roster roster_;
   std::map<std::uint32_t, Present> lice_;
   std::map<std::uint32_t, Trail> trails_;

@@ -1,6 +1,9 @@
 #include "client/play/roster.h"
 
+#include <string>
 #include <utility>
+
+#include "shared/core/joined.h"
 
 namespace woodlouse::client {
 
@@ -15,6 +18,10 @@ std::string describe(const protocol::Event& event) {
       return event.text;
     case protocol::EventKind::kRespawned:
       return event.name + " starts again";
+    case protocol::EventKind::kSkip:
+      return core::joined({event.name,
+                           " votes for the next game (/skip): ", std::to_string(event.values[0].value_or(0)),
+                           " of ", std::to_string(event.values[1].value_or(0))});
     default:
       return {};  // of the rules: goal.h
   }

@@ -19,6 +19,13 @@ void Channels::close(ChannelId channel) {
   static_cast<void>(closed);
 }
 
+void Channels::begin_anew() {
+  for (auto& [id, channel] : channels_) {
+    channel.key.reset();
+    channel.delta.reset();
+  }
+}
+
 const Frame& Channels::encode(Channel& channel, const Scene& scene, FrameKind kind) {
   ++encoded_;
   if (kind == FrameKind::kKey || !channel.key) {

@@ -27,6 +27,8 @@ class Channels {
   /// REQUIRES that it is not open.
   void open(ChannelId channel, RowLayout layout);
   void close(ChannelId channel);
+  /// Those that are open stay so, and what they have shown is forgotten: another game's ticks follow.
+  void begin_anew();
 
   /// The last key, and the last delta on it: where a newcomer or a resync begins. Encodes a key if there is
   /// none. REQUIRES that it is open.

@@ -37,7 +37,7 @@ std::optional<ErrorMessage> judge_other(Handshake::State state) {
     if (state == Handshake::State::kGreeting)
       return error(code::kNotJoined,
                    R"(join first: {"type":"join","protocol":1,"role":"player","name":"you"})");
-    if constexpr (kIsOneOf<Message, protocol::Input, protocol::Respawn>)
+    if constexpr (kIsOneOf<Message, protocol::Input, protocol::Respawn, protocol::Skip>)
       if (state == Handshake::State::kSpectating)
         return error(code::kNoLouse, "a spectator has no louse; join as player or bot to steer one");
     return std::nullopt;
@@ -81,7 +81,7 @@ protocol::Hello hello_of(std::uint64_t session, std::string_view server, std::ve
   hello.server = server;
   hello.session = core::to_hex(session);
   hello.rooms = std::move(rooms);
-  hello.features = {"quantized", "exact", "fields", "delta", "get_map", "resume", "rules", "records"};
+  hello.features = {"quantized", "exact", "fields", "delta", "get_map", "resume", "rules", "records", "rotation"};
   hello.limits = limits;
   return hello;
 }

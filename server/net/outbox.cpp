@@ -26,6 +26,11 @@ Outbox::PushMap Outbox::push_map(Line line) {
   return PushMap::kQueued;
 }
 
+void Outbox::begin_anew() {
+  map_.reset();
+  frames_ = FrameSlots();
+}
+
 FrameSlots::Outcome Outbox::offer(Frame frame) {
   return closed_ ? FrameSlots::Outcome::kStale : frames_.put(std::move(frame));
 }

@@ -28,6 +28,9 @@ class Outbox {
   enum class PushMap { kQueued, kAlreadyWaiting };
   PushMap push_map(Line line);
 
+  /// Another game begins: the map and the frames that wait are of the one before.
+  void begin_anew();
+
   /// A key or a delta. kStale also after the last line.
   FrameSlots::Outcome offer(Frame frame);
 

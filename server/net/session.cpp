@@ -214,6 +214,7 @@ void Session::welcome(protocol::Welcome welcome, std::uint32_t divisor) {
     if (self->state_ != State::kOpen) return;
     self->divisor_ = divisor;
     self->map_bytes_ = welcome.map_bytes;
+    self->sender_.outbox().begin_anew();
     self->say(welcome);
     self->watch_next(self->now());
     self->log(

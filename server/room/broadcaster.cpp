@@ -54,6 +54,14 @@ void Broadcaster::frames(FrameKind kind, ChannelFrames frames) {
   });
 }
 
+void Broadcaster::drop_frames() {
+  asio::post(strand_, [self = shared_from_this(), this] {
+    key_.reset();
+    delta_.reset();
+    if (frame_job_) end_job();
+  });
+}
+
 /// Those who are to go and have heard all events before.
 void Broadcaster::let_those_go() {
   for (; !events_.empty() && !events_.front().line; events_.pop_front()) {

@@ -45,6 +45,8 @@ class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
   /// Lets the member go when it has heard the events before this.
   void let_go(SessionId session);
   void frames(FrameKind kind, ChannelFrames frames);
+  /// Those that wait, and those that are being handed out, are of a game that is over.
+  void drop_frames();
   /// Events not yet handed out.
   [[nodiscard]] std::size_t backlog() const { return backlog_.load(std::memory_order_relaxed); }
 

@@ -26,6 +26,18 @@ NumberedLine Events::number(protocol::Event event) {
   return {event.n, Line(protocol::encode(std::move(event)))};
 }
 
+NumberedLine Events::skip(std::uint64_t tick, const Seat& seat, std::size_t votes, std::size_t needed) {
+  assert(votes >= 1 && needed >= 1);
+  protocol::Event event;
+  event.tick = tick;
+  event.kind = protocol::EventKind::kSkip;
+  event.id = seat.louse;
+  event.name = seat.name;
+  event.moment = tick * rules::kMomentsPerTick;
+  event.values = {static_cast<std::int64_t>(votes), static_cast<std::int64_t>(needed)};
+  return number(std::move(event));
+}
+
 NumberedLine Events::ruled(const rules::Event& ruling, const std::string& name, const rules::Rules& rules) {
   assert(ruling.louse != 0 || name.empty());
   protocol::Event event = shown_event(ruling, rules);

@@ -35,6 +35,9 @@ class Events {
   /// What the rules said; name: of the louse's player, empty where it is nobody's.
   NumberedLine ruled(const rules::Event& event, const std::string& name, const rules::Rules& rules);
 
+  /// Of a vote for the next game: so many by now, of so many that it takes.
+  NumberedLine skip(std::uint64_t tick, const Seat& seat, std::size_t votes, std::size_t needed);
+
   /// What a watcher tells; it has no number yet.
   NumberedLine told(const protocol::Event& event) { return number(event); }
 

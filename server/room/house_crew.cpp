@@ -2,18 +2,23 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 #include <variant>
 
 #include "server/room/house_bots.h"
 
 namespace woodlouse::server {
 
-void HouseCrew::reserve(std::uint32_t bots, const match::Match& game, bots::Skill skill) {
-  assert(by_turn_.empty());
+void HouseCrew::reserve(std::uint32_t bots, const match::Match& game, bots::Skill skill,
+                        std::unique_ptr<bots::Team> team) {
+  by_turn_.clear();
+  team_.reset();
+  seats_.clear();
   by_turn_.resize(std::max(1u, game.settings().tick_hz / HouseBot::kDecisionsPerSecond));
   for (auto& turn : by_turn_) turn.reserve(bots / by_turn_.size() + 1);
   mode_ = game.settings().mode;
-  if (mode_ != state::Mode::kRoam && bots > 0) team_.emplace(game.map(), game.settings(), skill, bots);
+  if (mode_ == state::Mode::kRoam || bots == 0) return;
+  team_ = team ? std::move(team) : std::make_unique<bots::Team>(game.map(), game.settings(), skill, bots);
 }
 
 std::string HouseCrew::name_of(std::uint32_t number, const HouseBot& bot) const {

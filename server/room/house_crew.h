@@ -5,7 +5,7 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -19,8 +19,10 @@ namespace woodlouse::server {
 
 class HouseCrew {
  public:
-  /// Before the first take(): for so many, who play the game's mode as well as that.
-  void reserve(std::uint32_t bots, const match::Match& game, bots::Skill skill);
+  /// Before the first take() of a game: for so many, who play its mode as well as that. Who was here is not
+  /// any more. team: of that game, and as many; null: it is made here, where one is needed.
+  void reserve(std::uint32_t bots, const match::Match& game, bots::Skill skill,
+               std::unique_ptr<bots::Team> team);
   /// Of the one with that number and that bot of the four characters.
   [[nodiscard]] std::string name_of(std::uint32_t number, const HouseBot& bot) const;
   /// One more. The seat is a bot's and stays where it is.
@@ -32,7 +34,7 @@ class HouseCrew {
   void roam(match::Match& game);
 
   std::vector<std::vector<Seat*>> by_turn_;  ///< of roam: by the tick of a period at which they look
-  std::optional<bots::Team> team_;           ///< of a mode with rules
+  std::unique_ptr<bots::Team> team_;         ///< of a mode with rules
   state::Mode mode_ = state::Mode::kRoam;
   std::map<match::PlayerId, Seat*> seats_;  ///< of the team
   std::vector<Seat*> respawned_;

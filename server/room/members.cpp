@@ -9,8 +9,6 @@
 #include <utility>
 #include <variant>
 
-#include "server/room/room_map.h"
-#include "server/room/welcome.h"
 #include "shared/core/joined.h"
 #include "shared/protocol/codec.h"
 #include "shared/protocol/codes.h"
@@ -31,21 +29,27 @@ Members::Members(const Lanes& lanes, const RoomSettings& settings, match::Match&
                  const Watchers& watchers, std::vector<Seat> unclaimed, Time now,
                  std::shared_ptr<spdlog::logger> log)
     : settings_(settings),
-      game_(game),
+      game_(&game),
       watchers_(watchers),
       log_(std::move(log)),
       outlet_(std::make_shared<Outlet>(lanes)),
-      map_line_(encode_map_line(game.map())),
+      display_(settings, game, *outlet_),
       seats_(std::move(unclaimed)),
-      inputs_(settings, game, seats_),
       budgets_(settings.limits, now) {
-  assert(settings_.state_hz >= 1 && game_.settings().tick_hz % settings_.state_hz == 0);
+  inputs_.emplace(settings_, *game_, seats_);
+  name_map();
+}
+
+void Members::name_map() {
+  const std::lock_guard lock(map_name_mutex_);
+  map_name_ = game_->map().definition.name;
 }
 
 // ---- who is here ---------------------------------------------------------------------------------------
 
 protocol::RoomEntry Members::census() const {
-  return {settings_.name, game_.map().definition.name, players_.load(), bots_.load(), spectators_.load()};
+  const std::lock_guard lock(map_name_mutex_);
+  return {settings_.name, map_name_, players_.load(), bots_.load(), spectators_.load()};
 }
 
 void Members::count(protocol::Role role, std::int32_t change) {
@@ -68,13 +72,13 @@ void Members::give_louse(Seat& seat) {
     return;
   }
   seat.name = seats_.free_name(seat.name, static_cast<std::uint64_t>(events_.next()));
-  seat.louse = game_.join({seat.name, seat.role});
+  seat.louse = game_->join({seat.name, seat.role});
 }
 
-void Members::add_house_bots() {
-  crew_.reserve(settings_.bots, game_, settings_.bots_skill);
+void Members::add_house_bots(std::unique_ptr<bots::Team> team) {
+  crew_.reserve(settings_.bots, *game_, settings_.bots_skill, std::move(team));
   for (std::uint32_t number = 0; number < settings_.bots; ++number) {
-    HouseBot bot(number, game_.settings().seed);
+    HouseBot bot(number, game_->settings().seed);
     Seat seat{0, crew_.name_of(number, bot), protocol::Role::kBot, 0, BotOccupant{number, std::move(bot)}};
     give_louse(seat);
     crew_.take(seats_.add(std::move(seat)));
@@ -114,18 +118,7 @@ std::optional<protocol::ErrorMessage> Members::why_not(const Arrival& arrival) {
 bool Members::is_deserted() {
   if (seats_.sessions() != 0 || seats_.vacant() != 0 || !leaving_.empty()) return false;
   if (settings_.bots_alone_play && settings_.bots != 0) return false;
-  const auto is_on = [](const state::Louse& louse) {
-    const bool counts_down = louse.thrust_ticks != 0 && louse.thrust_ticks != state::kHeld;
-    return louse.phase != state::Phase::kResting || counts_down;
-  };
-  const auto lice = game_.world().lice();
-  std::ptrdiff_t on = std::count_if(lice.begin(), lice.end(), is_on);
-  seats_.for_each<BotOccupant>([&](const Seat& seat, const BotOccupant&) {
-    const state::Louse* louse = game_.world().find(seat.louse);
-    if (louse != nullptr && is_on(*louse)) --on;
-  });
-  assert(on >= 0);
-  return on == 0;
+  return seats_.all_rest(game_->world());
 }
 
 void Members::refuse_closed(Subscriber& subscriber) {
@@ -158,9 +151,9 @@ bool Members::welcome_back(const Arrival& arrival) {
   std::optional<Seat> taken = seats_.take_back(*token);
   if (!taken) return false;
   if (const auto* old = std::get_if<SessionOccupant>(&taken->occupant)) {
-    unsubscribe(*old);
+    display_.unsubscribe(*old);
     old->subscriber->end({std::string(code::kReplaced), "you came back over another connection", false});
-    inputs_.stop(*taken);
+    inputs_->stop(*taken);
   }
   places_.give_back(taken->role, taken->address);
   places_.take(taken->role, arrival.address);
@@ -173,40 +166,36 @@ bool Members::welcome_back(const Arrival& arrival) {
 
 /// The seat has all but its channel.
 void Members::seat(Seat seat, const Arrival& arrival, bool is_back) {
-  const protocol::Join& join = arrival.join;
-  const auto acquired =
-      layouts_.acquire({join.fields, join.format}, arrival.address, settings_.limits.layouts_per_address);
-  std::get<SessionOccupant>(seat.occupant).channel = acquired.channel;
-  const std::uint32_t state_hz = granted_state_hz(join.state_hz, settings_.state_hz);
-  protocol::Welcome welcome =
-      welcome_for(seat, layouts_.layout(acquired.channel), settings_, game_, map_line_->size());
-  welcome.state_hz = state_hz;
-  welcome.resumed = is_back;
-  welcome.players = seats_.entries();
-  welcome.spectators = spectators_.load();
-  arrival.subscriber->welcome(std::move(welcome), settings_.state_hz / state_hz);
-  if (acquired.is_new) outlet_->open(acquired.channel, layouts_.layout(acquired.channel));
-  outlet_->show_newest(acquired.channel, arrival.subscriber, snapshot());
+  display_.welcome(seat, arrival, is_back, company());
   for (const protocol::Notice& notice : notices_) arrival.subscriber->answer(notice);
-  outlet_->add({arrival.session, arrival.subscriber, acquired.channel, events_.next()});
+  display_.subscribe(std::get<SessionOccupant>(seat.occupant), events_.next());
   const Seat& added = seats_.add(std::move(seat));
-  if (!is_back && added.louse != 0) send(events_.joined(game_.tick(), added));
+  if (!is_back && added.louse != 0) send(events_.joined(game_->tick(), added));
 }
 
-void Members::unsubscribe(const SessionOccupant& occupant) {
-  outlet_->remove(occupant.session, occupant.subscriber->lane());
-  if (layouts_.release(occupant.channel)) outlet_->close(occupant.channel);
+void Members::begin(match::Match& game, std::unique_ptr<bots::Team> team) {
+  for (const auto& [tick, session] : std::exchange(leaving_, {})) let_go(session);
+  seats_.move_to(*game_, game);
+  game_ = &game;
+  name_map();
+  inputs_.emplace(settings_, game, seats_);
+  notices_.clear();
+  skip_votes_.clear();
+  count(protocol::Role::kBot, -static_cast<std::int32_t>(settings_.bots));
+  add_house_bots(std::move(team));
+  display_.begin(game, seats_, company());
 }
 
 void Members::vacate(SessionId session) {
   Seat* seat = seats_.find(session);
-  if (seat != nullptr && seat->louse != 0) inputs_.stop(*seat);
+  if (seat != nullptr && seat->louse != 0) inputs_->stop(*seat);
 }
 
 void Members::remove(SessionId session, Parting parting) {
+  skip_votes_.erase(session);
   std::optional<Seat> seat = seats_.take_away(session);
   if (!seat) return;
-  unsubscribe(std::get<SessionOccupant>(seat->occupant));
+  display_.unsubscribe(std::get<SessionOccupant>(seat->occupant));
   if (parting == Parting::kLost && seat->token && settings_.limits.resume_s > 0)
     return hold(std::move(*seat));
   end(*seat);
@@ -216,9 +205,9 @@ void Members::hold(Seat seat) {
   const auto others =
       seats_.vacant_seats([&seat](const Seat& other) { return other.address == seat.address; });
   if (others.count >= kMostVacantOfAddress) end(seats_.take_vacant(others.oldest));
-  inputs_.stop(seat);
-  const std::uint64_t ticks = std::uint64_t{settings_.limits.resume_s} * game_.settings().tick_hz;
-  seat.occupant = Vacant{game_.tick() + ticks};
+  inputs_->stop(seat);
+  const std::uint64_t ticks = std::uint64_t{settings_.limits.resume_s} * game_->settings().tick_hz;
+  seat.occupant = Vacant{game_->tick() + ticks};
   seats_.add(std::move(seat));
 }
 
@@ -226,17 +215,17 @@ void Members::give_up_vacant() {
   if (seats_.vacant() == 0) return;
   std::vector<match::PlayerId> over;
   seats_.for_each<Vacant>([&](const Seat& seat, const Vacant& vacant) {
-    if (vacant.until <= game_.tick()) over.push_back(seat.louse);
+    if (vacant.until <= game_->tick()) over.push_back(seat.louse);
   });
   for (const match::PlayerId louse : over) end(seats_.take_vacant(louse));
 }
 
 /// The seat is nobody's any more.
 void Members::end(const Seat& seat) {
-  if (seat.louse != 0) game_.leave(seat.louse);
+  if (seat.louse != 0) game_->leave(seat.louse);
   places_.give_back(seat.role, seat.address);
   count(seat.role, -1);
-  if (seat.louse != 0) send(events_.left(game_.tick(), seat));
+  if (seat.louse != 0) send(events_.left(game_->tick(), seat));
 }
 
 void Members::announce(const protocol::Notice& notice) {
@@ -287,61 +276,56 @@ bool Members::refuse_when_busy(const Seat& seat, Spending what, Time arrived) {
 
 void Members::on_message(Seat& seat, const SessionOccupant&, const protocol::Chat& chat, Time arrived) {
   if (refuse_when_busy(seat, Spending::kChat, arrived)) return;
-  for (const auto& watcher : watchers_) watcher->chat(game_.tick(), seat.louse, seat.name, chat.text);
-  send(events_.chat(game_.tick(), seat, chat.text));
+  for (const auto& watcher : watchers_) watcher->chat(game_->tick(), seat.louse, seat.name, chat.text);
+  send(events_.chat(game_->tick(), seat, chat.text));
 }
 
 /// Inputs reach at most InputQueue's horizon ahead, so that this is soon.
 void Members::on_message(Seat&, const SessionOccupant& occupant, const protocol::Leave&, Time) {
-  if (occupant.acked_from <= game_.tick())
+  if (occupant.acked_from <= game_->tick())
     return outlet_->let_go(occupant.session, occupant.subscriber->lane());
   leaving_.emplace(occupant.acked_from, occupant.session);
 }
 
 void Members::on_message(Seat&, SessionOccupant& occupant, const protocol::Resync&, Time) {
-  outlet_->show_newest(occupant.channel, occupant.subscriber, snapshot());
+  display_.show_newest(occupant);
 }
 
 void Members::on_message(Seat& seat, const SessionOccupant&, const protocol::Respawn& respawn, Time arrived) {
   if (refuse_when_busy(seat, Spending::kRespawn, arrived)) return;
-  respawn.at_gate ? game_.respawn_at_gate(seat.louse) : game_.respawn(seat.louse);
-  send(events_.respawned(game_.tick(), seat));
+  respawn.at_gate ? game_->respawn_at_gate(seat.louse) : game_->respawn(seat.louse);
+  send(events_.respawned(game_->tick(), seat));
+}
+
+void Members::on_message(Seat& seat, const SessionOccupant& occupant, const protocol::Skip&, Time) {
+  if (settings_.rounds_a_game == 0 || seat.role != protocol::Role::kPlayer)
+    return occupant.subscriber->answer(error(code::kNoVote, settings_.rounds_a_game == 0
+                                                                ? "skip: this room plays one game alone"
+                                                                : "skip: bots have no vote"));
+  if (skip_votes_.insert(occupant.session).second)
+    send(events_.skip(game_->tick(), seat, skip_votes_.size(), votes_needed()));
 }
 
 // ---- what they are shown -------------------------------------------------------------------------------
 
 void Members::tell(const match::StepRecord& step) {
   for (const rules::Event& event : step.events) {
-    const auto label = game_.labels().find(event.louse);
-    send(events_.ruled(event, label != game_.labels().end() ? label->second.name : std::string(),
-                       *game_.rules()));
+    const auto label = game_->labels().find(event.louse);
+    send(events_.ruled(event, label != game_->labels().end() ? label->second.name : std::string(),
+                       *game_->rules()));
   }
 }
 
 void Members::answer(std::uint64_t tick, Time begun) {
-  assert(tick + 1 == game_.tick());
-  inputs_.answer(tick, begun);
-  while (!leaving_.empty() && leaving_.begin()->first <= game_.tick()) {
-    const SessionId session = leaving_.extract(leaving_.begin()).mapped();
-    if (const Seat* seat = seats_.find(session))
-      outlet_->let_go(session, std::get<SessionOccupant>(seat->occupant).subscriber->lane());
-  }
+  assert(tick + 1 == game_->tick());
+  inputs_->answer(tick, begun);
+  while (!leaving_.empty() && leaving_.begin()->first <= game_->tick())
+    let_go(leaving_.extract(leaving_.begin()).mapped());
 }
 
-std::uint64_t Members::ticks_a_frame() const { return game_.settings().tick_hz / settings_.state_hz; }
-
-SharedSnapshot Members::snapshot() {
-  if (!snapshot_ || snapshot_->tick != game_.tick()) {
-    snapshot_.reset();
-    snapshot_ = take_snapshot(snapshots_, scene_of(game_, ticks_a_frame()));
-  }
-  return snapshot_;
-}
-
-void Members::send_frames() {
-  if (game_.tick() % ticks_a_frame() != 0 || layouts_.empty()) return;
-  const bool is_key = game_.tick() / ticks_a_frame() % settings_.state_hz == 0;
-  outlet_->show(is_key ? FrameKind::kKey : FrameKind::kDelta, snapshot());
+void Members::let_go(SessionId session) {
+  if (const Seat* seat = seats_.find(session))
+    outlet_->let_go(session, std::get<SessionOccupant>(seat->occupant).subscriber->lane());
 }
 
 }  // namespace woodlouse::server

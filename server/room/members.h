@@ -8,13 +8,14 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "server/frames/layouts.h"
-#include "server/frames/snapshot.h"
+#include "server/room/display.h"
 #include "server/room/door.h"
 #include "server/room/events.h"
 #include "server/room/house_crew.h"
@@ -33,20 +34,27 @@
 
 namespace woodlouse::server {
 
-using Watchers = std::vector<std::unique_ptr<TickWatcher>>;
-
 class Members {
  public:
   /// Of one address: more than a router's hiccup takes of a household.
   static constexpr std::size_t kMostVacantOfAddress = 8;
 
-  /// lanes: where events and frames are handed out. settings, game and watchers outlive it.
+  /// lanes: where events and frames are handed out. settings and watchers outlive it, a game until the next
+  /// one begins.
   Members(const Lanes& lanes, const RoomSettings& settings, match::Match& game, const Watchers& watchers,
           std::vector<Seat> unclaimed, Time now, std::shared_ptr<spdlog::logger> log);
 
-  void add_house_bots();  ///< once, before the first tick
+  /// Once a game, before its first tick. team: Start's.
+  void add_house_bots(std::unique_ptr<bots::Team> team);
+  /// The room plays this one from now on, with the watchers as they now are: everybody who is here joins it,
+  /// the house's bots as well, and is welcomed anew. It has not begun.
+  void begin(match::Match& game, std::unique_ptr<bots::Team> team);
+  /// More than half of the players who are here have voted for the next game.
+  [[nodiscard]] bool wants_next() const {
+    return !skip_votes_.empty() && skip_votes_.size() >= votes_needed();
+  }
   void steer_house_bots() {
-    for (const Seat* seat : crew_.steer(game_)) send(events_.respawned(game_.tick(), *seat));
+    for (const Seat* seat : crew_.steer(*game_)) send(events_.respawned(game_->tick(), *seat));
   }
 
   void admit(Arrival arrival);
@@ -65,21 +73,22 @@ class Members {
 
   /// How long before step `tick`, begun at `begun`, its inputs came; then answer() tells them.
   std::span<const InputMargin> margins(std::uint64_t tick, Time begun) {
-    return inputs_.margins(tick, begun);
+    return inputs_->margins(tick, begun);
   }
   void answer(std::uint64_t tick, Time begun);
   /// What the rules of play said of the step.
   void tell(const match::StepRecord& step);
   /// What a watcher has to tell.
   void tell(const protocol::Event& event) { send(events_.told(event)); }
-  /// The picture of every layout in use, where one is due.
-  void send_frames();
+  void send_frames() { display_.send_frames(); }
 
   /// No session is here, nobody may come back, and nothing goes on that somebody began.
   [[nodiscard]] bool is_deserted();
 
   /// Any thread.
   [[nodiscard]] protocol::RoomEntry census() const;
+  /// Events that are still on their way out.
+  [[nodiscard]] std::size_t backlog() const { return outlet_->backlog(); }
   [[nodiscard]] std::uint64_t frames_encoded() const { return outlet_->frames_encoded(); }
 
  private:
@@ -87,20 +96,21 @@ class Members {
   bool make_room(protocol::Role role, AddressId address);
   bool welcome_back(const Arrival& arrival);
   void seat(Seat seat, const Arrival& arrival, bool is_back);
+  [[nodiscard]] Company company() const { return {seats_.entries(), spectators_.load()}; }
   void give_louse(Seat& seat);
   void hold(Seat seat);
   void end(const Seat& seat);
-  void unsubscribe(const SessionOccupant& occupant);
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Input& input, Time arrived) {
-    inputs_.file(seat, occupant, input, arrived);
+    inputs_->file(seat, occupant, input, arrived);
   }
   void on_message(Seat& seat, const SessionOccupant&, const protocol::Chat& chat, Time arrived);
   void on_message(Seat& seat, const SessionOccupant& occupant, const protocol::Leave&, Time);
   void on_message(Seat&, SessionOccupant& occupant, const protocol::GetMap&, Time) {
-    occupant.subscriber->deliver_map(map_line_);
+    display_.show_map(occupant);
   }
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Resync&, Time);
   void on_message(Seat& seat, const SessionOccupant&, const protocol::Respawn&, Time arrived);
+  void on_message(Seat& seat, const SessionOccupant& occupant, const protocol::Skip&, Time);
   void on_message(Seat&, const SessionOccupant& occupant, const protocol::ListRecords& list, Time) {
     look_up(occupant, list);
   }
@@ -118,30 +128,31 @@ class Members {
         {}});
   }
   [[nodiscard]] bool refuse_when_busy(const Seat& seat, Spending what, Time arrived);
+  void let_go(SessionId session);
   void send(const NumberedLine& event) { outlet_->event(event.number, event.line); }
   void count(protocol::Role role, std::int32_t change);
-  [[nodiscard]] SharedSnapshot snapshot();
-  [[nodiscard]] std::uint64_t ticks_a_frame() const;
+  [[nodiscard]] std::size_t votes_needed() const { return seats_.players() / 2 + 1; }
+  void name_map();
 
   const RoomSettings& settings_;
-  match::Match& game_;
+  match::Match* game_;
   const Watchers& watchers_;
   std::shared_ptr<spdlog::logger> log_;
   std::shared_ptr<Outlet> outlet_;
-  Line map_line_;
+  Display display_;
+  mutable std::mutex map_name_mutex_;
+  std::string map_name_;  ///< for census()
   std::atomic<std::uint32_t> players_{0}, bots_{0}, spectators_{0};
   Seats seats_;
-  InputDesk inputs_;
+  std::optional<InputDesk> inputs_;  ///< of the game
   Places places_;
   RoomBudgets budgets_;
-  Layouts layouts_;
   std::multimap<std::uint64_t, SessionId>
       leaving_;                            ///< by the tick from which on all their inputs are acknowledged
   std::vector<protocol::Notice> notices_;  ///< announced so far; a watcher has one or two
-  SharedPool<Snapshot> snapshots_;
-  SharedSnapshot snapshot_;  ///< of its tick, for all who ask within that
   Events events_;
   HouseCrew crew_;
+  std::set<SessionId> skip_votes_;  ///< of players who are here
 };
 
 }  // namespace woodlouse::server

@@ -70,8 +70,25 @@ void Outlet::show(FrameKind kind, SharedSnapshot now) {
   });
 }
 
+void Outlet::begin_anew() {
+  asio::post(strand_, [self = shared_from_this()] {
+    self->due_ = {};
+    self->channels_.begin_anew();
+    for (const auto& lane : self->lanes_) lane->drop_frames();
+  });
+}
+
+void Outlet::welcome(std::shared_ptr<Subscriber> subscriber, std::function<protocol::Welcome()> make,
+                     std::uint32_t divisor) {
+  assert(subscriber != nullptr && make != nullptr);
+  asio::post(strand_, [subscriber = std::move(subscriber), make = std::move(make), divisor] {
+    subscriber->welcome(make(), divisor);
+  });
+}
+
 void Outlet::encode() {
   const SharedSnapshot now = std::exchange(due_, {});
+  if (!now) return;  // the game that it was of is over
   ChannelFrames frames = channels_.encode(now->scene(), due_kind_);
   encoded_.store(channels_.encoded(), std::memory_order_relaxed);
   if (frames.empty()) return;

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -36,6 +37,11 @@ class Outlet : public std::enable_shared_from_this<Outlet> {
   void event(std::uint64_t number, Line line);
   void let_go(SessionId session, std::size_t lane);
   void show(FrameKind kind, SharedSnapshot now);
+  /// Another game begins: no frame of the one before goes to anybody after this.
+  void begin_anew();
+  /// Made and said behind all frames of the game before. divisor: Subscriber::welcome()'s.
+  void welcome(std::shared_ptr<Subscriber> subscriber, std::function<protocol::Welcome()> make,
+               std::uint32_t divisor);
 
   // Any thread:
 

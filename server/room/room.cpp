@@ -51,22 +51,24 @@ class Room::RoomDoor final : public Door {
 
 std::shared_ptr<Room> Room::make(asio::io_context& ticks, const Lanes& lanes, RoomSettings settings,
                                  Start start, Watchers watchers, Timekeeper& timekeeper,
-                                 std::shared_ptr<spdlog::logger> log) {
+                                 std::shared_ptr<spdlog::logger> log, Rotation* rotation) {
   return std::shared_ptr<Room>(new Room(ticks, lanes, std::move(settings), std::move(start),
-                                        std::move(watchers), timekeeper, std::move(log)));
+                                        std::move(watchers), timekeeper, std::move(log), rotation));
 }
 
 Room::Room(asio::io_context& ticks, const Lanes& lanes, RoomSettings settings, Start start, Watchers watchers,
-           Timekeeper& timekeeper, std::shared_ptr<spdlog::logger> log)
+           Timekeeper& timekeeper, std::shared_ptr<spdlog::logger> log, Rotation* rotation)
     : settings_(std::move(settings)),
       log_(std::move(log)),
       strand_(asio::make_strand(ticks)),
       timekeeper_(timekeeper),
       alarm_(timekeeper.make_alarm(strand_)),
+      rotation_(rotation),
       game_(std::move(start.match)),
+      team_(std::move(start.team)),
       watchers_(std::move(watchers)),
       members_(lanes, settings_, *game_, watchers_, std::move(start.unclaimed), timekeeper.now(), log_) {
-  assert(game_ != nullptr);
+  assert(game_ != nullptr && (rotation_ == nullptr) == (settings_.rounds_a_game == 0));
 }
 
 std::shared_ptr<Door> Room::door() { return std::make_shared<RoomDoor>(shared_from_this()); }
@@ -77,21 +79,27 @@ void Room::start(std::function<void()> ended) {
     ended_ = std::move(ended);
     state_ = State::kRunning;
     begin_watching();
-    members_.add_house_bots();
+    members_.add_house_bots(std::move(team_));
     clock_.emplace(game_->settings().tick_hz, std::chrono::ceil<Beat>(timekeeper_.now()));
     await_tick();
   });
 }
 
 void Room::begin_watching() {
-  const auto announce = [room = weak_from_this()](const protocol::Notice& notice) {
+  // What a former game's watchers still say is nothing to those who play this one.
+  const auto announce = [room = weak_from_this(), number = games_](const protocol::Notice& notice) {
     const auto self = room.lock();
     if (!self) return;
-    asio::post(self->strand_, [self, notice] { self->members_.announce(notice); });
+    asio::post(self->strand_, [self, notice, number] {
+      if (self->games_ == number) self->members_.announce(notice);
+    });
   };
-  const auto tell = [room = weak_from_this()](const protocol::Event& event) {
+  const auto tell = [room = weak_from_this(), number = games_](const protocol::Event& event) {
     const auto self = room.lock();
-    if (self) asio::post(self->strand_, [self, event] { self->members_.tell(event); });
+    if (!self) return;
+    asio::post(self->strand_, [self, event, number] {
+      if (self->games_ == number) self->members_.tell(event);
+    });
   };
   for (const auto& watcher : watchers_) {
     watcher->attach(announce);
@@ -111,22 +119,71 @@ void Room::stop(const protocol::Bye& bye, const std::string& reason, std::functi
     alarm_->cancel();
     members_.dismiss(bye);
     post_figures();  // should the watchers take too long for whoever waits
-    if (!was_watched) return end();
-    finish_watching(reason);
+    const auto finished = [this] {
+      has_finished_ = true;
+      end_if_finished();
+    };
+    if (!was_watched) return finished();
+    finish(watchers_, reason, finished);
   });
 }
 
 /// All at once: a shadow that is behind must not keep the recording from its end.
-void Room::finish_watching(const std::string& reason) {
-  auto parts = std::make_shared<std::atomic<std::size_t>>(1 + watchers_.size());
-  const auto part_done = [self = shared_from_this(), this, parts] {
-    if (parts->fetch_sub(1) == 1) asio::post(strand_, [self, this] { end(); });
+void Room::finish(const Watchers& watchers, const std::string& reason, std::function<void()> finished) {
+  auto parts = std::make_shared<std::atomic<std::size_t>>(1 + watchers.size());
+  const auto part_done = [self = shared_from_this(), parts, finished = std::move(finished)] {
+    if (parts->fetch_sub(1) == 1) asio::post(self->strand_, [self, finished] { finished(); });
   };
-  for (const auto& watcher : watchers_) watcher->finish(reason, part_done);
+  for (const auto& watcher : watchers) watcher->finish(reason, part_done);
   part_done();
 }
 
-void Room::end() {
+bool Room::is_game_over() const {
+  if (rotation_ == nullptr) return false;
+  if (members_.wants_next()) return true;
+  if (const rules::Rules* rules = game_->rules()) return rules->round().number > settings_.rounds_a_game;
+  const auto round = static_cast<std::uint64_t>(std::chrono::seconds(kRoamRound).count());
+  return game_->tick() >= round * settings_.rounds_a_game * game_->settings().tick_hz;
+}
+
+/// Asks for the next one, once; whether it is here, and all have heard the last events of this one.
+bool Room::is_next_ready() {
+  if (!std::exchange(is_next_asked_, true))
+    rotation_->prepare([room = weak_from_this()](NextGame next) {
+      const auto self = room.lock();
+      if (!self) return;
+      auto made = std::make_shared<NextGame>(std::move(next));  // a job can be copied, a game can't
+      asio::post(self->strand_, [self, made] { self->next_ = std::move(*made); });
+    });
+  if (!next_) return false;
+  const std::uint64_t most = static_cast<std::uint64_t>(kLastWords.count()) * game_->settings().tick_hz;
+  return ++over_ticks_ > most || members_.backlog() == 0;
+}
+
+void Room::begin_next() {
+  assert(next_ && next_->start.match->settings().tick_hz == game_->settings().tick_hz);
+  former_ticks_ += game_->tick();
+  const auto former = former_.insert(former_.end(), {std::move(game_), std::move(watchers_)});
+  game_ = std::move(next_->start.match);
+  watchers_ = std::move(next_->watchers);
+  std::unique_ptr<bots::Team> team = std::move(next_->start.team);
+  next_.reset();
+  is_next_asked_ = false;
+  over_ticks_ = 0;
+  ++games_;
+  log_->info(fmt::format("room {}: game {} begins: {} of map {}", settings_.name, games_,
+                         state::to_text(game_->settings().mode), game_->map().definition.name));
+  begin_watching();
+  members_.begin(*game_, std::move(team));
+  finish(former->watchers, "the room plays another game", [this, former] {
+    for (const auto& watcher : former->watchers) watcher->add_figures(working_);
+    former_.erase(former);
+    end_if_finished();
+  });
+}
+
+void Room::end_if_finished() {
+  if (!has_finished_ || !former_.empty()) return;
   assert(!has_ended_ && state_ == State::kStopped);
   has_ended_ = true;
   post_figures();
@@ -224,10 +281,11 @@ void Room::on_tick_due() {
   working_.work.add(timekeeper_.now() - now);
   ++working_.ticks;
   if (working_.ticks % game_->settings().tick_hz == 0) post_figures();
-  if (settings_.tick_limit && game_->tick() >= *settings_.tick_limit) {
+  if (settings_.tick_limit && former_ticks_ + game_->tick() >= *settings_.tick_limit) {
     state_ = State::kStopped;
     return ended_();
   }
+  if (is_game_over() && is_next_ready()) begin_next();
   if (is_to_sleep()) return fall_asleep();
   await_tick();
 }
@@ -275,8 +333,9 @@ void Room::tick(Time now) {
 void Room::post_figures() {
   working_.frames_encoded = members_.frames_encoded();
   if (clock_) working_.clock_moves = clock_->moves();
-  for (const auto& watcher : watchers_) watcher->add_figures(working_);
-  auto snapshot = std::make_shared<const RoomFigures>(working_);
+  RoomFigures all = working_;
+  for (const auto& watcher : watchers_) watcher->add_figures(all);
+  auto snapshot = std::make_shared<const RoomFigures>(std::move(all));
   const std::lock_guard lock(figures_mutex_);
   figures_ = std::move(snapshot);
 }

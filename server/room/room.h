@@ -4,6 +4,9 @@
 // A room in which nobody is stands still after kSleepAfter: no timer runs and no tick passes, until somebody
 // joins. Nothing is made up for then: the next tick is the one that was due.
 //
+// A room with a rotation plays one game after the other: the next one is made beside the ticks when one is
+// over, and begins between two of them for everybody who is here.
+//
 // One tick: bots look, the match steps, the watchers see the step, inputs are acknowledged, every
 // tick_hz / state_hz ticks a picture of the lice is handed over.
 #pragma once
@@ -16,6 +19,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <list>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -26,6 +30,7 @@
 
 #include "server/room/door.h"
 #include "server/room/members.h"
+#include "server/room/rotation.h"
 #include "server/room/start.h"
 #include "server/timing/clock.h"
 #include "server/timing/figures.h"
@@ -43,12 +48,16 @@ class Room : public std::enable_shared_from_this<Room> {
   static constexpr std::chrono::seconds kSleepAfter{10};
   /// For which joins are dealt with before a tick or others may run: a crowd at the door delays none.
   static constexpr std::chrono::milliseconds kDoorSlice{1};
+  /// What counts as a round where there are no rules.
+  static constexpr std::chrono::minutes kRoamRound{5};
+  /// For which a game that is over goes on, that all hear its last events first.
+  static constexpr std::chrono::seconds kLastWords{2};
 
   /// ticks: where the room's strand lives; lanes: where its members do; timekeeper: whose time its ticks
-  /// keep. All outlive it.
+  /// keep; rotation: where its next games come from, null: it plays one for good. All outlive it.
   static std::shared_ptr<Room> make(boost::asio::io_context& ticks, const Lanes& lanes, RoomSettings settings,
                                     Start start, Watchers watchers, Timekeeper& timekeeper,
-                                    std::shared_ptr<spdlog::logger> log);
+                                    std::shared_ptr<spdlog::logger> log, Rotation* rotation = nullptr);
 
   // Any thread. Calls of one thread take effect in their order.
 
@@ -82,7 +91,7 @@ class Room : public std::enable_shared_from_this<Room> {
   };
 
   Room(boost::asio::io_context& ticks, const Lanes& lanes, RoomSettings settings, Start start,
-       Watchers watchers, Timekeeper& timekeeper, std::shared_ptr<spdlog::logger> log);
+       Watchers watchers, Timekeeper& timekeeper, std::shared_ptr<spdlog::logger> log, Rotation* rotation);
 
   void join(Arrival arrival);
   void admit(Arrival arrival);
@@ -101,8 +110,11 @@ class Room : public std::enable_shared_from_this<Room> {
   [[nodiscard]] bool is_to_sleep();
   void fall_asleep();
   void wake();
-  void finish_watching(const std::string& reason);
-  void end();
+  [[nodiscard]] bool is_game_over() const;
+  [[nodiscard]] bool is_next_ready();
+  void begin_next();
+  void finish(const Watchers& watchers, const std::string& reason, std::function<void()> finished);
+  void end_if_finished();
   void post_figures();
 
   RoomSettings settings_;
@@ -110,7 +122,9 @@ class Room : public std::enable_shared_from_this<Room> {
   Strand strand_;
   Timekeeper& timekeeper_;
   std::unique_ptr<Alarm> alarm_;  ///< on the strand
+  Rotation* rotation_;
   std::unique_ptr<match::Match> game_;
+  std::unique_ptr<bots::Team> team_;  ///< until it has started
   Watchers watchers_;
   Members members_;
   // The strand's:
@@ -119,6 +133,17 @@ class Room : public std::enable_shared_from_this<Room> {
   std::function<void()> ended_;
   enum class State { kWaiting, kRunning, kAsleep, kStopped } state_ = State::kWaiting;
   std::uint64_t deserted_ticks_ = 0;  ///< in a row
+  std::uint64_t games_ = 1;           ///< begun, this one too
+  std::uint64_t former_ticks_ = 0;    ///< of all games but this one
+  std::uint64_t over_ticks_ = 0;      ///< since this one was over, and the next one was there
+  bool is_next_asked_ = false;
+  std::optional<NextGame> next_;
+  struct FormerGame {
+    std::unique_ptr<match::Match> game;
+    Watchers watchers;
+  };
+  std::list<FormerGame> former_;  ///< whose watchers have not finished yet
+  bool has_finished_ = false;     ///< stopped, and so have the watchers of this one
   RoomFigures working_;
   std::vector<std::function<void()>> awaiting_end_;  ///< who asked for the stop
   bool has_ended_ = false;

@@ -17,7 +17,8 @@ struct RoomSettings {
   bots::Skill bots_skill = bots::Skill::kFair;
   bool bots_alone_play = false;             ///< the house's bots keep a room awake in which nobody is
   bool adopts_by_name = false;              ///< who joins under a recorded name takes that louse over
-  std::optional<std::uint64_t> tick_limit;  ///< ends after so many
+  std::optional<std::uint64_t> tick_limit;  ///< ends after so many, of all its games
+  std::uint32_t rounds_a_game = 0;          ///< then the next one begins; 0: it plays one for good
   protocol::Limits limits{};
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <type_traits>
+#include <utility>
 
 #include "shared/protocol/text_cleaning.h"
 
@@ -34,7 +35,9 @@ Seats::Seats(std::vector<Seat> unclaimed) {
 Seat& Seats::add(Seat seat) {
   assert(!seat.name.empty());
   const Place place = place_of(seat);
-  sessions_ += std::holds_alternative<SessionOccupant>(seat.occupant) ? 1 : 0;
+  const bool is_session = std::holds_alternative<SessionOccupant>(seat.occupant);
+  sessions_ += is_session ? 1 : 0;
+  players_ += is_session && seat.role == protocol::Role::kPlayer ? 1 : 0;
   vacant_ += std::holds_alternative<Vacant>(seat.occupant) ? 1 : 0;
   names_.insert(seat.name);
   if (seat.token) tokens_.emplace(*seat.token, place);
@@ -46,7 +49,9 @@ Seat& Seats::add(Seat seat) {
 Seat Seats::take(std::map<Place, Seat>::iterator at) {
   Seat seat = std::move(at->second);
   seats_.erase(at);
-  sessions_ -= std::holds_alternative<SessionOccupant>(seat.occupant) ? 1 : 0;
+  const bool is_session = std::holds_alternative<SessionOccupant>(seat.occupant);
+  sessions_ -= is_session ? 1 : 0;
+  players_ -= is_session && seat.role == protocol::Role::kPlayer ? 1 : 0;
   vacant_ -= std::holds_alternative<Vacant>(seat.occupant) ? 1 : 0;
   const auto name = names_.find(seat.name);
   assert(name != names_.end());
@@ -89,6 +94,41 @@ std::vector<Seat> Seats::take_away_sessions() {
   }
   assert(sessions_ == 0);
   return taken;
+}
+
+bool Seats::all_rest(const physics::World& world) {
+  const auto is_on = [](const state::Louse& louse) {
+    const bool counts_down = louse.thrust_ticks != 0 && louse.thrust_ticks != state::kHeld;
+    return louse.phase != state::Phase::kResting || counts_down;
+  };
+  const auto lice = world.lice();
+  std::ptrdiff_t on = std::count_if(lice.begin(), lice.end(), is_on);
+  for_each<BotOccupant>([&](const Seat& seat, const BotOccupant&) {
+    const state::Louse* louse = world.find(seat.louse);
+    if (louse != nullptr && is_on(*louse)) --on;
+  });
+  assert(on >= 0);
+  return on == 0;
+}
+
+void Seats::move_to(const match::Match& former, match::Match& next) {
+  assert(former.settings().tick_hz == next.settings().tick_hz);
+  const auto before = std::exchange(seats_, {});
+  names_.clear();
+  tokens_.clear();
+  sessions_ = vacant_ = players_ = 0;
+  for (const auto& [place, had] : before) {
+    Seat seat = had;
+    auto* session = std::get_if<SessionOccupant>(&seat.occupant);
+    auto* vacant = std::get_if<Vacant>(&seat.occupant);
+    if (session == nullptr && vacant == nullptr) continue;
+    if (session != nullptr) session->acked_from = 0;
+    if (vacant != nullptr)
+      vacant->until = next.tick() + vacant->until - std::min(vacant->until, former.tick());
+    seat.next_seq = seat.dropped_below = 0;
+    if (seat.louse != 0) seat.louse = next.join({seat.name, seat.role});
+    add(std::move(seat));
+  }
 }
 
 Seat* Seats::find(SessionId session) {

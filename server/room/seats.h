@@ -34,6 +34,7 @@ struct SessionOccupant {
   std::shared_ptr<Subscriber> subscriber;
   ChannelId channel = 0;
   std::uint64_t acked_from = 0;  ///< the tick from which on all its inputs are acknowledged
+  std::uint32_t state_hz = 0;    ///< granted to it
 };
 
 /// One of the house's bots, counted from 0.
@@ -77,6 +78,9 @@ class Seats {
   Seat take_vacant(match::PlayerId louse);
   /// The session's seat, which is gone from here; nothing where it has none.
   std::optional<Seat> take_away(SessionId session);
+  /// Another game begins: who is here, or may come back, joins it under his name; the house's bots and who is
+  /// only in a recording are here no more. REQUIRES that both matches have one tick rate.
+  void move_to(const match::Match& former, match::Match& next);
   /// Every session's.
   std::vector<Seat> take_away_sessions();
 
@@ -84,6 +88,10 @@ class Seats {
   [[nodiscard]] Seat* find(SessionId session);
   [[nodiscard]] std::size_t sessions() const { return sessions_; }
   [[nodiscard]] std::size_t vacant() const { return vacant_; }
+  /// Sessions of that role; who may come back is not here.
+  [[nodiscard]] std::size_t players() const { return players_; }
+  /// No louse moves, and no thrust counts down, but of the house's bots.
+  [[nodiscard]] bool all_rest(const physics::World& world);
   struct VacantSeats {
     std::size_t count = 0;
     match::PlayerId oldest = 0;  ///< the louse of the one given up first
@@ -131,6 +139,7 @@ class Seats {
   std::map<ResumeToken, Place> tokens_;
   std::size_t sessions_ = 0;
   std::size_t vacant_ = 0;
+  std::size_t players_ = 0;
 };
 
 }  // namespace woodlouse::server

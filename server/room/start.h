@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "server/bots/team.h"
 #include "server/room/seats.h"
 #include "shared/match/match.h"
 #include "shared/replay/format.h"
@@ -19,6 +20,9 @@ struct Start {
   std::vector<Seat> unclaimed;          ///< by louse; they have one each
   std::optional<replay::Parent> parent;
   std::string on_trust{};  ///< of a parent's tick, what no re-run proves, for the log; empty: nothing
+  /// The house's bots that play the match's rules. Null: there are no rules, or the room makes it, which on a
+  /// long course takes seconds of its ticks.
+  std::unique_ptr<bots::Team> team{};
 };
 
 }  // namespace woodlouse::server

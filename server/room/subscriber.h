@@ -37,7 +37,8 @@ class Subscriber {
   virtual void deliver_record(Line line) { deliver(std::move(line)); }
   /// The room did not take the join; another may be tried.
   virtual void refuse_join(protocol::ErrorMessage error) = 0;
-  /// The welcome. `divisor`: the client takes every divisor-th frame.
+  /// The welcome, to each game of the room anew: frames that have not left yet are of the one before.
+  /// `divisor`: the client takes every divisor-th frame.
   virtual void welcome(protocol::Welcome welcome, std::uint32_t divisor) = 0;
   /// Its `leave` is granted: all that it asked for before has been answered by the calls before this one.
   virtual void let_go() = 0;

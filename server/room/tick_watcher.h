@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "server/frames/line.h"
 #include "server/timing/figures.h"
@@ -61,5 +63,8 @@ class TickWatcher {
   /// Adds its own figures to the room's.
   virtual void add_figures(RoomFigures& /*figures*/) const {}
 };
+
+/// Those of a game.
+using Watchers = std::vector<std::unique_ptr<TickWatcher>>;
 
 }  // namespace woodlouse::server

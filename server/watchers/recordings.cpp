@@ -14,11 +14,16 @@ Recordings::~Recordings() { end(Clock::now()); }
 
 core::Expected<std::unique_ptr<Recorder>> Recordings::open(const std::string& room, replay::Header header) {
   auto recorder = Recorder::open(files_, room, std::move(header), every_, log_);
+  const std::lock_guard lock(mutex_);
+  std::erase_if(entries_, [now = Clock::now()](const Entry& entry) {
+    return entry.thread->wait_until(now) && entry.writer->lost().empty();
+  });
   if (recorder) entries_.push_back({(*recorder)->writer(), (*recorder)->thread()});
   return recorder;
 }
 
 std::size_t Recordings::ask_for_next_files() {
+  const std::lock_guard lock(mutex_);
   std::size_t asked = 0;
   for (const Entry& entry : entries_) {
     if (entry.writer->has_failed()) continue;
@@ -29,6 +34,7 @@ std::size_t Recordings::ask_for_next_files() {
 }
 
 void Recordings::end(Time latest) {
+  const std::lock_guard lock(mutex_);
   for (const Entry& entry : entries_) entry.thread->close();
   for (const Entry& entry : entries_) {
     const bool has_ended = entry.thread->wait_until(latest);
@@ -38,6 +44,7 @@ void Recordings::end(Time latest) {
 }
 
 std::vector<std::string> Recordings::lost() const {
+  const std::lock_guard lock(mutex_);
   std::vector<std::string> result;
   for (const Entry& entry : entries_)
     if (std::string one = entry.writer->lost(); !one.empty()) result.push_back(std::move(one));

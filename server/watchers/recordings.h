@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +27,7 @@ struct RecordSettings {
   std::optional<std::uint64_t> keep_bytes{};    ///< of all files of the pattern; none: no bound
 };
 
-/// One thread at a time. It outlives the rooms' run.
+/// Any thread; open() may wait for the disk, the others do not. It outlives the rooms' run.
 class Recordings {
  public:
   Recordings(const RecordSettings& settings, std::shared_ptr<spdlog::logger> log);
@@ -56,7 +57,8 @@ class Recordings {
   const std::optional<Duration> every_;
   const std::shared_ptr<RecordingFiles> files_;
   const std::shared_ptr<spdlog::logger> log_;
-  std::vector<Entry> entries_;
+  mutable std::mutex mutex_;
+  std::vector<Entry> entries_;  ///< that go on, or ended before their time
 };
 
 }  // namespace woodlouse::server

@@ -106,7 +106,12 @@ void Shadow::finish(const std::string&, std::function<void()> done) {
   boost::asio::post(strand_, std::move(done));
 }
 
-void Shadow::add_figures(RoomFigures& figures) const { figures.shadow = {ticks_, differences_, ended_}; }
+void Shadow::add_figures(RoomFigures& figures) const {
+  ShadowFigures& all = figures.shadow ? *figures.shadow : figures.shadow.emplace();
+  all.ticks += ticks_;
+  all.differences += differences_;
+  all.ended |= ended_;
+}
 
 void Shadow::end(const std::string& why) {
   if (ended_.exchange(true)) return;

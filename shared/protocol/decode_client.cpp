@@ -84,7 +84,7 @@ Decoded read_join(FieldReader& reader) {
   }
   reader.choice("role", join.role, kRoleTexts, role_from_text, Presence::kOptional);
   reader.cleaned_text("name", join.name, {1, kMaxNameBytes});
-  reader.cleaned_text("room", join.room, {0, kMaxRoomBytes}, Presence::kOptional);
+  reader.key_text("room", join.room, kMaxRoomBytes, Presence::kOptional);
   read_fields(reader, join.fields);
   reader.choice("format", join.format, kFormatTexts, format_from_text, Presence::kOptional);
   reader.integer("state_hz", join.state_hz, {1, kMaxStateHz});
@@ -148,7 +148,7 @@ Decoded read_get_ghost(FieldReader& reader) {
 
 using Read = Decoded (*)(FieldReader&);
 
-constexpr std::array<std::pair<std::string_view, Read>, 12> kTypes = {{
+constexpr std::array<std::pair<std::string_view, Read>, 13> kTypes = {{
     {"join", read_join},
     {"input", read_input},
     {"chat", read_chat},
@@ -156,6 +156,7 @@ constexpr std::array<std::pair<std::string_view, Read>, 12> kTypes = {{
     {"get_map", read_bare<GetMap>},
     {"resync", read_bare<Resync>},
     {"respawn", read_respawn},
+    {"skip", read_bare<Skip>},
     {"leave", read_bare<Leave>},
     {"ping", read_time<Ping>},
     {"pong", read_time<Pong>},

@@ -44,6 +44,7 @@ void append_line(std::string& out, const Respawn& respawn) {
   if (respawn.at_gate) text.text("at", "gate");
   text.end_line();
 }
+void append_line(std::string& out, const Skip&) { json::ObjectText(out, "skip").end_line(); }
 void append_line(std::string& out, const Leave&) { json::ObjectText(out, "leave").end_line(); }
 void append_line(std::string& out, const Ping& ping) {
   json::ObjectText(out, "ping").integer("t", ping.t).end_line();

@@ -83,6 +83,15 @@ void FieldReader::cleaned_text(std::string_view name, std::string& out, ByteRang
   if (out.size() < bytes.low) refuse(name, *value, wants);
 }
 
+void FieldReader::key_text(std::string_view name, std::string& out, std::size_t most, Presence presence) {
+  const std::string wants = "a string of at most " + std::to_string(most) + " bytes";
+  const auto value = field(name, wants, presence);
+  if (!value) return;
+  if (value->kind() != json::Kind::kString || value->text().size() > most)
+    return refuse(name, *value, wants);
+  out = clean_text(value->text(), most);
+}
+
 void FieldReader::refuse(std::string_view name, json::Value found, std::string_view wants) {
   fail(code::kBadField,
        path_ + "." + std::string(name) + " is " + description(found) + "; it must be " + std::string(wants));

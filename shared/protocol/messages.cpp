@@ -57,7 +57,7 @@ constexpr std::array<EventEntry, kEventKindCount> kEvents = {
      event("run", "time", "rank", "ranked"), event("crumb", "slot", "value", "chain", "score"),
      event("harvest"), event("bump", "other", "impulse"), event("holds"), event("contested"),
      event("moving", "place", "at"), event("fell", "by"), event("returned"), event("round", "round", "until"),
-     event("record", "time", "bots")}};
+     event("record", "time", "bots"), event("skip", "votes", "needed")}};
 
 }  // namespace
 

@@ -31,7 +31,7 @@ inline constexpr std::size_t kMaxLineBytes = 4096;  ///< inbound at the server, 
 inline constexpr int kMaxDepth = 8;                 ///< nesting of an inbound line
 inline constexpr std::size_t kMaxNameBytes = 24;    ///< after cleaning
 inline constexpr std::size_t kMaxChatBytes = 400;   ///< after cleaning
-inline constexpr std::size_t kMaxRoomBytes = 64;    ///< of a room's name
+inline constexpr std::size_t kMaxRoomBytes = 80;    ///< of a room's name: a map's, its mode, a number
 inline constexpr std::size_t kMaxTokenBytes = 64;   ///< of a resume_token
 inline constexpr std::size_t kMaxTextBytes =
     2048;  ///< of an error's, a notice's or a bye's text, after cleaning
@@ -141,6 +141,10 @@ struct Respawn {
   bool at_gate = false;  ///< of a race: at the gate driven through last, as fast as then
   friend bool operator==(const Respawn&, const Respawn&) = default;
 };
+/// A vote for the next game of a room that plays several, one after the other.
+struct Skip {
+  friend bool operator==(const Skip&, const Skip&) = default;
+};
 struct Leave {
   friend bool operator==(const Leave&, const Leave&) = default;
 };
@@ -153,8 +157,8 @@ struct Pong {
   friend bool operator==(const Pong&, const Pong&) = default;
 };
 
-using ClientMessage =
-    std::variant<Join, Input, Chat, List, GetMap, Resync, Respawn, Leave, Ping, Pong, ListRecords, GetGhost>;
+using ClientMessage = std::variant<Join, Input, Chat, List, GetMap, Resync, Respawn, Skip, Leave, Ping, Pong,
+                                   ListRecords, GetGhost>;
 
 // ---- server to client ----------------------------------------------------------------------------------
 
@@ -256,14 +260,16 @@ enum class EventKind : std::uint8_t {
   kRound,
   // Of the boards.
   kRecord,
+  // Of the room's games.
+  kSkip,
 };
-inline constexpr std::size_t kEventKindCount = 17;
+inline constexpr std::size_t kEventKindCount = 18;
 std::string_view to_text(EventKind kind);
 std::optional<EventKind> event_kind_from_text(std::string_view text);
 
 inline constexpr std::size_t kMostEventValues = 4;
-/// What an event of the rules, or of the boards, carries besides: whole numbers under these names, in the
-/// order of Event::values. Times are in moments, 1/65536 of a tick.
+/// What an event of the rules, of the boards or of a vote carries besides: whole numbers under these names,
+/// in the order of Event::values. Times are in moments, 1/65536 of a tick.
 std::span<const std::string_view> value_names(EventKind kind);
 constexpr bool is_of_rules(EventKind kind) { return kind >= EventKind::kGate; }
 

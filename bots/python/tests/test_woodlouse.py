@@ -116,6 +116,33 @@ class Seeing(unittest.TestCase):
             self.assertEqual([state.tick for state in game.states()], [60])
             game.close()
 
+    def test_another_game_of_the_room_ends_the_states_and_begins_anew_but_for_the_seqs(self):
+        other = dict(WELCOME, id=9, mode="race", rules={"gates": []}, tick=0,
+                     map=dict(WELCOME["map"], name="b", hash="00000000000000bb"), players=[])
+        again = dict(other, id=4)
+
+        def script(send, receive):
+            send(HELLO)
+            receive()
+            send(WELCOME, KEY)
+            self.assertEqual(receive()["seq"], 1)
+            send(other, dict(KEY, tick=0, louse=[[9, 2, 2, 0, 0]]))
+            self.assertEqual(receive()["seq"], 2)
+            self.assertEqual(receive(), {"type": "skip"})
+            send(again, dict(KEY, tick=3, louse=[[4, 2, 2, 0, 0]]), BYE)
+
+        with Scripted(script) as server, woodlouse.connect(server.address, resume=False) as game:
+            seen = []
+            while game.bye is None:
+                for state in game.states():
+                    seen.append((game.games, game.mode, game.id, state.tick, state.me.id))
+                    if game.games < 3:
+                        game.thrust(1)
+                    if game.games == 2:
+                        game.skip()
+            self.assertEqual(seen, [(1, "roam", 2, 60, 2), (2, "race", 9, 0, 9), (3, "race", 4, 3, 4)])
+            self.assertEqual(game.players, {})
+
     def test_a_slow_reader_gets_the_newest_state(self):
         sent = threading.Event()
 

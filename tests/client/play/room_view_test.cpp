@@ -290,3 +290,63 @@ TEST_CASE(
   room.update(kStart + 3s);
   CHECK(count<protocol::Input>(room.take_outgoing()) == 1);
 }
+
+TEST_CASE("a second welcome is another game of the room: its map is asked for, and inputs are counted on") {
+  const auto map = volcano();
+  RoomView room;
+  REQUIRE(room.on_message(welcome(*map, 1), kStart));
+  protocol::MapMessage whole{map->definition.name, map->hash, map->canonical};
+  REQUIRE(room.on_message(whole, kStart));
+  REQUIRE(room.pilot() != nullptr);
+  std::vector<double> row(wanted_columns().size(), 0.0);
+  row[0] = 1;
+  for (std::uint64_t k = 0; k < 40; ++k) {
+    const core::Time now = kStart + 50ms * k;
+    REQUIRE(room.on_message(key(3 * k, row), now));
+    room.pilot()->steering().push(now);
+    room.update(now);
+  }
+  const auto sent = room.take_outgoing();
+  REQUIRE(count<protocol::Input>(sent) > 1);
+  const std::uint32_t last = room.pilot()->last_seq();
+  REQUIRE(last > 1);
+
+  const core::Time later = kStart + 3s;
+  protocol::Welcome next = welcome(*map, 7);
+  next.map_name = "elsewhere";
+  next.map_hash = map->hash + 1;
+  next.mode = "race";
+  REQUIRE(room.on_message(next, later));
+  CHECK(room.notice_line() == "now: race on elsewhere");
+  CHECK(room.pilot() == nullptr);
+  CHECK(room.lice().empty());
+  CHECK(count<protocol::GetMap>(room.take_outgoing()) == 1);
+  // And one more before the map has come, on the ground that was here.
+  next = welcome(*map, 8);
+  REQUIRE(room.on_message(next, later));
+  CHECK(count<protocol::GetMap>(room.take_outgoing()) == 1);
+  REQUIRE(room.on_message(whole, later));
+  REQUIRE(room.pilot() != nullptr);
+  CHECK(room.pilot()->id() == 8);
+  CHECK(room.pilot()->last_seq() == last);
+  room.on_lost();
+  REQUIRE(room.on_message(welcome(*map, 9), later + 1s));
+  CHECK(room.pilot()->last_seq() == 0);
+}
+
+TEST_CASE("/skip is a vote and no chat, and the chat tells of others' votes") {
+  const auto map = volcano();
+  RoomView room;
+  REQUIRE(room.on_message(welcome(*map, 1), kStart));
+  static_cast<void>(room.take_outgoing());
+  room.say("/skip");
+  room.say("/skip it");
+  const auto sent = room.take_outgoing();
+  CHECK(count<protocol::Skip>(sent) == 1);
+  CHECK(count<protocol::Chat>(sent) == 1);
+  protocol::Event event;
+  event.kind = protocol::EventKind::kSkip;
+  event.name = "gauss";
+  event.values = {1, 3};
+  CHECK(describe(event) == "gauss votes for the next game (/skip): 1 of 3");
+}

@@ -41,6 +41,7 @@ class Guest final : public Subscriber {
   void refuse_join(protocol::ErrorMessage error) override { refusals.push_back(std::move(error)); }
   void welcome(protocol::Welcome message, std::uint32_t every) override {
     welcomes.push_back(std::move(message));
+    frames_at_welcome.push_back(frames.size());
     divisor = every;
   }
   void let_go() override { ++times_let_go; }
@@ -52,6 +53,7 @@ class Guest final : public Subscriber {
   std::vector<protocol::ErrorMessage> refusals;
   std::vector<protocol::Welcome> welcomes;
   std::vector<protocol::Bye> byes;
+  std::vector<std::size_t> frames_at_welcome;  ///< how many had come before each
   std::uint32_t divisor = 0;
   int times_let_go = 0;
   std::string order;  ///< of acks (a) and frames (f)
@@ -100,9 +102,10 @@ struct Contexts {
 
 /// A room whose timer has not begun: what it does between two ticks.
 struct House : Contexts {
-  explicit House(RoomSettings settings, Start start = open(), Watchers watchers = {})
+  explicit House(RoomSettings settings, Start start = open(), Watchers watchers = {},
+                 Rotation* rotation = nullptr)
       : room(Room::make(ticks, lanes, std::move(settings), std::move(start), std::move(watchers), timekeeper,
-                        log)),
+                        log, rotation)),
         door(room->door()) {}
 
   std::shared_ptr<Guest> join(SessionId session, protocol::Join wanted = {}) {

@@ -1,0 +1,61 @@
+// What the members of a room are shown of its game: its map, frames in the layouts that are in use, a
+// welcome. The room's strand owns it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "server/frames/layouts.h"
+#include "server/frames/snapshot.h"
+#include "server/room/door.h"
+#include "server/room/outlet.h"
+#include "server/room/room_settings.h"
+#include "server/room/seats.h"
+#include "shared/match/match.h"
+#include "shared/protocol/messages.h"
+
+namespace woodlouse::server {
+
+/// Who is there, for a welcome.
+struct Company {
+  std::vector<protocol::PlayerEntry> players;
+  std::uint32_t spectators = 0;
+};
+
+class Display {
+ public:
+  /// settings and outlet outlive it, a game until the next one begins.
+  Display(const RoomSettings& settings, match::Match& game, Outlet& outlet);
+
+  /// The seat gets its channel, and its session the welcome and the newest frames, but no more till
+  /// subscribe(). REQUIRES that the seat is that session's.
+  void welcome(Seat& seat, const Arrival& arrival, bool is_back, Company company);
+  /// From now on it has every frame, and the events from that one on.
+  void subscribe(const SessionOccupant& occupant, std::uint64_t first_event);
+  void unsubscribe(const SessionOccupant& occupant);
+  /// Another game: who is seated is welcomed to it, behind all frames of the one before.
+  void begin(match::Match& game, Seats& seats, Company company);
+
+  void show_newest(const SessionOccupant& occupant) {
+    outlet_.show_newest(occupant.channel, occupant.subscriber, snapshot());
+  }
+  void show_map(const SessionOccupant& occupant) const { occupant.subscriber->deliver_map(map_line_); }
+  /// The picture of every layout in use, where one is due.
+  void send_frames();
+
+ private:
+  [[nodiscard]] protocol::Welcome welcome_to_all(Company company) const;
+  [[nodiscard]] SharedSnapshot snapshot();
+  [[nodiscard]] std::uint64_t ticks_a_frame() const;
+
+  const RoomSettings& settings_;
+  match::Match* game_;
+  Outlet& outlet_;
+  Line map_line_;
+  Layouts layouts_;
+  SharedPool<Snapshot> snapshots_;
+  SharedSnapshot snapshot_;  ///< of its tick, for all who ask within that
+};
+
+}  // namespace woodlouse::server
