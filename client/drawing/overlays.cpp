@@ -46,7 +46,7 @@ constexpr std::array<HelpLine, 13> kGameHelp = {
      {"", "Space      cruise: the push stays on    R respawn"},
      {"SEE", "V view: map / oblique / follow / slope  +/- zoom"},
      {"", "L labels   P trails   N next louse (watching)"},
-     {"TALK", "T chat (/skip: next game)  Enter sends  Esc cancels"},
+     {"TALK", "T chat  Enter sends  Esc cancels  /skip next game"},
      {"", "Tab scoreboard: distance travelled"},
      {"QUIT", "Q (asks)   Ctrl-C (now; restores the terminal)"},
      {"MAP", "Close lines are steep. You roll downhill for free,"},

@@ -163,3 +163,18 @@ TEST_CASE("the last line may leave what is replaceable its place before it, and 
   outbox.push_map(line("map"));
   CHECK(outbox.take().empty());
 }
+
+TEST_CASE(
+    "when another game begins, no map and no frame of the one before leaves, and its ticks count anew") {
+  Outbox outbox(1000);
+  outbox.offer(key(600));
+  outbox.offer(delta(603, 600));
+  outbox.push_map(line("old map"));
+  outbox.push(line("event"));
+  outbox.begin_anew();
+  outbox.push(line("welcome"));
+  CHECK(outbox.push_map(line("map")) == Outbox::PushMap::kQueued);
+  CHECK(outbox.offer(key(0)) == Outcome::kStored);
+  CHECK(outbox.offer(delta(3, 0)) == Outcome::kStored);
+  CHECK(text(outbox.take()) == "event welcome map k0 d3 ");
+}

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -164,4 +165,33 @@ TEST_CASE("who is let go hears every event from before it, and it alone hears th
   CHECK(house.listeners[1]->heard == Heard{"one", "let go", "two"});
   CHECK(house.listeners[2]->heard == Heard{"one", "two"});
   CHECK(house.broadcaster->backlog() == 0);
+}
+
+TEST_CASE(
+    "a game that is over shows nobody a frame after that, neither of those that wait nor of one on its way") {
+  House house;
+  house.add(3 * Broadcaster::kSlice);
+  house.broadcaster->frames(FrameKind::kKey, frames(FrameKind::kKey, 60, "old"));
+  // Half of them have it.
+  while (house.listeners[Broadcaster::kSlice]->heard.empty()) REQUIRE(house.io.poll_one() == 1);
+  house.broadcaster->frames(FrameKind::kDelta, frames(FrameKind::kDelta, 63, "older"));
+  house.broadcaster->event(1, line("bell"));
+  house.broadcaster->drop_frames();
+  house.broadcaster->frames(FrameKind::kKey, frames(FrameKind::kKey, 0, "new"));
+  std::size_t before = 0;
+  boost::asio::post(house.io, [&] {
+    for (const auto& listener : house.listeners) before += listener->heard.size();
+  });
+  house.io.run();
+  CHECK(before < 2 * house.listeners.size());
+  std::size_t shown_old = 0;
+  for (const auto& listener : house.listeners) {
+    REQUIRE(listener->heard.back().substr(2) == "new");
+    shown_old += std::count(listener->heard.begin(), listener->heard.end(), "1:old");
+    shown_old += std::count(listener->heard.begin(), listener->heard.end(), "2:old");
+    CHECK(std::count(listener->heard.begin(), listener->heard.end(), "bell") == 1);
+    CHECK(std::count(listener->heard.begin(), listener->heard.end(), "1:older") == 0);
+  }
+  CHECK(shown_old < house.listeners.size());
+  CHECK(shown_old > 0);
 }

@@ -1,0 +1,115 @@
+// A room that plays one game after the other, as its client sees it.
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "client/play/room_view.h"
+#include "client/play/roster.h"
+#include "shared/map/map_file.h"
+
+namespace woodlouse::client {
+namespace {
+
+using namespace std::chrono_literals;
+
+const core::Time kStart{std::chrono::seconds(100)};
+
+std::shared_ptr<const map::Map> volcano() {
+  auto loaded = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/volcano.json");
+  REQUIRE(loaded);
+  return *loaded;
+}
+
+protocol::Welcome welcome(const map::Map& map, std::uint32_t id) {
+  protocol::Welcome message;
+  message.id = id;
+  message.fields = wanted_columns();
+  message.map_hash = map.hash;
+  message.map_name = map.definition.name;
+  message.extent = {-20, -20, 20, 20};
+  return message;
+}
+
+protocol::Frame key(std::uint64_t tick, std::vector<double> values) {
+  protocol::Frame frame;
+  frame.tick = frame.base = tick;
+  frame.columns = wanted_columns().size();
+  frame.values = std::move(values);
+  return frame;
+}
+
+template <typename Message>
+std::ptrdiff_t count(const std::vector<protocol::ClientMessage>& messages) {
+  return std::count_if(messages.begin(), messages.end(), [](const protocol::ClientMessage& message) {
+    return std::holds_alternative<Message>(message);
+  });
+}
+
+}  // namespace
+
+TEST_CASE("a second welcome is another game of the room: its map is asked for, and inputs are counted on") {
+  const auto map = volcano();
+  RoomView room;
+  REQUIRE(room.on_message(welcome(*map, 1), kStart));
+  protocol::MapMessage whole{map->definition.name, map->hash, map->canonical};
+  REQUIRE(room.on_message(whole, kStart));
+  REQUIRE(room.pilot() != nullptr);
+  std::vector<double> row(wanted_columns().size(), 0.0);
+  row[0] = 1;
+  for (std::uint64_t k = 0; k < 40; ++k) {
+    const core::Time now = kStart + 50ms * k;
+    REQUIRE(room.on_message(key(3 * k, row), now));
+    room.pilot()->steering().push(now);
+    room.update(now);
+  }
+  const auto sent = room.take_outgoing();
+  REQUIRE(count<protocol::Input>(sent) > 1);
+  const std::uint32_t last = room.pilot()->last_seq();
+  REQUIRE(last > 1);
+
+  const core::Time later = kStart + 3s;
+  protocol::Welcome next = welcome(*map, 7);
+  next.map_name = "elsewhere";
+  next.map_hash = map->hash + 1;
+  next.mode = "race";
+  REQUIRE(room.on_message(next, later));
+  CHECK(room.notice_line() == "now: race on elsewhere");
+  CHECK(room.pilot() == nullptr);
+  CHECK(room.lice().empty());
+  CHECK(count<protocol::GetMap>(room.take_outgoing()) == 1);
+  // And one more before the map has come, on the ground that was here.
+  next = welcome(*map, 8);
+  REQUIRE(room.on_message(next, later));
+  CHECK(count<protocol::GetMap>(room.take_outgoing()) == 1);
+  REQUIRE(room.on_message(whole, later));
+  REQUIRE(room.pilot() != nullptr);
+  CHECK(room.pilot()->id() == 8);
+  CHECK(room.pilot()->last_seq() == last);
+  room.on_lost();
+  REQUIRE(room.on_message(welcome(*map, 9), later + 1s));
+  CHECK(room.pilot()->last_seq() == 0);
+}
+
+TEST_CASE("/skip is a vote and no chat, and the chat tells of others' votes") {
+  const auto map = volcano();
+  RoomView room;
+  REQUIRE(room.on_message(welcome(*map, 1), kStart));
+  static_cast<void>(room.take_outgoing());
+  room.say("/skip");
+  room.say("/skip it");
+  const auto sent = room.take_outgoing();
+  CHECK(count<protocol::Skip>(sent) == 1);
+  CHECK(count<protocol::Chat>(sent) == 1);
+  protocol::Event event;
+  event.kind = protocol::EventKind::kSkip;
+  event.name = "gauss";
+  event.values = {1, 3};
+  CHECK(describe(event) == "gauss votes for the next game (/skip): 1 of 3");
+}
+
+}  // namespace woodlouse::client
