@@ -184,7 +184,7 @@ TEST_CASE("bytes that are no state of the rules are refused, and those that are 
         REQUIRE_FALSE(fresh()->restore(state.rules.substr(0, size), ids));
       REQUIRE_FALSE(fresh()->restore(state.rules + '\0', ids));
       REQUIRE_FALSE(fresh()->restore(state.rules, std::vector(ids.begin(), ids.end() - 1)));
-      for (int flip = 0; flip < 400; ++flip) {
+      for (int flip = 0; flip < 150; ++flip) {
         MatchState damaged = state;
         for (std::uint64_t k = 1 + random.next() % 3; k > 0; --k) {
           const std::size_t at = random.next() % damaged.rules.size();
