@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
+#include <set>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -151,6 +152,7 @@ bool Members::welcome_back(const Arrival& arrival) {
   std::optional<Seat> taken = seats_.take_back(*token);
   if (!taken) return false;
   if (const auto* old = std::get_if<SessionOccupant>(&taken->occupant)) {
+    skip_votes_.erase(old->session);
     display_.unsubscribe(*old);
     old->subscriber->end({std::string(code::kReplaced), "you came back over another connection", false});
     inputs_->stop(*taken);
@@ -302,8 +304,15 @@ void Members::on_message(Seat& seat, const SessionOccupant& occupant, const prot
     return occupant.subscriber->answer(error(code::kNoVote, settings_.rounds_a_game == 0
                                                                 ? "skip: this room plays one game alone"
                                                                 : "skip: bots have no vote"));
-  if (skip_votes_.insert(occupant.session).second)
-    send(events_.skip(game_->tick(), seat, skip_votes_.size(), votes_needed()));
+  if (skip_votes_.emplace(occupant.session, seat.address).second)
+    send(events_.skip(game_->tick(), seat, votes(), votes_needed()));
+}
+
+std::size_t Members::votes() const {
+  std::set<AddressId> addresses;
+  for (const auto& [session, address] : skip_votes_) addresses.insert(address);
+  assert(addresses.size() <= seats_.player_addresses());
+  return addresses.size();
 }
 
 // ---- what they are shown -------------------------------------------------------------------------------

@@ -10,7 +10,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -49,10 +48,8 @@ class Members {
   /// The room plays this one from now on, with the watchers as they now are: everybody who is here joins it,
   /// the house's bots as well, and is welcomed anew. It has not begun.
   void begin(match::Match& game, std::unique_ptr<bots::Team> team);
-  /// More than half of the players who are here have voted for the next game.
-  [[nodiscard]] bool wants_next() const {
-    return !skip_votes_.empty() && skip_votes_.size() >= votes_needed();
-  }
+  /// Of more than half of the addresses from which players are here, one has voted for the next game.
+  [[nodiscard]] bool wants_next() const { return !skip_votes_.empty() && votes() >= votes_needed(); }
   void steer_house_bots() {
     for (const Seat* seat : crew_.steer(*game_)) send(events_.respawned(game_->tick(), *seat));
   }
@@ -131,7 +128,9 @@ class Members {
   void let_go(SessionId session);
   void send(const NumberedLine& event) { outlet_->event(event.number, event.line); }
   void count(protocol::Role role, std::int32_t change);
-  [[nodiscard]] std::size_t votes_needed() const { return seats_.players() / 2 + 1; }
+  /// An address has one, however many players of it are here: nobody outvotes others by connecting often.
+  [[nodiscard]] std::size_t votes() const;
+  [[nodiscard]] std::size_t votes_needed() const { return seats_.player_addresses() / 2 + 1; }
   void name_map();
 
   const RoomSettings& settings_;
@@ -152,7 +151,7 @@ class Members {
   std::vector<protocol::Notice> notices_;  ///< announced so far; a watcher has one or two
   Events events_;
   HouseCrew crew_;
-  std::set<SessionId> skip_votes_;  ///< of players who are here
+  std::map<SessionId, AddressId> skip_votes_;  ///< of players who are here
 };
 
 }  // namespace woodlouse::server

@@ -37,7 +37,7 @@ Seat& Seats::add(Seat seat) {
   const Place place = place_of(seat);
   const bool is_session = std::holds_alternative<SessionOccupant>(seat.occupant);
   sessions_ += is_session ? 1 : 0;
-  players_ += is_session && seat.role == protocol::Role::kPlayer ? 1 : 0;
+  if (is_session && seat.role == protocol::Role::kPlayer) ++players_of_[seat.address];
   vacant_ += std::holds_alternative<Vacant>(seat.occupant) ? 1 : 0;
   names_.insert(seat.name);
   if (seat.token) tokens_.emplace(*seat.token, place);
@@ -51,7 +51,11 @@ Seat Seats::take(std::map<Place, Seat>::iterator at) {
   seats_.erase(at);
   const bool is_session = std::holds_alternative<SessionOccupant>(seat.occupant);
   sessions_ -= is_session ? 1 : 0;
-  players_ -= is_session && seat.role == protocol::Role::kPlayer ? 1 : 0;
+  if (is_session && seat.role == protocol::Role::kPlayer) {
+    const auto own = players_of_.find(seat.address);
+    assert(own != players_of_.end());
+    if (--own->second == 0) players_of_.erase(own);
+  }
   vacant_ -= std::holds_alternative<Vacant>(seat.occupant) ? 1 : 0;
   const auto name = names_.find(seat.name);
   assert(name != names_.end());
@@ -116,7 +120,8 @@ void Seats::move_to(const match::Match& former, match::Match& next) {
   const auto before = std::exchange(seats_, {});
   names_.clear();
   tokens_.clear();
-  sessions_ = vacant_ = players_ = 0;
+  players_of_.clear();
+  sessions_ = vacant_ = 0;
   for (const auto& [place, had] : before) {
     Seat seat = had;
     auto* session = std::get_if<SessionOccupant>(&seat.occupant);

@@ -88,8 +88,8 @@ class Seats {
   [[nodiscard]] Seat* find(SessionId session);
   [[nodiscard]] std::size_t sessions() const { return sessions_; }
   [[nodiscard]] std::size_t vacant() const { return vacant_; }
-  /// Sessions of that role; who may come back is not here.
-  [[nodiscard]] std::size_t players() const { return players_; }
+  /// From which players' sessions come; who may come back is not here.
+  [[nodiscard]] std::size_t player_addresses() const { return players_of_.size(); }
   /// No louse moves, and no thrust counts down, but of the house's bots.
   [[nodiscard]] bool all_rest(const physics::World& world);
   struct VacantSeats {
@@ -139,7 +139,7 @@ class Seats {
   std::map<ResumeToken, Place> tokens_;
   std::size_t sessions_ = 0;
   std::size_t vacant_ = 0;
-  std::size_t players_ = 0;
+  std::map<AddressId, std::size_t> players_of_;  ///< sessions of players, by their address
 };
 
 }  // namespace woodlouse::server

@@ -170,7 +170,7 @@ TEST_CASE("who is let go hears every event from before it, and it alone hears th
 TEST_CASE(
     "a game that is over shows nobody a frame after that, neither of those that wait nor of one on its way") {
   House house;
-  house.add(3 * Broadcaster::kSlice);
+  house.add(6 * Broadcaster::kSlice);
   house.broadcaster->frames(FrameKind::kKey, frames(FrameKind::kKey, 60, "old"));
   // Half of them have it.
   while (house.listeners[Broadcaster::kSlice]->heard.empty()) REQUIRE(house.io.poll_one() == 1);
