@@ -284,19 +284,9 @@ bool Forage::is_good(Place place, const physics::World& world) const {
 }
 
 void Forage::write(StateWriter& out) const {
-  for (const Slot& slot : slots_) {
-    out.put_signed(slot.place.x);
-    out.put_signed(slot.place.y);
-    out.put(slot.value);
-    out.put(slot.due);
-  }
+  for (const Slot& slot : slots_) out.put(slot.place.x, slot.place.y, slot.value, slot.due);
   out.put(static_cast<std::uint32_t>(players_.size()));
-  for (const Player& player : players_) {
-    out.put(player.id);
-    out.put(player.chain);
-    out.put_signed(player.score);
-    out.put(player.last);
-  }
+  for (const Player& player : players_) out.put(player.id, player.chain, player.score, player.last);
 }
 
 bool Forage::read(StateReader& in, std::span<const state::LouseId> ids) {

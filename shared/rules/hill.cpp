@@ -299,11 +299,8 @@ void Hill::write(StateWriter& out) const {
   out.put(holder_);
   out.put(static_cast<std::uint32_t>(players_.size()));
   for (const Player& player : players_) {
-    out.put(player.id);
-    out.put(player.bumped_by);
-    for (const std::uint64_t value : {player.held, player.gained, player.bumped_at, player.out})
-      out.put(value);
-    out.put_bits(player.distance);
+    out.put(player.id, player.bumped_by, player.held, player.gained, player.bumped_at, player.out,
+            player.distance);
   }
 }
 

@@ -213,22 +213,15 @@ void Race::end_lap(Player& player, Moment moment) {
 void Race::write(StateWriter& out) const {
   out.put(static_cast<std::uint32_t>(players_.size()));
   for (const Player& player : players_) {
-    out.put(player.id);
-    out.put(static_cast<std::uint8_t>(player.next));
-    out.put(static_cast<std::uint8_t>(player.is_running | player.is_at_spawn << 1 |
-                                      player.is_from_spawn << 2 | player.is_practice << 3 |
-                                      player.has_gate << 4));
-    out.put(player.lap);
-    for (const Moment moment :
-         {player.lap_start, player.run_start, player.best_lap, player.best_run, player.best_run_at})
-      out.put(moment);
-    for (const double value : {player.gate_start.position.x, player.gate_start.position.y,
-                               player.gate_start.velocity.x, player.gate_start.velocity.y})
-      out.put_bits(value);
-    for (std::size_t gate = 0; gate < mode_.gates.size(); ++gate) {
-      out.put(player.splits[gate]);
-      out.put(player.best_splits[gate]);
-    }
+    const Start& start = player.gate_start;
+    out.put(
+        player.id, static_cast<std::uint8_t>(player.next),
+        static_cast<std::uint8_t>(player.is_running | player.is_at_spawn << 1 | player.is_from_spawn << 2 |
+                                  player.is_practice << 3 | player.has_gate << 4),
+        player.lap, player.lap_start, player.run_start, player.best_lap, player.best_run, player.best_run_at,
+        start.position.x, start.position.y, start.velocity.x, start.velocity.y);
+    for (std::size_t gate = 0; gate < mode_.gates.size(); ++gate)
+      out.put(player.splits[gate], player.best_splits[gate]);
   }
 }
 

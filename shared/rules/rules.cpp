@@ -135,9 +135,7 @@ void Rules::begin_phase(Phase phase, std::uint64_t tick, std::uint64_t length) {
 }
 
 void Rules::write_all(StateWriter& out) const {
-  out.put(static_cast<std::uint8_t>(round_.phase));
-  out.put(round_.number);
-  out.put(round_.until);
+  out.put(static_cast<std::uint8_t>(round_.phase), round_.number, round_.until);
   write(out);
 }
 

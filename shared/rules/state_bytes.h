@@ -11,18 +11,21 @@
 
 namespace woodlouse::rules {
 
+/// What a state is made of; a double as the bits it has.
+template <typename T>
+concept Stored = std::unsigned_integral<T> || std::same_as<T, std::int64_t> || std::same_as<T, double>;
+
 class StateWriter {
  public:
-  template <std::unsigned_integral T>
-  void put(T value) {
+  /// One behind the other, in one go: a state is written in every tick in which somebody has done something.
+  template <Stored... T>
+  void put(T... values) {
     static_assert(std::endian::native == std::endian::little);
-    char raw[sizeof value];
-    std::memcpy(raw, &value, sizeof value);
-    bytes_.append(raw, sizeof value);
+    char raw[(sizeof values + ...)];
+    char* at = raw;
+    ((std::memcpy(at, &values, sizeof values), at += sizeof values), ...);
+    bytes_.append(raw, sizeof raw);
   }
-  void put_signed(std::int64_t value) { put(static_cast<std::uint64_t>(value)); }
-  /// A double as the bits it has.
-  void put_bits(double value) { put(std::bit_cast<std::uint64_t>(value)); }
 
   void clear() { bytes_.clear(); }
   [[nodiscard]] const std::string& bytes() const { return bytes_; }

@@ -36,8 +36,8 @@ void arrange(Game& game, std::uint64_t until, const std::vector<Lies>& lie, cons
   out.put(until);
   for (std::size_t slot = 0; slot < game.rules().slots(); ++slot) {
     const Lies crumb = slot < lie.size() ? lie[slot] : Lies{0, 0, 0};
-    out.put_signed(static_cast<std::int64_t>(1024 * crumb.x));
-    out.put_signed(static_cast<std::int64_t>(1024 * crumb.y));
+    out.put(static_cast<std::int64_t>(1024 * crumb.x));
+    out.put(static_cast<std::int64_t>(1024 * crumb.y));
     out.put(crumb.value);
     out.put(std::uint64_t{0});
   }
@@ -46,7 +46,7 @@ void arrange(Game& game, std::uint64_t until, const std::vector<Lies>& lie, cons
   for (const Plays& player : play) {
     out.put(player.id);
     out.put(player.chain);
-    out.put_signed(player.score);
+    out.put(player.score);
     out.put(player.last);
     ids.push_back(player.id);
   }
