@@ -181,10 +181,15 @@ bool World::set_thrust(state::LouseId id, const state::Thrust& thrust, std::uint
 }
 
 bool World::set_motion(state::LouseId id, core::Vec2 position, core::Vec2 velocity) {
-  const core::Vec2 nothing = (position - position) + (velocity - velocity);
-  assert(nothing == core::Vec2{});  // finite
   const std::size_t index = index_of(id);
   if (index == lice_.size()) return false;
+  set_motion_at(index, position, velocity);
+  return true;
+}
+
+void World::set_motion_at(std::size_t index, core::Vec2 position, core::Vec2 velocity) {
+  const core::Vec2 nothing = (position - position) + (velocity - velocity);
+  assert(nothing == core::Vec2{} && index < lice_.size());  // finite
   state::Louse& louse = lice_[index];
   const List before = list_of(louse);
   louse.position = in_domain(position);
@@ -194,7 +199,6 @@ bool World::set_motion(state::LouseId id, core::Vec2 position, core::Vec2 veloci
   if (louse.phase != state::Phase::kFlying) settle(louse);
   if (list_of(louse) != before) lists_are_stale_ = true;
   note_change(index);
-  return true;
 }
 
 void World::collect() {

@@ -73,6 +73,8 @@ class World {
   /// its heading or it stands: then it keeps it. One that flies flies on, as high and with the same climb.
   /// REQUIRES finite vectors. False when there is none of that id.
   bool set_motion(state::LouseId id, core::Vec2 position, core::Vec2 velocity);
+  /// The same of lice()[index], for who has just found it there.
+  void set_motion_at(std::size_t index, core::Vec2 position, core::Vec2 velocity);
   /// Steps every louse that is not at rest.
   void step();
   /// Whether the next step is known to change nothing: no louse moves, and no thrust of one at rest runs out.

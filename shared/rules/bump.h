@@ -7,6 +7,8 @@
 // lifted.
 #pragma once
 
+#include <cassert>
+#include <cmath>
 #include <optional>
 
 #include "shared/core/vec2.h"
@@ -23,12 +25,41 @@ struct Bump {
   double impulse = 0.0;      ///< per unit mass, J |n| [m/s]
 };
 
+/// From the first to the second. Less than 1e-12 m apart they have no direction: then as if one stood east of
+/// the other.
+inline core::Vec2 direction(core::Vec2 between) {
+  constexpr double kTogether2 = 1e-24;  // [m^2]
+  return core::dot(between, between) < kTogether2 ? core::Vec2{1.0, 0.0} : between;
+}
+
 /// Whether the second comes nearer to the first, as `between` leads from the first to the second [m].
-/// Less than 1e-12 m apart they have no direction: then as if one stood east of the other.
-bool is_approach(core::Vec2 between, core::Vec2 first, core::Vec2 second);
+inline bool is_approach(core::Vec2 between, core::Vec2 first, core::Vec2 second) {
+  return core::dot(direction(between), second - first) < 0.0;
+}
+
 /// How fast, over the map [m/s]; below 0 where they part.
-double closing_speed(core::Vec2 between, core::Vec2 first, core::Vec2 second);
+inline double closing_speed(core::Vec2 between, core::Vec2 first, core::Vec2 second) {
+  const core::Vec2 n = direction(between);
+  return core::dot(n, first - second) / std::sqrt(core::dot(n, n));
+}
+
+/// G^-1 n
+inline core::Vec2 yields(core::Vec2 gradient, core::Vec2 n) {
+  const double part = core::dot(gradient, n) / (1.0 + core::dot(gradient, gradient));
+  return n - part * gradient;
+}
+
 /// Nothing: they do not come nearer. restitution: 0..1.
-std::optional<Bump> bump(core::Vec2 between, const Body& first, const Body& second, double restitution);
+inline std::optional<Bump> bump(core::Vec2 between, const Body& first, const Body& second,
+                                double restitution) {
+  assert(restitution >= 0.0 && restitution <= 1.0);
+  const core::Vec2 n = direction(between);
+  const double u = core::dot(n, second.velocity - first.velocity);
+  if (!(u < 0.0)) return std::nullopt;
+  const core::Vec2 first_yields = yields(first.gradient, n), second_yields = yields(second.gradient, n);
+  const double j = -(1.0 + restitution) * u / (core::dot(n, first_yields) + core::dot(n, second_yields));
+  return Bump{first.velocity - j * first_yields, second.velocity + j * second_yields,
+              j * std::sqrt(core::dot(n, n))};
+}
 
 }  // namespace woodlouse::rules

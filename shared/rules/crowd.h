@@ -31,25 +31,34 @@ class Crowd {
   struct Axis {
     double low = 0.0, per_metre = 0.0;
     std::size_t cells = 1;
-    [[nodiscard]] std::size_t cell_of(double at) const;
+    [[nodiscard]] std::uint32_t cell_of(double at) const;
   };
-  [[nodiscard]] static Axis axis_of(double low, double high, double distance);
+  [[nodiscard]] Axis axis_of(double low, double high, double most) const;
   /// Of a cell along an axis: it and those beside it, the first and how many; where it wraps, modulo cells.
   [[nodiscard]] std::pair<std::size_t, std::size_t> around(std::size_t cell, const Axis& axis) const;
   struct Cell {
     std::uint32_t column = 0, row = 0;
   };
   [[nodiscard]] std::size_t number_of(Cell cell) const { return cell.row * x_.cells + cell.column; }
+  struct Place {
+    core::Vec2 at;
+    std::uint32_t index = 0;
+  };
   void lay_cells(std::span<const core::Vec2> places);
   void sort_into_cells(std::span<const core::Vec2> places);
-  void add_pairs(std::size_t k, std::span<const core::Vec2> places, std::uint32_t begin, std::uint32_t end);
+  void add_pairs(std::uint32_t second, core::Vec2 at, std::uint32_t begin, std::uint32_t end);
+  void sort_by_first(std::size_t places);
 
   Images images_;
+  terrain::Rectangle domain_;
   double distance_, distance2_;
   Axis x_, y_;
-  std::vector<std::uint32_t> begins_;  ///< of each cell, in sorted_
-  std::vector<std::uint32_t> sorted_;  ///< indices of places, cell by cell, ascending in each
+  std::vector<std::uint32_t> begins_;  ///< of each cell, in sorted_; and the end
+  std::vector<Place> sorted_;          ///< cell by cell
   std::vector<Cell> cells_;            ///< of each place
+  std::vector<Pair> found_;            ///< by second; more than there are
+  std::size_t found_count_ = 0;
+  std::vector<std::uint32_t> ends_;  ///< of each place's pairs as the first
   std::vector<Pair> pairs_;
 };
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstddef>
+#include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -135,52 +138,51 @@ void Hill::fall(Player& player, double distance, std::uint64_t now) {
 }
 
 void Hill::bump_all(Step& step) {
-  struct Bumper {
-    state::LouseId id = 0;
-    Player* player = nullptr;  ///< null: nobody's
-    Body body;
-    bool knows_ground = false;
-    bool is_bumped = false;
-  };
   physics::World& world = step.world;
-  std::vector<Bumper> bumpers;
-  std::vector<core::Vec2> places;
+  const std::span<const state::Louse> lice = world.lice();
+  bumpers_.clear();
+  places_.clear();
   auto player = players_.begin();
-  for (const state::Louse& louse : world.lice()) {
-    if (louse.phase == state::Phase::kFlying) continue;
-    while (player != players_.end() && player->id < louse.id) ++player;
-    const bool is_played = player != players_.end() && player->id == louse.id;
-    bumpers.push_back({louse.id, is_played ? &*player : nullptr, {louse.velocity, {}}});
-    places.push_back(louse.position);
+  for (std::size_t k = 0; k < lice.size(); ++k) {
+    if (lice[k].phase == state::Phase::kFlying) continue;
+    while (player != players_.end() && player->id < lice[k].id) ++player;
+    const bool is_played = player != players_.end() && player->id == lice[k].id;
+    bumpers_.push_back(
+        {static_cast<std::uint32_t>(k), is_played ? &*player : nullptr, {lice[k].velocity, {}}});
+    places_.push_back(lice[k].position);
   }
   const state::Parameters& physics = world.parameters();
   const double push = 2.0 * world.step_seconds() * (physics.thrust_max + physics.gravity);
+  bumps_.clear();
+  for (const Crowd::Pair& pair : crowd_->pairs(places_)) meet(pair, push, step.tick + 1);
+  for (std::size_t k = 0; k < bumpers_.size(); ++k) {
+    const Bumper& bumper = bumpers_[k];
+    if (bumper.is_bumped) world.set_motion_at(bumper.index, places_[k], bumper.body.velocity);
+  }
+  for (const Event& bump : bumps_) say(bump);
+}
+
+/// Of two who are near each other. push: what who presses comes on with at most [m/s].
+inline void Hill::meet(const Crowd::Pair& pair, double push, std::uint64_t now) {
+  Bumper& first = bumpers_[pair.first];
+  Bumper& second = bumpers_[pair.second];
+  if (!is_approach(pair.between, first.body.velocity, second.body.velocity)) return;
+  for (const std::uint32_t k : {pair.first, pair.second}) {
+    if (std::exchange(bumpers_[k].knows_ground, true)) continue;
+    const terrain::SurfaceSample ground = ground_at(places_[k]);
+    bumpers_[k].body.gradient = {ground.zx, ground.zy};
+  }
   const double deep = kDeep * 2.0 * mode_.bump_radius;
-  for (const Crowd::Pair& pair : crowd_->pairs(places)) {
-    Bumper& first = bumpers[pair.first];
-    Bumper& second = bumpers[pair.second];
-    if (!is_approach(pair.between, first.body.velocity, second.body.velocity)) continue;
-    for (const std::uint32_t k : {pair.first, pair.second}) {
-      if (std::exchange(bumpers[k].knows_ground, true)) continue;
-      const terrain::SurfaceSample ground = ground_at(places[k]);
-      bumpers[k].body.gradient = {ground.zx, ground.zy};
-    }
-    const bool presses = core::dot(pair.between, pair.between) < deep * deep &&
-                         closing_speed(pair.between, first.body.velocity, second.body.velocity) <= push;
-    const double restitution =
-        presses ? std::max(mode_.bump_restitution, kThrownBack) : mode_.bump_restitution;
-    const std::optional<Bump> bumped = bump(pair.between, first.body, second.body, restitution);
-    if (!bumped) continue;
-    first.body.velocity = bumped->first;
-    second.body.velocity = bumped->second;
-    first.is_bumped = second.is_bumped = true;
-    if (first.player != nullptr && second.player != nullptr)
-      note_bump(*first.player, *second.player, bumped->impulse, step.tick + 1);
-  }
-  for (std::size_t k = 0; k < bumpers.size(); ++k) {
-    if (bumpers[k].is_bumped) world.set_motion(bumpers[k].id, places[k], bumpers[k].body.velocity);
-  }
-  tell_bumps();
+  const bool presses = core::dot(pair.between, pair.between) < deep * deep &&
+                       closing_speed(pair.between, first.body.velocity, second.body.velocity) <= push;
+  const double restitution = presses ? std::max(mode_.bump_restitution, kThrownBack) : mode_.bump_restitution;
+  const std::optional<Bump> bumped = bump(pair.between, first.body, second.body, restitution);
+  if (!bumped) return;
+  first.body.velocity = bumped->first;
+  second.body.velocity = bumped->second;
+  first.is_bumped = second.is_bumped = true;
+  if (first.player != nullptr && second.player != nullptr)
+    note_bump(*first.player, *second.player, bumped->impulse, now);
 }
 
 void Hill::note_bump(Player& first, Player& second, double impulse, std::uint64_t now) {
@@ -189,19 +191,18 @@ void Hill::note_bump(Player& first, Player& second, double impulse, std::uint64_
   first.bumped_at = second.bumped_at = now;
   note_change();
   if (impulse >= kToldImpulse)
-    bumps_.push_back({EventKind::kBump,
-                      first.id,
-                      now * kMomentsPerTick,
-                      {second.id, static_cast<std::int64_t>(1000.0 * impulse), 0, 0}});
+    tell_bump({EventKind::kBump,
+               first.id,
+               now * kMomentsPerTick,
+               {second.id, static_cast<std::int64_t>(1000.0 * impulse), 0, 0}});
 }
 
-/// The hardest: in a crowd everybody meets somebody in every tick, and all hear of it.
-void Hill::tell_bumps() {
-  std::stable_sort(bumps_.begin(), bumps_.end(),
-                   [](const Event& a, const Event& b) { return a.values[1] > b.values[1]; });
-  bumps_.resize(std::min(bumps_.size(), kMostTold));
-  for (const Event& bump : bumps_) say(bump);
-  bumps_.clear();
+/// If it is one of the hardest: in a crowd everybody meets somebody in every tick, and all hear of it.
+void Hill::tell_bump(const Event& bump) {
+  const auto is_softer = [&](const Event& other) { return other.values[1] < bump.values[1]; };
+  if (bumps_.size() == kMostTold && !is_softer(bumps_.back())) return;
+  if (bumps_.size() == kMostTold) bumps_.pop_back();
+  bumps_.insert(std::find_if(bumps_.begin(), bumps_.end(), is_softer), bump);
 }
 
 void Hill::bring_back(Step& step) {
@@ -272,7 +273,7 @@ void Hill::hold(Step& step) {
     Player* player = players_.find(louse.id);
     if (player == nullptr || player->out != 0) continue;
     only = player;
-    ++count;
+    if (++count == 2) break;  // it is contested, by however many
   }
   const state::LouseId holder = count == 1 ? only->id : 0;
   const bool is_contested = count > 1;

@@ -19,6 +19,7 @@
 #include <span>
 #include <vector>
 
+#include "shared/rules/bump.h"
 #include "shared/rules/crowd.h"
 #include "shared/rules/gate.h"
 #include "shared/rules/players.h"
@@ -62,6 +63,14 @@ class Hill final : public Rules {
     std::uint64_t out = 0;         ///< the tick at which it comes back; 0: it is on the map
     double distance = 0.0;         ///< of who is out, as state::Louse has it [m]
   };
+  /// A louse on the ground, while a step's bumps are made.
+  struct Bumper {
+    std::uint32_t index = 0;   ///< in the world's lice
+    Player* player = nullptr;  ///< null: nobody's
+    Body body;
+    bool knows_ground = false;
+    bool is_bumped = false;
+  };
 
   void on_join(state::LouseId louse) override;
   void on_leave(state::LouseId louse) override;
@@ -74,8 +83,9 @@ class Hill final : public Rules {
   void take_fallen(Step& step);
   void fall(Player& player, double distance, std::uint64_t now);
   void bump_all(Step& step);
+  void meet(const Crowd::Pair& pair, double push, std::uint64_t now);
   void note_bump(Player& first, Player& second, double impulse, std::uint64_t now);
-  void tell_bumps();
+  void tell_bump(const Event& bump);
   void bring_back(Step& step);
   [[nodiscard]] const map::SpawnPoint& farthest_spawn(const physics::World& world) const;
   void move_place(std::uint64_t now);
@@ -91,7 +101,10 @@ class Hill final : public Rules {
   state::LouseId holder_ = 0;
   bool is_contested_ = false;
   Players<Player> players_;
-  std::vector<Event> bumps_;  ///< of the step that is judged
+  // Of the step that is judged.
+  std::vector<Bumper> bumpers_;
+  std::vector<core::Vec2> places_;  ///< of each
+  std::vector<Event> bumps_;        ///< the hardest, hardest first
 };
 
 }  // namespace woodlouse::rules
