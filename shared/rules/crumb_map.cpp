@@ -7,8 +7,8 @@ namespace woodlouse::rules {
 CrumbMap::CrumbMap(const terrain::Rectangle& domain, const Images& images, double distance)
     : domain_(domain),
       distance_(distance),
-      per_metre_{static_cast<double>(kSide) / (domain.x_max - domain.x_min),
-                 static_cast<double>(kSide) / (domain.y_max - domain.y_min)} {
+      per_metre_{static_cast<double>(kSide - 1) / (domain.x_max - domain.x_min),
+                 static_cast<double>(kSide - 1) / (domain.y_max - domain.y_min)} {
   assert(distance > 0.0);
   if (images.wraps()) periods_ = {domain.x_max - domain.x_min, domain.y_max - domain.y_min};
 }
@@ -18,8 +18,8 @@ void CrumbMap::add_image(std::uint32_t slot, core::Vec2 at) {
   if (at.x + distance_ < domain_.x_min || at.x - distance_ > domain_.x_max ||
       at.y + distance_ < domain_.y_min || at.y - distance_ > domain_.y_max)
     return;
-  for (std::int64_t row = row_of(at.y - distance_); row <= row_of(at.y + distance_); ++row) {
-    for (std::int64_t column = column_of(at.x - distance_); column <= column_of(at.x + distance_); ++column)
+  for (std::int32_t row = row_of(at.y - distance_); row <= row_of(at.y + distance_); ++row) {
+    for (std::int32_t column = column_of(at.x - distance_); column <= column_of(at.x + distance_); ++column)
       cells_[static_cast<std::size_t>(row * kSide + column)] |= std::uint64_t{1} << slot;
   }
 }

@@ -1,6 +1,7 @@
 // Which crumbs may be near a place, by cells of the map: so that most lice look at none.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -25,14 +26,17 @@ class CrumbMap {
   }
 
  private:
-  static constexpr std::int64_t kSide = 32;  ///< cells along an axis
+  static constexpr std::int32_t kSide = 32;  ///< cells along an axis; the last is the upper edge alone
 
-  static std::int64_t cell_of(double at, double low, double per_metre) {
-    const double cell = (at - low) * per_metre;
-    return cell > 0.0 ? (cell < static_cast<double>(kSide) ? static_cast<std::int64_t>(cell) : kSide - 1) : 0;
+  static std::int32_t cell_of(double at, double low, double high, double per_metre) {
+    return static_cast<std::int32_t>((std::min(std::max(low, at), high) - low) * per_metre);
   }
-  [[nodiscard]] std::int64_t column_of(double x) const { return cell_of(x, domain_.x_min, per_metre_.x); }
-  [[nodiscard]] std::int64_t row_of(double y) const { return cell_of(y, domain_.y_min, per_metre_.y); }
+  [[nodiscard]] std::int32_t column_of(double x) const {
+    return cell_of(x, domain_.x_min, domain_.x_max, per_metre_.x);
+  }
+  [[nodiscard]] std::int32_t row_of(double y) const {
+    return cell_of(y, domain_.y_min, domain_.y_max, per_metre_.y);
+  }
   void add_image(std::uint32_t slot, core::Vec2 at);
 
   terrain::Rectangle domain_;

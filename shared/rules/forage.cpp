@@ -17,9 +17,9 @@ namespace {
 constexpr std::uint64_t kRefill = 3, kChain = 4, kHarvest = 30;                    // [s]
 constexpr double kUnits = 1024.0;                                                  // in a metre
 constexpr double kMargin = 1.0, kFromLice = 2.5, kFromCrumbs = 1.5, kReach = 1.0;  // [m]
-constexpr double kUsualWay = 1.0;  // [m] in a step: who goes farther is held against every crumb
-constexpr double kSlack = 1e-3;    // [m] for roundings
-constexpr double kSteep = 1.5;     // of what full thrust holds on a slope
+constexpr double kUsualSpeed = 30.0;                                               // [m/s]
+constexpr double kSlack = 1e-3;                                                    // [m] for roundings
+constexpr double kSteep = 1.5;  // of what full thrust holds on a slope
 constexpr int kTries = 16;
 constexpr std::uint8_t kOnGround = 1, kOnSummit = 3, kLongestChain = 3;
 constexpr std::int64_t kMaxScore = std::int64_t{1} << 53;
@@ -68,7 +68,8 @@ Forage::Forage(const map::Map& map, std::uint32_t tick_hz)
       images_(images_of(map)),
       harvest_ticks_(std::min(ticks_of(kHarvest), ticks_of(mode_.round_s) / 3)),
       slots_(mode_.crumbs),
-      map_of_crumbs_(map.terrain->domain(), images_, mode_.radius + kUsualWay + kSlack) {
+      usual_way_(kUsualSpeed / tick_hz),
+      map_of_crumbs_(map.terrain->domain(), images_, mode_.radius + usual_way_ + kSlack) {
   assert(mode_.crumbs >= 1 && mode_.crumbs <= map::kMaxCrumbs && mode_.summits <= mode_.crumbs);
   const terrain::Rectangle& domain = map.terrain->domain();
   std::tie(low_.x, high_.x) = units_of(domain.x_min, domain.x_max, kMargin, images_.wraps());
@@ -149,18 +150,9 @@ void Forage::on_round(Step& step) {
 void Forage::judge(Step& step) {
   changed_ = 0;
   if (round().phase != Phase::kPlay || players_.empty()) return;
-  const Claims eaten = claims(step);
-  std::vector<std::size_t> order;
-  for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
-    if (eaten[slot].player != nullptr) order.push_back(slot);
-  }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return eaten[a].part < eaten[b].part; });
-  for (const std::size_t slot : order) {
-    eat(slot, *eaten[slot].player, step.tick * kMomentsPerTick + eaten[slot].part);
-    slots_[slot] = {{}, 0, step.tick + 1 + ticks_of(kRefill)};
-    is_map_stale_ = true;
-  }
+  if (std::exchange(is_map_stale_, false)) map_crumbs();
+  claim_all(step);
+  if (claimed_ != 0) eat_claimed(step);
   const std::uint64_t now = step.tick + 1;
   for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
     if (slots_[slot].value == 0 && slots_[slot].due != 0 && now >= slots_[slot].due) fill(slot, step);
@@ -168,41 +160,68 @@ void Forage::judge(Step& step) {
   if (harvest() == now) say({EventKind::kHarvest, 0, now * kMomentsPerTick, {}});
 }
 
-/// Who eats what, all by the points before the step.
-Forage::Claims Forage::claims(const Step& step) {
-  Claims claims;
-  if (std::exchange(is_map_stale_, false)) {
-    map_of_crumbs_.clear();
-    for (const ShownCrumb& crumb : crumbs()) map_of_crumbs_.add(crumb.slot, crumb.position);
+void Forage::before_step(const physics::World& world) {
+  const std::span<const state::Louse> lice = world.lice();
+  starts_.resize(lice.size());
+  for (std::size_t k = 0; k < lice.size(); ++k) starts_[k] = lice[k].position;
+}
+
+void Forage::map_crumbs() {
+  map_of_crumbs_.clear();
+  lying_ = 0;
+  for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+    if (slots_[slot].value == 0) continue;
+    positions_[slot] = position(slots_[slot].place);
+    map_of_crumbs_.add(static_cast<std::uint32_t>(slot), positions_[slot]);
+    lying_ |= std::uint64_t{1} << slot;
   }
+}
+
+/// Who eats what, all by the points before the step.
+void Forage::claim_all(const Step& step) {
+  claimed_ = 0;
   const std::span<const state::Louse> lice = step.world.lice();
+  assert(starts_.size() == lice.size());
   auto player = players_.begin();
   for (std::size_t k = 0; k < lice.size(); ++k) {
     while (player != players_.end() && player->id < lice[k].id) ++player;
     if (player == players_.end()) break;
-    if (player->id == lice[k].id) claim(step.starts[k], lice[k], *player, claims);
+    if (player->id == lice[k].id) claim(starts_[k], lice[k], *player);
   }
-  return claims;
 }
 
-void Forage::claim(const Start& start, const state::Louse& louse, Player& player, Claims& claims) const {
-  const core::Vec2 from = start.position;
+inline void Forage::claim(core::Vec2 from, const state::Louse& louse, Player& player) {
   const core::Vec2 way = images_.nearest(from, louse.position) - from;
-  std::uint64_t candidates = is_nearer(way, kUsualWay) ? map_of_crumbs_.near(from) : ~std::uint64_t{0};
+  std::uint64_t candidates = is_nearer(way, usual_way_) ? map_of_crumbs_.near(from) : lying_;
   for (; candidates != 0; candidates &= candidates - 1) {
     const auto slot = static_cast<std::size_t>(std::countr_zero(candidates));
-    if (slot >= slots_.size()) break;
-    if (slots_[slot].value == 0) continue;
-    const core::Vec2 crumb = position(slots_[slot].place);
-    const std::optional<double> part = reach(from - images_.nearest(from, crumb), way, mode_.radius);
+    const std::optional<double> part =
+        reach(from - images_.nearest(from, positions_[slot]), way, mode_.radius);
     if (!part) continue;
     if (louse.phase == state::Phase::kFlying && louse.flight_z - ground_at(louse.position).z > kReach) return;
     const Claim own{&player, static_cast<std::uint64_t>(static_cast<double>(kMomentsPerTick) * *part)};
     const auto key = [](const Claim& claim) {
       return std::tuple(claim.part, claim.player->score, claim.player->id);
     };
-    Claim& first = claims[slot];
-    if (first.player == nullptr || key(own) < key(first)) first = own;
+    Claim& first = claims_[slot];
+    const std::uint64_t bit = std::uint64_t{1} << slot;
+    if ((claimed_ & bit) == 0 || key(own) < key(first)) first = own;
+    claimed_ |= bit;
+  }
+}
+
+/// One after the other: what somebody eats first makes the chain of what he eats next.
+void Forage::eat_claimed(const Step& step) {
+  std::vector<std::size_t> order;
+  for (std::uint64_t rest = claimed_; rest != 0; rest &= rest - 1)
+    order.push_back(static_cast<std::size_t>(std::countr_zero(rest)));
+  assert(!order.empty() && order.back() < slots_.size());
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return claims_[a].part < claims_[b].part; });
+  for (const std::size_t slot : order) {
+    eat(slot, *claims_[slot].player, step.tick * kMomentsPerTick + claims_[slot].part);
+    slots_[slot] = {{}, 0, step.tick + 1 + ticks_of(kRefill)};
+    is_map_stale_ = true;
   }
 }
 

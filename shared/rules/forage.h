@@ -32,6 +32,7 @@ class Forage final : public Rules {
   /// REQUIRES a map with that mode, which outlives it.
   Forage(const map::Map& map, std::uint32_t tick_hz);
 
+  void before_step(const physics::World& world) override;
   [[nodiscard]] Standing standing(state::LouseId louse) const override;
   [[nodiscard]] std::vector<TableRow> table() const override;
 
@@ -69,7 +70,6 @@ class Forage final : public Rules {
     Player* player = nullptr;
     std::uint64_t part = 0;  ///< of the step, 0..65536
   };
-  using Claims = std::array<Claim, map::kMaxCrumbs>;
 
   void on_join(state::LouseId louse) override;
   void on_leave(state::LouseId louse) override;
@@ -79,8 +79,10 @@ class Forage final : public Rules {
   void write(StateWriter& out) const override;
   bool read(StateReader& in, std::span<const state::LouseId> ids) override;
 
-  [[nodiscard]] Claims claims(const Step& step);
-  void claim(const Start& start, const state::Louse& louse, Player& player, Claims& claims) const;
+  void map_crumbs();
+  void claim_all(const Step& step);
+  void claim(core::Vec2 from, const state::Louse& louse, Player& player);
+  void eat_claimed(const Step& step);
   void eat(std::size_t slot, Player& player, Moment moment);
   void fill(std::size_t slot, const Step& step);
   [[nodiscard]] std::vector<Place> free_summits(const physics::World& world) const;
@@ -99,8 +101,16 @@ class Forage final : public Rules {
   std::vector<Slot> slots_;
   Players<Player> players_;
   std::uint64_t changed_ = 0;
-  CrumbMap map_of_crumbs_;  ///< of those that lie, for ways of at most kUsualWay
+  // Of the crumbs that lie, as slots_ has them.
+  double usual_way_;        ///< [m] in a step: who goes farther is held against every crumb
+  CrumbMap map_of_crumbs_;  ///< for ways up to that
+  std::array<core::Vec2, map::kMaxCrumbs> positions_;  ///< [m]
+  std::uint64_t lying_ = 0;                            ///< their slots' bits
   bool is_map_stale_ = true;
+  // Of the step that is judged.
+  std::vector<core::Vec2> starts_;  ///< where the world's lice were
+  std::array<Claim, map::kMaxCrumbs> claims_;
+  std::uint64_t claimed_ = 0;  ///< the slots of whom claims_ says something
 };
 
 }  // namespace woodlouse::rules

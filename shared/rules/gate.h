@@ -1,6 +1,8 @@
 // When a louse drives through a gate: the line from a to b, from its right-hand side to its left.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "shared/core/vec2.h"
@@ -33,18 +35,28 @@ class Images {
 
   /// What to add to `place` for its image that is nearest to `from`. REQUIRES both in the domain.
   [[nodiscard]] core::Vec2 shift(core::Vec2 from, core::Vec2 place) const {
+    if (!wraps()) return {};
     return {shift(place.x - from.x, periods_.x), shift(place.y - from.y, periods_.y)};
   }
   [[nodiscard]] core::Vec2 nearest(core::Vec2 from, core::Vec2 place) const {
     return place + shift(from, place);
   }
+  /// A distance's square. All who are nearer than that to `from` see the same image of a place as the
+  /// nearest, `nearest`, and each other where they are. Infinite where nothing wraps.
+  [[nodiscard]] double margin2(core::Vec2 from, core::Vec2 nearest) const {
+    if (!wraps()) return std::numeric_limits<double>::infinity();
+    const auto square = [](double d, double period) {
+      const double rest = 0.5 * period - std::max({d, -d, 0.25 * period});
+      return rest * rest;
+    };
+    return std::min(square(nearest.x - from.x, periods_.x), square(nearest.y - from.y, periods_.y));
+  }
   [[nodiscard]] bool wraps() const { return periods_.x > 0.0; }
 
  private:
+  /// By a whole number of periods, not by a jump: nobody foretells who sees what over a seam.
   static double shift(double d, double period) {
-    if (!(period > 0.0)) return 0.0;
-    if (d > 0.5 * period) return 0.0 - period;
-    return d < -0.5 * period ? period : 0.0;
+    return static_cast<double>((d < -0.5 * period) - (d > 0.5 * period)) * period;
   }
   core::Vec2 periods_;
 };

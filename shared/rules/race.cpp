@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -12,6 +14,7 @@ namespace {
 
 /// Nothing of these lets the way be a cubic: its velocity jumps within.
 constexpr state::StepEvents kJumps = state::kMetWall | state::kLanded | state::kStopped;
+constexpr double kClear = 0.8, kSlack2 = 1e-6;  // of a distance's square; [m^2] of it: far above roundings
 
 }  // namespace
 
@@ -59,28 +62,33 @@ std::vector<TableRow> Race::table() const {
   return rows;
 }
 
-/// 1: the best of the round.
-std::uint32_t Race::rank(const Player& player) const {
-  const auto key = [](const Player& p) { return std::tuple(p.best_run, p.best_run_at, p.id); };
+/// Of a run that ended at that moment, as if it were the louse's best; 1: the best of the round.
+std::uint32_t Race::rank(state::LouseId louse, Moment run, Moment at) const {
+  const auto key = std::tuple(run, at, louse);
   return 1 +
          static_cast<std::uint32_t>(std::count_if(players_.begin(), players_.end(), [&](const Player& other) {
-           return other.best_run != 0 && key(other) < key(player);
+           return other.best_run != 0 && std::tuple(other.best_run, other.best_run_at, other.id) < key;
          }));
 }
 
-void Race::on_join(state::LouseId louse) {
+Race::Player Race::new_player(state::LouseId louse) const {
   Player player;
   player.id = louse;
-  players_.add(player);
+  player.splits.resize(mode_.gates.size());
+  player.best_splits.resize(mode_.gates.size());
+  return player;
 }
+
+void Race::on_join(state::LouseId louse) { players_.add(new_player(louse)); }
 
 void Race::on_leave(state::LouseId louse) { players_.remove(louse); }
 
 void Race::stop_clock(Player& player) {
   player.next = player.lap = 0;
+  player.clear2 = 0.0;
   player.lap_start = player.run_start = 0;
   player.is_running = player.is_from_spawn = player.is_practice = false;
-  player.splits = {};
+  std::fill(player.splits.begin(), player.splits.end(), Moment{0});
 }
 
 void Race::on_respawn(state::LouseId louse) {
@@ -101,7 +109,7 @@ void Race::on_round(Step&) {
   for (Player& player : players_) {
     stop_clock(player);
     player.best_lap = player.best_run = player.best_run_at = 0;
-    player.best_splits = {};
+    std::fill(player.best_splits.begin(), player.best_splits.end(), Moment{0});
   }
 }
 
@@ -112,25 +120,50 @@ inline map::Gate Race::shown_from(core::Vec2 place, const map::Gate& gate) const
   return {gate.a + shift, gate.b + shift, gate.in_air};
 }
 
+void Race::before_step(const physics::World& world) {
+  const std::span<const state::Louse> lice = world.lice();
+  starts_.resize(lice.size());
+  for (std::size_t k = 0; k < lice.size(); ++k) {
+    starts_[k].position = lice[k].position;
+    starts_[k].velocity = lice[k].velocity;
+    starts_[k].is_flying = lice[k].phase == state::Phase::kFlying;
+  }
+}
+
 void Race::judge(Step& step) {
   if (round().phase != Phase::kPlay) return;
   const std::span<const state::Louse> lice = step.world.lice();
   const std::span<const state::StepEvents> met = step.world.events();
+  assert(starts_.size() == lice.size());
   auto player = players_.begin();
   for (std::size_t k = 0; k < lice.size(); ++k) {
     while (player != players_.end() && player->id < lice[k].id) ++player;
     if (player == players_.end()) return;
     if (player->id != lice[k].id) continue;
-    const Start& start = step.starts[k];
-    const core::Vec2 end = images_.nearest(start.position, lice[k].position);
-    // Few go through their gate in a step; the others need no more than this.
-    const map::Gate gate = shown_from(start.position, mode_.gates[player->next]);
-    if (!(side_of(gate, start.position) < 0.0 && side_of(gate, end) >= 0.0)) continue;
-    drive(*player, start, lice[k],
-          {start.position, start.velocity, end, lice[k].velocity, step.world.step_seconds(),
-           (met[k] & kJumps) == 0},
-          step.tick);
+    const core::Vec2 came = starts_[k].position - player->looked_at;
+    const core::Vec2 went = lice[k].position - player->looked_at;
+    // Nearly all: neither end of the step is over their gate's line.
+    if (std::max(core::dot(came, came), core::dot(went, went)) < player->clear2) continue;
+    look(*player, starts_[k], lice[k], step, (met[k] & kJumps) == 0);
   }
+}
+
+/// Whether it goes through its gate; and how far it may go from where it was until that can be so.
+void Race::look(Player& player, const Start& start, const state::Louse& louse, const Step& step,
+                bool is_smooth) {
+  assert(player.id == louse.id);
+  const map::Gate gate = shown_from(start.position, mode_.gates[player.next]);
+  const core::Vec2 along = gate.b - gate.a;
+  const double side = side_of(gate, start.position);
+  const double line2 = side * side / core::dot(along, along);
+  const double image2 = images_.margin2(start.position, 0.5 * (gate.a + gate.b));
+  player.looked_at = start.position;
+  player.clear2 = kClear * std::min(line2, image2) - kSlack2;
+  const core::Vec2 end = images_.nearest(start.position, louse.position);
+  if (!(side < 0.0 && side_of(gate, end) >= 0.0)) return;
+  drive(player, start, louse,
+        {start.position, start.velocity, end, louse.velocity, step.world.step_seconds(), is_smooth},
+        step.tick);
 }
 
 /// Through as many gates as the step led, one after the other.
@@ -152,6 +185,7 @@ void Race::drive(Player& player, const Start& start, const state::Louse& louse, 
 void Race::pass(Player& player, Moment moment) {
   const std::uint32_t gate = player.next;
   player.next = (gate + 1) % static_cast<std::uint32_t>(mode_.gates.size());
+  player.clear2 = 0.0;
   if (gate == 0) {
     if (player.is_running) return end_lap(player, moment);
     player.is_running = true;
@@ -187,7 +221,7 @@ void Race::end_lap(Player& player, Moment moment) {
     player.best_splits = player.splits;
   }
   say({EventKind::kLap, player.id, moment, {player.lap, static_cast<std::int64_t>(time), is_best, 0}});
-  player.splits = {};
+  std::fill(player.splits.begin(), player.splits.end(), Moment{0});
   player.lap_start = moment;
   if (++player.lap < mode_.laps) return;
   const Moment run = moment - player.run_start;
@@ -196,14 +230,10 @@ void Race::end_lap(Player& player, Moment moment) {
       player.best_run = run;
       player.best_run_at = moment;
     }
-    // Of this run, as if it were the louse's best.
-    Player as_ran = player;
-    as_ran.best_run = run;
-    as_ran.best_run_at = moment;
     say({EventKind::kRun,
          player.id,
          moment,
-         {static_cast<std::int64_t>(run), rank(as_ran), player.is_from_spawn, 0}});
+         {static_cast<std::int64_t>(run), rank(player.id, run, moment), player.is_from_spawn, 0}});
   }
   player.lap = 0;
   player.run_start = moment;
@@ -230,8 +260,7 @@ bool Race::read(StateReader& in, std::span<const state::LouseId> ids) {
   const std::size_t gates = mode_.gates.size();
   const std::size_t count = in.get_count(4 + 1 + 1 + 4 + 5 * 8 + 4 * 8 + gates * 16);
   for (std::size_t k = 0; k < count; ++k) {
-    Player player;
-    player.id = in.get<std::uint32_t>();
+    Player player = new_player(in.get<std::uint32_t>());
     player.next = in.get<std::uint8_t>();
     const auto flags = in.get<std::uint8_t>();
     player.is_running = flags & 1u;
@@ -255,7 +284,7 @@ bool Race::read(StateReader& in, std::span<const state::LouseId> ids) {
     if (k >= ids.size() || player.id != ids[k] || flags >= 32 || player.next >= gates ||
         player.lap >= mode_.laps || !stands_on_map || !is_slow)
       return false;
-    players_.add(player);
+    players_.add(std::move(player));
   }
   return count == ids.size();
 }

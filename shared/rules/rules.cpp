@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -58,16 +60,10 @@ void Rules::respawn_at_gate(state::LouseId louse) {
   note_change();
 }
 
-void Rules::before_step(const physics::World& world) {
-  starts_.clear();
-  for (const state::Louse& louse : world.lice())
-    starts_.push_back({louse.position, louse.velocity, louse.phase == state::Phase::kFlying});
-}
-
 void Rules::after_step(physics::World& world, std::uint64_t tick, std::uint64_t hash) {
-  assert(starts_.size() == world.lice().size());
+  assert(world.events().size() == world.lice().size());
   events_.clear();
-  Step step{world, starts_, tick, hash};
+  Step step{world, tick, hash};
   if (round_.phase != Phase::kGather) judge(step);
   move_clock(step);
   std::stable_sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) {

@@ -62,7 +62,7 @@ struct ShownHill {
   friend bool operator==(const ShownHill&, const ShownHill&) = default;
 };
 
-/// A louse at the start of a step.
+/// A louse at the start of a step, or where it is to go on.
 struct Start {
   core::Vec2 position, velocity;
   bool is_flying = false;
@@ -94,7 +94,8 @@ class Rules {
 
   // The step.
 
-  void before_step(const physics::World& world);
+  /// Keeps what the mode will judge by of the step's start.
+  virtual void before_step(const physics::World&) {}
   /// Judges the step from `tick`, which the world has made. `hash`: of the match at that tick, what draws are
   /// made from. REQUIRES that lice are neither more nor fewer than before the step.
   void after_step(physics::World& world, std::uint64_t tick, std::uint64_t hash);
@@ -128,9 +129,8 @@ class Rules {
   /// What a mode judges a step by.
   struct Step {
     physics::World& world;
-    std::span<const Start> starts;  ///< of world.lice(), one each
-    std::uint64_t tick;             ///< the step's: it led to tick + 1
-    std::uint64_t hash;             ///< of the match at `tick`
+    std::uint64_t tick;  ///< the step's: it led to tick + 1
+    std::uint64_t hash;  ///< of the match at `tick`
   };
 
   // A mode's own. What changes its state says so: note_change().
@@ -175,7 +175,6 @@ class Rules {
   std::vector<state::LouseId> ids_;  ///< who plays, ascending
   bool is_round_won_ = false;
   bool has_changed_ = false;
-  std::vector<Start> starts_;
   std::vector<Event> events_;
   StateWriter bytes_;
   std::uint64_t hash_ = 0;

@@ -127,3 +127,20 @@ TEST_CASE("a gate near a seam is seen from the other side of it") {
   CHECK_FALSE(none.wraps());
   CHECK(none.nearest({1, 1}, {39, 29}) == Vec2{39, 29});
 }
+
+TEST_CASE("who stays within the margin sees the same image, and steps over no seam") {
+  CHECK(std::isinf(Images({0.0, 0.0}).margin2({1, 1}, {39, 29})));
+  const Images images({40.0, 30.0});
+  core::Random random(5);
+  const auto place = [&] { return Vec2{40.0 * random.uniform(), 30.0 * random.uniform()}; };
+  int within = 0;
+  for (int round = 0; round < 20'000; ++round) {
+    const Vec2 from = place(), gate = place(), near = place(), next = place();
+    const double margin2 = images.margin2(from, images.nearest(from, gate));
+    if (std::max(dot(near - from, near - from), dot(next - from, next - from)) >= margin2) continue;
+    ++within;
+    REQUIRE(images.shift(near, gate) == images.shift(from, gate));
+    REQUIRE(images.nearest(near, next) == next);
+  }
+  CHECK(within > 100);
+}
