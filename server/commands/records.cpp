@@ -14,8 +14,8 @@
 #include "server/records/board_file.h"
 #include "server/records/board_rows.h"
 #include "server/records/course.h"
+#include "server/records/ghost_line.h"
 #include "shared/core/printable.h"
-#include "shared/core/whole_file.h"
 #include "shared/map/map_file.h"
 #include "shared/map/map_search_file.h"
 #include "shared/match/ghost.h"
@@ -27,8 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using MapPointer = std::shared_ptr<const map::Map>;
-
-constexpr std::size_t kMaxGhostBytes = 4u << 20;
 
 int told_error(const core::Error& error, std::ostream& out) {
   out << error.text() << '\n';
@@ -143,12 +141,6 @@ int prune(const fs::path& file, std::size_t keep, std::ostream& out) {
   out << fmt::format("{}: {} of {} runs kept, {} bytes of {}\n", core::printable(file.string()), lines.size(),
                      opened->board.rows.size(), opened->file->size(), before);
   return 0;
-}
-
-core::Expected<protocol::GhostLine> read_ghost_file(const fs::path& file) {
-  const auto text = core::read_whole_file(file, kMaxGhostBytes);
-  if (!text) return tl::unexpected(text.error());
-  return read_ghost_line(*text, file.string());
 }
 
 int add(const RecordsRequest& request, std::ostream& out) {

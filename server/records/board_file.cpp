@@ -11,10 +11,10 @@
 #include <system_error>
 #include <utility>
 
+#include "server/records/ghost_line.h"
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
 #include "shared/core/whole_file.h"
-#include "shared/protocol/codec.h"
 
 namespace woodlouse::server {
 namespace {
@@ -75,25 +75,6 @@ core::Expected<ReadBoard> read_lines(const std::string& text, const std::string&
 }
 
 }  // namespace
-
-match::RunTimes times_of(const protocol::GhostLine& ghost) {
-  match::RunTimes times;
-  times.gates.push_back(ghost.start);
-  for (const std::uint64_t split : ghost.run.splits) times.gates.push_back(ghost.start + split);
-  return times;
-}
-
-core::Expected<protocol::GhostLine> read_ghost_line(std::string_view line, const std::string& place) {
-  while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.remove_suffix(1);
-  auto message = protocol::decode_server(line, {}, protocol::Format::kQuantized);
-  if (!message) return core::fail(place, message.error().text);
-  auto* ghost = std::get_if<protocol::GhostLine>(&*message);
-  if (ghost == nullptr) return core::fail(place, "is no ghost", "one begins with {\"type\":\"ghost\",");
-  if (ghost->run.splits.empty() || ghost->run.splits.back() != ghost->run.time)
-    return core::fail(place, "its time is not its last split");
-  if (ghost->run.role == state::Role::kSpectator) return core::fail(place, "a spectator drives nothing");
-  return std::move(*ghost);
-}
 
 fs::path board_file_name(std::uint64_t key) { return core::to_hex(key) + ".ndjson"; }
 

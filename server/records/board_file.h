@@ -13,7 +13,6 @@
 
 #include "server/records/course.h"
 #include "shared/core/error.h"
-#include "shared/match/ghost.h"
 #include "shared/protocol/records.h"
 
 namespace woodlouse::server {
@@ -32,11 +31,6 @@ struct ReadBoard {
   std::size_t bytes = 0;            ///< of whole lines
   std::size_t torn = 0;             ///< of a last line that has no end
 };
-
-/// The row's run, as match/ghost.h has it.
-match::RunTimes times_of(const protocol::GhostLine& ghost);
-/// A ghost's line, or why it is none; where = `place`.
-core::Expected<protocol::GhostLine> read_ghost_line(std::string_view line, const std::string& place);
 
 /// "00f31d1e9c0a8b77.ndjson"
 std::filesystem::path board_file_name(std::uint64_t key);

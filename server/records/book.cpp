@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "server/records/ghost_line.h"
 #include "shared/core/joined.h"
 #include "shared/core/printable.h"
 #include "shared/match/ghost.h"
@@ -122,18 +123,12 @@ void Board::Book::take(const LiveRun& run) {
     return say(spdlog::level::err,
                core::joined({"RECORD REFUSED: ", whose, ": ", why, ": the game and its re-run differ"}));
   }
-  protocol::GhostLine line;
-  line.run.board = run.role == state::Role::kBot ? protocol::Board::kBots : protocol::Board::kPeople;
-  line.run.name = run.name;
-  line.run.role = run.role;
-  line.run.time = driven.time;
-  line.run.when = run.when;
-  line.start = driven.times.gates.front();
-  for (std::size_t k = 1; k < driven.times.gates.size(); ++k)
-    line.run.splits.push_back(driven.times.gates[k] - line.start);
-  line.behavior = match::kBehavior;
-  line.tick_hz = tick_hz_;
-  line.ghost = driven.ghost;
+  protocol::RecordRun row;
+  row.board = run.role == state::Role::kBot ? protocol::Board::kBots : protocol::Board::kPeople;
+  row.name = run.name;
+  row.role = run.role;
+  row.when = run.when;
+  const protocol::GhostLine line = line_of(driven, tick_hz_, std::move(row));
   const Line text(protocol::encode(line));
   const std::uint32_t rank = rows_.take({line.run, text});
   if (rank == 0) return;

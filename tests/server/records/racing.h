@@ -15,6 +15,7 @@
 
 #include "server/records/board.h"
 #include "server/records/board_file.h"
+#include "server/records/ghost_line.h"
 #include "shared/map/map_text.h"
 #include "shared/match/ghost_tracks.h"
 #include "shared/protocol/codec.h"
@@ -53,14 +54,7 @@ inline match::DrivenRun ring_run(const std::shared_ptr<const map::Map>& map, dou
 
 inline protocol::GhostLine ghost_line(const match::DrivenRun& run, const std::string& name,
                                       protocol::Board board = protocol::Board::kPeople) {
-  protocol::GhostLine line;
-  line.run = {board, name, state::Role::kPlayer, run.time, {}, 1'767'225'600};
-  line.start = run.times.gates[0];
-  for (std::size_t k = 1; k < run.times.gates.size(); ++k)
-    line.run.splits.push_back(run.times.gates[k] - line.start);
-  line.behavior = match::kBehavior;
-  line.ghost = run.ghost;
-  return line;
+  return line_of(run, 60, {board, name, state::Role::kPlayer, 0, {}, 1'767'225'600});
 }
 
 struct BoardsFolder {
