@@ -2,14 +2,19 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cinttypes>
 #include <cstdio>
+#include <fstream>
 #include <string>
 #include <vector>
 
 #include "bench/option_failure.h"
 #include "bench/rounds/season.h"
+#include "server/records/ghost_line.h"
+#include "shared/core/printable.h"
 #include "shared/map/map_file.h"
 #include "shared/map/map_search_file.h"
+#include "shared/protocol/codec.h"
 
 namespace {
 
@@ -17,12 +22,36 @@ using namespace woodlouse;
 
 struct Options {
   std::vector<std::string> maps;
-  std::string mode = "race", skill = "fair";
+  std::string mode = "race", skill = "fair", ghost;
   std::uint32_t bots = 8, rounds = 0, tick_hz = 60;
-  double minutes = 60.0;
+  double minutes = 60.0, hopeless = bench::SeasonSettings().hopeless_behind;
   std::uint64_t seed = 1;
   bool blind = false, shows_rounds = false;
 };
+
+/// The season's best run into the file. It has no date: the same command writes the same bytes.
+int write_ghost(const bench::Season& season, const Options& options) {
+  const std::string file = core::printable(options.ghost);
+  const auto& best = season.best_run();
+  if (!best) {
+    std::fprintf(stderr, "%s: nothing is written: no run from rest came to its end; play more of them\n",
+                 file.c_str());
+    return 1;
+  }
+  const protocol::RecordRun run{protocol::Board::kBots, best->name, state::Role::kBot, 0, {}, 0};
+  std::ofstream out(options.ghost, std::ios::binary);
+  out << protocol::encode(server::line_of(best->driven, options.tick_hz, run)) << std::flush;
+  if (!out) {
+    std::fprintf(stderr, "%s: can't be written\n", file.c_str());
+    return 1;
+  }
+  const double seconds = static_cast<double>(best->driven.time) / rules::kMomentsPerTick / options.tick_hz;
+  std::printf("  %s: %s, %.6f s, done after %.1f s of the game: author_ms %" PRIu64 "\n", file.c_str(),
+              best->name.c_str(), seconds,
+              static_cast<double>(best->driven.ended) / rules::kMomentsPerTick / options.tick_hz,
+              server::whole_milliseconds(best->driven.time, options.tick_hz));
+  return 0;
+}
 
 int play(const std::string& word, const Options& options) {
   const auto file = map::find_map(word);
@@ -38,6 +67,8 @@ int play(const std::string& word, const Options& options) {
   settings.skill = *server::bots::skill_from_text(options.skill);
   if (options.blind) settings.blind = {bench::BlindKind::kSpace, bench::BlindKind::kSpaceAndA};
   settings.rounds = options.rounds;
+  settings.wants_ghost = !options.ghost.empty();
+  settings.hopeless_behind = options.hopeless;
   if (options.rounds == 0)
     settings.ticks = static_cast<std::uint64_t>(options.minutes * 60.0 * options.tick_hz);
   bench::Season season(*map, settings);
@@ -66,8 +97,10 @@ int play(const std::string& word, const Options& options) {
                 one.best_from_rest_s, std::uintmax_t{one.respawns}, std::uintmax_t{one.stuck});
     stuck += louse <= options.bots ? one.stuck : 0;
   }
-  std::printf("  stuck bots: %ju\n\n", std::uintmax_t{stuck});
-  return 0;
+  std::printf("  stuck bots: %ju\n", std::uintmax_t{stuck});
+  const int exit_code = options.ghost.empty() ? 0 : write_ghost(season, options);
+  std::printf("\n");
+  return exit_code;
 }
 
 }  // namespace
@@ -92,9 +125,22 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.seed)->capture_default_str();
   app.add_flag("--blind", options.blind,
                "two more players, who look at nothing: Space; Space, and A once a second");
+  app.add_option("--ghost", options.ghost,
+                 "of one map's race: a file, into which the best run goes that began at rest and is the same "
+                 "re-run alone, as woodlouse-server records add takes it; each run begins anew at a spawn");
+  app.add_option(
+         "--hopeless", options.hopeless,
+         "with --ghost: seconds behind the best run at a gate, from which on one is given up; few where "
+         "runs differ much")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
   app.add_flag("--each", options.shows_rounds, "print each round");
   app.failure_message(bench::option_failure);
   CLI11_PARSE(app, argc, argv);
+  if (!options.ghost.empty() && (options.maps.size() != 1 || options.mode != "race")) {
+    std::fputs("--ghost: is of one map's race\n", stderr);
+    return 2;
+  }
   int exit_code = 0;
   for (const std::string& map : options.maps) exit_code = std::max(exit_code, play(map, options));
   return exit_code;

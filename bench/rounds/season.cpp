@@ -9,8 +9,11 @@ using rules::EventKind;
 
 Season::Season(std::shared_ptr<const map::Map> map, SeasonSettings settings)
     : settings_(std::move(settings)),
-      game_(map, settings_.match),
-      team_(*map, settings_.match, settings_.skill, settings_.bots) {
+      map_(std::move(map)),
+      game_(map_, settings_.match),
+      team_(*map_, settings_.match, settings_.skill, settings_.bots),
+      tracks_(settings_.match.tick_hz) {
+  assert(!settings_.wants_ghost || settings_.match.mode == state::Mode::kRace);
   for (std::uint32_t number = 0; number < settings_.bots; ++number) {
     const std::string name = server::bots::player_name(settings_.match.mode, number);
     const match::PlayerId louse = game_.join({name, state::Role::kBot});
@@ -32,7 +35,11 @@ void Season::play() {
          (settings_.rounds == 0 || results_.size() < settings_.rounds)) {
     team_.steer(game_);
     for (BlindPlayer& player : blind_) player.steer(game_);
-    note(game_.advance());
+    const match::StepRecord& step = game_.advance();
+    note(step);
+    if (!settings_.wants_ghost) continue;
+    keep_best(step);
+    send_to_spawns(step);
   }
 }
 
@@ -87,6 +94,46 @@ void Season::note_stuck(std::uint64_t tick) {
     if (tick < record.since + kStuckAfter * settings_.match.tick_hz) continue;
     ++record.stuck;
     record.since = tick;
+  }
+}
+
+bool Season::is_hopeless(const rules::Event& gate) {
+  assert(gate.kind == EventKind::kGate);
+  const auto number = static_cast<std::uint64_t>(gate.values[0]);
+  const auto lap = static_cast<std::uint64_t>(gate.values[1]);
+  rules::Moment& start = records_[gate.louse].run_start;
+  const bool starts_clock = number == 0 && gate.values[2] == 0;
+  if (starts_clock) start = gate.moment;
+  if (starts_clock || !best_run_) return false;
+  const std::vector<rules::Moment>& best = best_run_->driven.times.gates;
+  const std::uint64_t of_lap = map_->definition.modes.race->gates.size();
+  const std::uint64_t index = lap * of_lap + (number == 0 ? of_lap : number);  // the first ends the lap
+  assert(index < best.size());
+  const auto slack = static_cast<rules::Moment>(settings_.hopeless_behind * settings_.match.tick_hz *
+                                                rules::kMomentsPerTick);
+  return gate.moment - start > best[index] - best.front() + slack;
+}
+
+/// Who is done begins anew, or can't be the best any more; and all do with a round: lice drive on between
+/// rounds, and what they drive then did not begin at rest.
+void Season::send_to_spawns(const match::StepRecord& step) {
+  for (const rules::Event& event : step.events) {
+    if (event.kind == EventKind::kRun || (event.kind == EventKind::kGate && is_hopeless(event)))
+      game_.respawn(event.louse);
+    const bool is_begun =
+        event.kind == EventKind::kRound && event.values[1] == static_cast<std::int64_t>(rules::Phase::kPlay);
+    if (!is_begun) continue;
+    for (const auto& [louse, record] : records_) game_.respawn(louse);
+  }
+}
+
+/// One that began before its round did counts gates otherwise: the re-run tells.
+void Season::keep_best(const match::StepRecord& step) {
+  for (match::DrivenRun& driven : tracks_.take(step)) {
+    const bool is_better = !best_run_ || driven.time < best_run_->driven.time;
+    if (!driven.is_kept || !is_better) continue;
+    if (!match::why_not_proven(*map_, settings_.match.tick_hz, driven.ghost, driven.times).empty()) continue;
+    best_run_ = {records_[driven.player].name, std::move(driven)};
   }
 }
 
