@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "shared/rules/climb.h"
+
 namespace woodlouse::server::bots {
 namespace {
 
@@ -24,42 +26,13 @@ constexpr double kAcross = 0.7;
 
 }  // namespace
 
-double climbable_slope(const state::Parameters& physics) {
-  constexpr double kEverything = 100.0;
-  if (!(physics.gravity > 0.0)) return kEverything;
-  // g (s + mu) = T sqrt(1 + s^2), by bisection.
-  double low = 0.0, high = kEverything;
-  const auto climbs = [&](double slope) {
-    return physics.gravity * (slope + physics.friction) <=
-           physics.thrust_max * std::sqrt(1.0 + slope * slope);
-  };
-  if (climbs(high)) return kEverything;
-  for (int k = 0; k < 40; ++k) {
-    const double middle = 0.5 * (low + high);
-    (climbs(middle) ? low : high) = middle;
-  }
-  return low;
-}
-
 Effort::Effort(const map::Map& map, double power) : map_(&map), images_(rules::images_of(*map_)) {
   const state::Parameters& physics = map_->definition.physics;
-  climbable_ = climbable_slope(physics);
+  climbable_ = rules::climbable_slope(physics);
   thrust_ = std::max(0.05, power * physics.thrust_max - physics.friction * physics.gravity);
 }
 
-terrain::SurfaceSample Effort::ground(Vec2 place) const {
-  const terrain::Rectangle& domain = map_->terrain->domain();
-  const auto inside = [this](double x, double low, double high) {
-    if (images_.wraps()) {
-      const double period = high - low;
-      x -= period * std::floor((x - low) / period);
-      return x < high ? x : low;
-    }
-    return std::clamp(x, low, high);
-  };
-  return map_->terrain->sample(inside(place.x, domain.x_min, domain.x_max),
-                               inside(place.y, domain.y_min, domain.y_max));
-}
+terrain::SurfaceSample Effort::ground(Vec2 place) const { return rules::ground_at(*map_, images_, place); }
 
 /// Straight from one place to another, from that speed ahead on.
 Effort::Leg Effort::leg(Vec2 from, double speed_ahead, Vec2 to, bool flies) const {

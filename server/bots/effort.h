@@ -11,9 +11,6 @@
 
 namespace woodlouse::server::bots {
 
-/// The slope that a thrust climbs from rest, friction and all [1]; a large one where it climbs everything.
-double climbable_slope(const state::Parameters& physics);
-
 class Effort {
  public:
   /// map: outlives it. power: of 1, what is pushed with at most.
@@ -27,7 +24,7 @@ class Effort {
   [[nodiscard]] terrain::SurfaceSample ground(core::Vec2 place) const;
   /// What is left of it beside friction on level ground [m/s^2].
   [[nodiscard]] double thrust() const { return thrust_; }
-  /// climbable_slope() of the map.
+  /// rules::climbable_slope() of the map.
   [[nodiscard]] double climbable() const { return climbable_; }
   [[nodiscard]] const rules::Images& images() const { return images_; }
   [[nodiscard]] const map::Map& map() const { return *map_; }

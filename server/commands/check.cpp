@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ostream>
 #include <string>
@@ -9,6 +10,7 @@
 #include "shared/core/printable.h"
 #include "shared/map/map_file.h"
 #include "shared/physics/central_gravity.h"
+#include "shared/rules/climb.h"
 
 namespace woodlouse::server {
 namespace {
@@ -26,6 +28,24 @@ std::string remark_on(const state::Parameters& physics) {
       physics.core_radius, std::ceil(rate), usual);
 }
 
+/// Thrust that no gate asks to be saved up is held down by whoever plays. A gate in the air wants speed on
+/// any slope, and a pull that is not downwards knows no slopes.
+std::string remark_on_run_ups(const map::Map& map) {
+  const auto& gates = map.definition.modes.race->gates;
+  const bool flies =
+      std::any_of(gates.begin(), gates.end(), [](const map::Gate& gate) { return gate.in_air; });
+  if (flies || map.definition.physics.central_gravity > 0.0 || rules::length_of_run_ups(map) > 0.0) return {};
+  return "race: full thrust climbs every stretch from rest: no gate wants a run-up";
+}
+
+/// What is to be said of a map that is fine.
+std::vector<std::string> remarks_on(const map::Map& map) {
+  std::vector<std::string> remarks = {remark_on(map.definition.physics)};
+  if (map.definition.modes.race) remarks.push_back(remark_on_run_ups(map));
+  remarks.erase(std::remove(remarks.begin(), remarks.end(), std::string()), remarks.end());
+  return remarks;
+}
+
 }  // namespace
 
 int check_command(const std::vector<std::filesystem::path>& maps, std::ostream& out) {
@@ -39,8 +59,7 @@ int check_command(const std::vector<std::filesystem::path>& maps, std::ostream& 
     }
     const std::string name = core::printable(file.string());
     out << name << ": ok\n";
-    const std::string remark = remark_on((*map)->definition.physics);
-    if (!remark.empty()) out << name << ": note: " << remark << '\n';
+    for (const std::string& remark : remarks_on(**map)) out << name << ": note: " << remark << '\n';
   }
   return exit_code;
 }

@@ -22,15 +22,6 @@ state::Louse louse_at(core::Vec2 position, core::Vec2 velocity = {}) {
 
 }  // namespace
 
-TEST_CASE("the slope that a thrust climbs is that of the maps' description") {
-  state::Parameters physics;
-  CHECK(climbable_slope(physics) == Approx(0.39).margin(0.005));
-  physics.thrust_max = 6.0;
-  CHECK(climbable_slope(physics) == Approx(0.69).margin(0.005));
-  physics.gravity = 4.0;
-  CHECK(climbable_slope(physics) >= 100.0);
-}
-
 TEST_CASE("on level ground the guess is the time that full thrust takes") {
   const auto map = tests::shipped_map("arena");
   const Effort effort(*map, 1.0);

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "server/bots/effort.h"
+#include "server/bots/goal.h"
+#include "shared/rules/climb.h"
 #include "tests/tracks/game.h"
 
 namespace woodlouse {
@@ -24,26 +25,6 @@ std::vector<std::string> maps_with(state::Mode mode) {
   }
   std::sort(names.begin(), names.end());
   return names;
-}
-
-/// How far the straight lines between the gates' middles climb more than full thrust does from rest [m].
-double too_steep(const map::Map& map) {
-  const server::bots::Effort effort(map, 1.0);
-  const double climbable = server::bots::climbable_slope(map.definition.physics);
-  const auto& gates = map.definition.modes.race->gates;
-  double length = 0.0;
-  for (std::size_t k = 0; k < gates.size(); ++k) {
-    const map::Gate& next = gates[(k + 1) % gates.size()];
-    const core::Vec2 from = 0.5 * (gates[k].a + gates[k].b);
-    const core::Vec2 to = effort.images().nearest(from, 0.5 * (next.a + next.b));
-    const core::Vec2 ahead = server::bots::direction(to - from);
-    constexpr double kStep = 0.25;
-    for (double s = 0.0; s < server::bots::length(to - from); s += kStep) {
-      const auto ground = effort.ground(from + s * ahead);
-      if (ground.zx * ahead.x + ground.zy * ahead.y > climbable) length += kStep;
-    }
-  }
-  return length;
 }
 
 }  // namespace
@@ -68,7 +49,7 @@ TEST_CASE("five races, three forages and two hills are shipped, and nothing is w
 TEST_CASE("every race has a stretch that full thrust does not climb from rest") {
   for (const std::string& name : maps_with(state::Mode::kRace)) {
     INFO(name);
-    CHECK(too_steep(*tests::shipped_map(name)) >= 1.0);
+    CHECK(rules::length_of_run_ups(*tests::shipped_map(name)) >= 1.0);
   }
 }
 
