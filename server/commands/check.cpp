@@ -6,7 +6,9 @@
 #include <cmath>
 #include <ostream>
 #include <string>
+#include <utility>
 
+#include "server/commands/author_time.h"
 #include "shared/core/printable.h"
 #include "shared/map/map_file.h"
 #include "shared/physics/central_gravity.h"
@@ -38,10 +40,15 @@ std::string remark_on_run_ups(const map::Map& map) {
   return "race: full thrust climbs every stretch from rest: no gate wants a run-up";
 }
 
-/// What is to be said of a map that is fine.
-std::vector<std::string> remarks_on(const map::Map& map) {
+/// What is to be said of a map that can be read; an error: that it is not fine all the same.
+core::Expected<std::vector<std::string>> remarks_on(const map::Map& map, const std::filesystem::path& file) {
   std::vector<std::string> remarks = {remark_on(map.definition.physics)};
-  if (map.definition.modes.race) remarks.push_back(remark_on_run_ups(map));
+  if (map.definition.modes.race) {
+    remarks.push_back(remark_on_run_ups(map));
+    auto author_time = judge_author_time(map, file);
+    if (!author_time) return tl::unexpected(std::move(author_time.error()));
+    remarks.push_back(std::move(*author_time));
+  }
   remarks.erase(std::remove(remarks.begin(), remarks.end(), std::string()), remarks.end());
   return remarks;
 }
@@ -57,9 +64,15 @@ int check_command(const std::vector<std::filesystem::path>& maps, std::ostream& 
       exit_code = 1;
       continue;
     }
+    const auto remarks = remarks_on(**map, file);
+    if (!remarks) {
+      out << remarks.error().text() << '\n';
+      exit_code = 1;
+      continue;
+    }
     const std::string name = core::printable(file.string());
     out << name << ": ok\n";
-    for (const std::string& remark : remarks_on(**map)) out << name << ": note: " << remark << '\n';
+    for (const std::string& remark : *remarks) out << name << ": note: " << remark << '\n';
   }
   return exit_code;
 }

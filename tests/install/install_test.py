@@ -31,6 +31,7 @@ class Installed(unittest.TestCase):
     def test_everything_is_where_a_packager_looks(self):
         for path in ("bin/woodlouse", "bin/woodlouse-server", "bin/woodlouse-swarm", "bin/woodlouse-scenario",
                      "share/woodlouse/maps/volcano.json", "share/woodlouse/maps/maunga_whau.asc",
+                     "share/woodlouse/maps/ghosts/crater_loop.json",
                      "share/woodlouse/python/woodlouse.py", "share/doc/woodlouse/README.md",
                      "share/doc/woodlouse/docs/protocol.md", "include/woodlouse/shared/replay/verify.h",
                      "include/woodlouse/bots/cpp/line_client.h"):
@@ -70,6 +71,12 @@ with woodlouse.connect({address!r}, name="stranger") as game:
         game = pathlib.Path(self.folder.name, "game.hoffmann_2002.ndjson")
         verdict = run(self.prefix / "bin" / "woodlouse-server", "verify", "--from-start", "--complete", game)
         self.assertEqual((verdict.returncode, verdict.stdout[:11]), (0, "ok ticks 0 "), verdict.stdout)
+
+    def test_the_time_to_beat_of_an_installed_race_is_proved_where_it_lies(self):
+        track = self.prefix / "share/woodlouse/maps/crater_loop.json"
+        checked = run(self.prefix / "bin" / "woodlouse-server", "check", track)
+        self.assertEqual((checked.returncode, checked.stderr), (0, ""))
+        self.assertIn("race.author_ms: proved by ghosts/crater_loop.json", checked.stdout)
 
     def test_a_strangers_project_builds_proves_a_recording_and_runs_its_scenarios(self):
         for with_bot in ("OFF", "ON"):

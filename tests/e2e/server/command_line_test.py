@@ -32,7 +32,18 @@ class CommandLine(unittest.TestCase):
         self.assertGreaterEqual(len(files), 5)
         code, printed, errors = run("check", *files)
         self.assertEqual((code, errors), (0, ""))
-        self.assertEqual(printed.splitlines(), [file + ": ok" for file in files])
+        wanted = []
+        for file in files:
+            wanted.append(file + ": ok")
+            with open(file) as opened:
+                author_ms = json.load(opened).get("race", {}).get("author_ms")
+            if author_ms:
+                ghost = "ghosts/" + os.path.basename(file)
+                with open(os.path.join(MAPS, ghost)) as opened:
+                    name = json.load(opened)["name"]
+                wanted.append(f'{file}: note: race.author_ms: proved by {ghost} ("{name}", {author_ms / 1000:.3f} s)')
+        self.assertEqual(printed.splitlines(), wanted)
+        self.assertEqual(len(wanted) - len(files), 5)
 
     def test_check_notes_from_which_rate_a_small_core_is_resolved(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -65,6 +65,21 @@ class OutsideText(unittest.TestCase):
             self.assertEqual(code, 0)
             self.assert_text(printed, 1)
 
+    def test_ghosts_beside_maps(self):
+        os.mkdir(self.path("ghosts"))
+        race = '{"gates":[{"a":[-4,4],"b":[-4,-4]},{"a":[4,4],"b":[4,-4]}],"spawns":[{"position":[-7,0]}],"author_ms":9000}'
+        for nasty in NASTY:
+            file = self.write(f"m{nasty}.json", f'{{"name":"m","terrain":{{"function":"hills"}},"race":{race}}}')
+            code, printed = run(PROGRAM, "check", file)
+            self.assertEqual(code, 0)
+            self.assert_text(printed)
+            self.assertIn(b"nothing proves it", printed)
+            ghost = {"type": "ghost", "board": "bots", "name": nasty, "role": "bot", "time": 1, "splits": [1], "when": 0, "start": 0,
+                     "behavior": 0, "tick_hz": 60, "spawn": 0, "ticks": 0, "inputs": []}
+            for text in (json.dumps(ghost), json.dumps({**ghost, nasty: 1}), json.dumps({**ghost, "board": nasty}), nasty):
+                self.write(os.path.join("ghosts", f"m{nasty}.json"), text)
+                self.assert_text(run(PROGRAM, "check", file)[1])
+
     def test_grids(self):
         for nasty in NASTY:
             whole = self.write("m.json", '{"name":"m","terrain":{"file":"g.asc"}}')

@@ -171,6 +171,50 @@ class Records(unittest.TestCase):
             code, told, _ = run("records", "add", self.folder, handed, "--map", self.map)
             self.assertEqual(code, 1)
 
+    def test_a_ghost_beside_a_map_proves_its_author_s_time_or_is_an_error(self):
+        ghost = self.one_record()
+        author_ms = -(-ghost["time"] * 1000 // (65536 * 60))
+        beside = os.path.join(self.temporary.name, "ghosts", "ring.json")
+
+        def check(author_ms=author_ms):
+            with open(self.map, "w") as file:
+                json.dump({**RING, "race": {**RING["race"], "author_ms": author_ms}}, file)
+            code, told, errors = run("check", self.map)
+            self.assertEqual(errors, "")
+            return code, told
+
+        def lay(text):
+            with open(beside, "w") as file:
+                file.write(text)
+
+        level = f"{self.map}: ok\n{self.map}: note: race: full thrust climbs every stretch from rest: no gate wants a run-up\n"
+        note = f"{self.map}: note: race.author_ms: "
+        self.assertEqual(check(), (0, f"{level}{note}nothing proves it: there is no ghosts/ring.json beside the map\n"))
+        self.assertEqual(check(0), (0, level))
+        os.mkdir(os.path.dirname(beside))
+        lay(json.dumps(ghost))
+        self.assertEqual(check(), (0, f'{level}{note}proved by ghosts/ring.json ("mara", {author_ms / 1000:.3f} s)\n'))
+        self.assertEqual(check(author_ms + 1), (1, f"{self.map}: race.author_ms: is {author_ms + 1}, but ghosts/ring.json proves "
+                                                   f"{author_ms} (make it {author_ms}, or take the ghost away)\n"))
+        lay(json.dumps({**ghost, "behavior": ghost["behavior"] - 1}))
+        self.assertEqual(check(), (0, f"{level}{note}ghosts/ring.json is of behavior {ghost['behavior'] - 1}, can't be re-run here\n"))
+        (at, kind, push, *others), *rest = ghost["inputs"]
+        lay(json.dumps({**ghost, "inputs": [[at, kind, push - 1 / 128, *others], *rest]}))
+        code, told = check()
+        self.assertEqual(code, 1)
+        self.assertIn(f"{beside}: does not prove the map's race.author_ms: gate 0, where the clock starts, is said", told)
+        for text in ("", "{}", json.dumps(ghost) + " " * (5 << 20)):
+            lay(text)
+            code, told = check()
+            self.assertEqual((code, told[:len(beside)]), (1, beside))
+        os.remove(beside)
+        os.mkfifo(beside)
+        code, told = check()
+        self.assertEqual((code, told[:len(beside)]), (1, beside))
+        os.remove(beside)
+        os.symlink(os.path.join(self.folder, os.listdir(self.folder)[0]), beside)
+        self.assertEqual(check()[0], 1)
+
     def test_a_board_of_another_behavior_stays_readable(self):
         self.one_record()
         header, row = self.lines()

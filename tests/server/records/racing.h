@@ -25,16 +25,18 @@ namespace woodlouse::server::test {
 namespace fs = std::filesystem;
 
 /// Level ground that wraps, without friction.
-inline std::shared_ptr<const map::Map> ring_map(const std::string& laps = R"("laps":1)",
-                                                const std::string& name = "ring") {
+inline std::string ring_text(const std::string& laps, const std::string& name = "ring") {
   std::string heights;
   for (int row = 0; row < 5; ++row) heights += std::string(row ? "," : "") + "[0,0,0,0,0,0,0,0,0]";
-  const auto map = map::parse_map(
-      R"({"name":")" + name + R"(","terrain":{"spacing":5,"heights":[)" + heights +
-          R"(]},"edges":"wrap","physics":{"drag":0,"friction":0,"thrust_max":20},)"
-          R"("spawns":[{"position":[-16,1]}],"race":{"gates":[{"a":[-15,4],"b":[-15,-4]},{"a":[0,4],"b":[0,-4]}],)" +
-          laps + "}}",
-      "ring", {});
+  return R"({"name":")" + name + R"(","terrain":{"spacing":5,"heights":[)" + heights +
+         R"(]},"edges":"wrap","physics":{"drag":0,"friction":0,"thrust_max":20},)"
+         R"("spawns":[{"position":[-16,1]}],"race":{"gates":[{"a":[-15,4],"b":[-15,-4]},{"a":[0,4],"b":[0,-4]}],)" +
+         laps + "}}";
+}
+
+inline std::shared_ptr<const map::Map> ring_map(const std::string& laps = R"("laps":1)",
+                                                const std::string& name = "ring") {
+  const auto map = map::parse_map(ring_text(laps, name), "ring", {});
   if (!map) FAIL(map.error().text());
   return *map;
 }
