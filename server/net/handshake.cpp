@@ -81,7 +81,8 @@ protocol::Hello hello_of(std::uint64_t session, std::string_view server, std::ve
   hello.server = server;
   hello.session = core::to_hex(session);
   hello.rooms = std::move(rooms);
-  hello.features = {"quantized", "exact", "fields", "delta", "get_map", "resume", "rules", "records", "rotation"};
+  hello.features = {"quantized", "exact", "fields",  "delta",   "get_map",
+                    "resume",    "rules", "records", "rotation"};
   hello.limits = limits;
   return hello;
 }

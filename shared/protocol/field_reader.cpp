@@ -87,8 +87,7 @@ void FieldReader::key_text(std::string_view name, std::string& out, std::size_t 
   const std::string wants = "a string of at most " + std::to_string(most) + " bytes";
   const auto value = field(name, wants, presence);
   if (!value) return;
-  if (value->kind() != json::Kind::kString || value->text().size() > most)
-    return refuse(name, *value, wants);
+  if (value->kind() != json::Kind::kString || value->text().size() > most) return refuse(name, *value, wants);
   out = clean_text(value->text(), most);
 }
 

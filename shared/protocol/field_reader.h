@@ -52,7 +52,8 @@ class FieldReader {
   /// Cleaned (text_cleaning.h), then of `bytes.low` bytes at least, cut to `bytes.high`.
   void cleaned_text(std::string_view name, std::string& out, ByteRange bytes,
                     Presence presence = Presence::kRequired);
-  /// Cleaned as well, but what is longer than `most` bytes is refused: a name that was cut may be another one's.
+  /// Cleaned as well, but what is longer than `most` bytes is refused: a name that was cut may be another
+  /// one's.
   void key_text(std::string_view name, std::string& out, std::size_t most,
                 Presence presence = Presence::kRequired);
   /// One of the texts that `from_text` knows; `wants` lists them.

@@ -1,137 +1,18 @@
 // A room that plays one game after the other.
-#include "server/room/rotation.h"
-
 #include <catch2/catch.hpp>
 
 #include <algorithm>
-#include <functional>
-#include <memory>
-#include <optional>
 #include <string>
-#include <utility>
+#include <variant>
 #include <vector>
 
-#include "shared/map/map_file.h"
-#include "tests/server/room/house.h"
+#include "tests/server/room/turning.h"
 
 namespace woodlouse::server::test {
-namespace {
-
-Start game_of(const std::string& map_name, state::Mode mode) {
-  const std::string file = std::string(WOODLOUSE_SOURCE_DIR "/maps/") + map_name + ".json";
-  auto map = map::load_map(file);
-  REQUIRE(map);
-  return {*map, std::make_unique<match::Match>(*map, match::MatchSettings{60, 7, mode}), file, {}, {}};
-}
-
-/// What was called, of all games; each finishes when the test says so.
-struct Seen {
-  std::vector<std::string> calls;
-  std::vector<std::function<void()>> unfinished;
-};
-
-class Witness final : public TickWatcher {
- public:
-  Witness(Seen& seen, std::string game) : seen_(seen), game_(std::move(game)) {}
-  void attach(Announce announce) override { announce_ = std::move(announce); }
-  void begin(const match::Match& game) override {
-    CHECK(game.tick() == 0);
-    CHECK(game.world().lice().empty());  // what a recording begins with has nobody on the way
-    seen_.calls.push_back("begin " + game_);
-  }
-  void finish(const std::string&, std::function<void()> done) override {
-    seen_.calls.push_back("finish " + game_);
-    seen_.unfinished.push_back(std::move(done));
-    announce_({"recording_ended", "late words of " + game_});
-  }
-
- private:
-  Seen& seen_;
-  std::string game_;
-  Announce announce_;
-};
-
-/// Table's hill, then volcano without rules; a game is made when the test says so.
-class Turns final : public Rotation {
- public:
-  explicit Turns(Seen& seen) : seen_(seen) {}
-  void prepare(std::function<void(NextGame)> ready) override {
-    ++asked;
-    ready_ = std::move(ready);
-  }
-  void make() {
-    REQUIRE(ready_ != nullptr);
-    NextGame next{
-        asked % 2 == 1 ? game_of("volcano", state::Mode::kRoam) : game_of("table", state::Mode::kHill), {}};
-    next.watchers.push_back(std::make_unique<Witness>(seen_, std::to_string(asked + 1)));
-    std::exchange(ready_, nullptr)(std::move(next));
-  }
-  int asked = 0;
-
- private:
-  Seen& seen_;
-  std::function<void(NextGame)> ready_;
-};
-
-struct Turning : House {
-  explicit Turning(Seen& seen, Turns& rotation, std::uint32_t rounds = 1)
-      : House(turning(rounds), game_of("table", state::Mode::kHill), watched(seen), &rotation),
-        turns(rotation) {
-    room->start([] {});
-    tick();
-  }
-  static RoomSettings turning(std::uint32_t rounds) {
-    RoomSettings result = settings(8);
-    result.name = "rotation";
-    result.bots = 2;
-    result.rounds_a_game = rounds;
-    result.adopts_by_name = false;
-    return result;
-  }
-  static Watchers watched(Seen& seen) {
-    Watchers watchers;
-    watchers.push_back(std::make_unique<Witness>(seen, "1"));
-    return watchers;
-  }
-  void say(SessionId session, protocol::ClientMessage message) {
-    door->submit(session, std::move(message), timekeeper.now());
-    settle();
-  }
-  void push(SessionId session, std::uint32_t seq) {
-    protocol::Input input;
-    input.seq = seq;
-    input.thrust.value = {1.0, 0.0};
-    say(session, input);
-  }
-  void next_game() {
-    tick();
-    turns.make();
-    tick();
-  }
-  Turns& turns;
-};
-
-std::string code_of(const protocol::ServerMessage& message) {
-  const auto* error = std::get_if<protocol::ErrorMessage>(&message);
-  return error == nullptr ? std::string() : error->code;
-}
-
-std::optional<protocol::Ack> last_ack(const Guest& guest) {
-  for (auto at = guest.answers.rbegin(); at != guest.answers.rend(); ++at)
-    if (const auto* ack = std::get_if<protocol::Ack>(&*at)) return *ack;
-  return std::nullopt;
-}
-
-bool has(const std::vector<std::string>& lines, const std::string& part) {
-  return std::any_of(lines.begin(), lines.end(),
-                     [&part](const std::string& line) { return line.find(part) != std::string::npos; });
-}
-
-}  // namespace
 
 TEST_CASE("most of the players vote, and everybody is in the next game") {
-  Seen seen;
-  Turns turns(seen);
+  SeenGames seen;
+  HandmadeRotation turns(seen);
   Turning house(seen, turns);
   const auto ann = house.join(1, named("ann")), ben = house.join(2, named("ben"));
   const auto bot = house.join(3, named("r2", protocol::Role::kBot));
@@ -197,8 +78,8 @@ TEST_CASE("most of the players vote, and everybody is in the next game") {
 }
 
 TEST_CASE("a player's own count of inputs goes on in the next game, where he has a louse at rest") {
-  Seen seen;
-  Turns turns(seen);
+  SeenGames seen;
+  HandmadeRotation turns(seen);
   Turning house(seen, turns);
   const auto ann = house.join(1, named("ann"));
   house.push(1, 40);
@@ -221,8 +102,8 @@ TEST_CASE("a player's own count of inputs goes on in the next game, where he has
 }
 
 TEST_CASE("a game is over after its rounds, and one without rules after as much time") {
-  Seen seen;
-  Turns turns(seen);
+  SeenGames seen;
+  HandmadeRotation turns(seen);
   Turning house(seen, turns, 2);
   const auto ann = house.join(1, named("ann"));
   house.say(1, protocol::Skip{});
@@ -245,8 +126,8 @@ TEST_CASE("a game is over after its rounds, and one without rules after as much 
 }
 
 TEST_CASE("whose connection is broken when games change comes back to the louse that waits for him there") {
-  Seen seen;
-  Turns turns(seen);
+  SeenGames seen;
+  HandmadeRotation turns(seen);
   Turning house(seen, turns);
   const auto ann = house.join(1, named("ann"));
   protocol::Join wanted = named("ben");
@@ -275,39 +156,9 @@ TEST_CASE("whose connection is broken when games change comes back to the louse 
   CHECK(house.room->census().players == 1);
 }
 
-TEST_CASE("who has asked to leave is let go when games change, and who leaves counts no more") {
-  Seen seen;
-  Turns turns(seen);
-  Turning house(seen, turns);
-  const auto ann = house.join(1, named("ann")), ben = house.join(2, named("ben"));
-  const auto dan = house.join(3, named("dan"));
-  house.tick(3);
-  protocol::Input ahead;
-  ahead.seq = 1;
-  ahead.thrust.value = {1.0, 0.0};
-  ahead.tick = 60;
-  house.say(3, ahead);
-  house.say(3, protocol::Leave{});
-  house.tick();
-  CHECK(dan->times_let_go == 0);
-  house.say(1, protocol::Skip{});
-  house.say(2, protocol::Skip{});
-  house.next_game();
-  CHECK(dan->times_let_go == 1);
-  house.door->leave(3, Parting::kLeft);
-  house.settle();
-  house.say(1, protocol::Skip{});
-  house.door->leave(1, Parting::kLeft);  // his vote goes with him
-  house.tick(3);
-  CHECK(turns.asked == 1);
-  house.say(2, protocol::Skip{});
-  house.tick(2);
-  CHECK(turns.asked == 2);
-}
-
 TEST_CASE("a room stops when the watchers of all its games are done, and what stands outside stays") {
-  Seen seen;
-  Turns turns(seen);
+  SeenGames seen;
+  HandmadeRotation turns(seen);
   Turning house(seen, turns);
   const auto ann = house.join(1, named("ann"));
   house.say(1, protocol::Skip{});
@@ -328,60 +179,6 @@ TEST_CASE("a room stops when the watchers of all its games are done, and what st
   CHECK_FALSE(has_stopped);
   finish();
   CHECK(has_stopped);
-}
-
-TEST_CASE("who connects often has one vote with all of them") {
-  Seen seen;
-  Turns turns(seen);
-  Turning house(seen, turns);
-  house.address_of = [](SessionId session) { return session < 6 ? 1 : session; };
-  for (SessionId session = 1; session <= 7; ++session) house.join(session);
-  for (SessionId session = 1; session <= 5; ++session) house.say(session, protocol::Skip{});
-  house.tick(3);
-  CHECK(turns.asked == 0);
-  const auto late = house.join(8);
-  house.say(2, protocol::Skip{});
-  CHECK_FALSE(has(late->lines, R"("kind":"skip")"));  // he has voted
-  house.say(6, protocol::Skip{});
-  CHECK(has(late->lines, R"("votes":2,"needed":3)"));
-  house.tick(3);
-  CHECK(turns.asked == 0);
-  house.say(8, protocol::Skip{});
-  house.tick(2);
-  CHECK(turns.asked == 1);
-}
-
-TEST_CASE("who comes back while his old connection is open votes anew, from where he is") {
-  Seen seen;
-  Turns turns(seen);
-  Turning house(seen, turns);
-  const auto ann = house.join(1, named("ann")), dan = house.join(2, named("dan"));
-  protocol::Join wanted = named("ben");
-  wanted.may_resume = true;
-  const auto ben = house.join(3, wanted);
-  house.say(3, protocol::Skip{});
-  wanted.resume = ben->welcomes.at(0).resume_token;
-  const auto back = house.join(4, wanted);
-  REQUIRE(back->welcomes.at(0).resumed);
-  house.tick(2);
-  house.say(1, protocol::Skip{});
-  CHECK(has(dan->lines, R"("votes":1,"needed":2)"));
-  house.door->leave(3, Parting::kLost);
-  house.tick(2);
-  CHECK(turns.asked == 0);
-  house.say(4, protocol::Skip{});
-  house.tick(2);
-  CHECK(turns.asked == 1);
-  CHECK(ann->welcomes.size() == 1);
-}
-
-TEST_CASE("a room of one game alone has nothing to vote about") {
-  House house(settings(8));
-  house.room->start([] {});
-  const auto ann = house.join(1, named("ann"));
-  house.door->submit(1, protocol::Skip{}, house.timekeeper.now());
-  house.settle();
-  CHECK(code_of(ann->answers.back()) == "no_vote");
 }
 
 }  // namespace woodlouse::server::test
