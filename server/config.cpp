@@ -13,6 +13,7 @@
 #include "server/record_options.h"
 #include "server/records_options.h"
 #include "server/version.h"
+#include "server/web_options.h"
 #include "shared/core/thread_team.h"
 
 namespace woodlouse::server {
@@ -51,6 +52,7 @@ struct TypedServe {
   std::string mode = "all";
   std::string log_format = "text";
   TypedRecord record;
+  TypedWeb web;
   std::string config_file;
 };
 
@@ -97,6 +99,7 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
                  "HOST:PORT; port 0 picks a free one, printed as `listening HOST:PORT`")
       ->envname("WOODLOUSE_LISTEN")
       ->capture_default_str();
+  add_web_options(app, typed.web);
   app.add_option("--state-hz", serve.state_hz, "Frames a second; divides the tick rate")
       ->envname("WOODLOUSE_STATE_HZ")
       ->check(whole_number(1, kMaxTickHz))
@@ -237,6 +240,9 @@ core::Expected<Config> checked(CLI::App& app, TypedServe& typed) {
   auto listen = parse_listen_address(typed.listen);
   if (!listen) return tl::unexpected(listen.error());
   serve.listen = std::move(*listen);
+  auto web = checked_web(typed.web);
+  if (!web) return tl::unexpected(web.error());
+  serve.web = std::move(*web);
   auto record = checked_record(typed.record, serve.rotate ? 1 : serve.maps.size());
   if (!record) return tl::unexpected(record.error());
   serve.record = std::move(*record);

@@ -100,10 +100,8 @@ core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config, Outsi
     fork = std::move(*start);
   }
   std::unique_ptr<Server> server(new Server(config, std::move(outside), std::move(log)));
-  // The port first: a busy one must not cost somebody his recording.
-  const auto endpoint = server->acceptor_.open(config.listen);
-  if (!endpoint) return tl::unexpected(endpoint.error());
-  server->address_ = to_text(*endpoint);
+  // The ports first: a busy one must not cost somebody his recording.
+  if (const auto opened = server->open_ports(config); !opened) return tl::unexpected(opened.error());
   if (config.step_threads > 1) server->step_team_ = std::make_shared<core::ThreadTeam>(config.step_threads);
   if (config.record) server->recordings_.emplace(*config.record, server->log_);
   if (config.records) server->records_.emplace(*config.records, server->log_);
@@ -111,6 +109,17 @@ core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config, Outsi
   const auto opened = fork ? server->open_fork_room(config, std::move(*fork)) : server->open_rooms(config);
   if (!opened) return tl::unexpected(opened.error());
   return server;
+}
+
+core::Expected<void> Server::open_ports(const ServeConfig& config) {
+  const auto lines = acceptor_.open(config.listen);
+  if (!lines) return tl::unexpected(lines.error());
+  address_ = to_text(*lines);
+  if (!config.web) return {};
+  const auto web = acceptor_.open_web(*config.web);
+  if (!web) return tl::unexpected(web.error());
+  environment_.web_url = core::joined({"http://", to_text(*web), "/"});
+  return {};
 }
 
 core::Expected<void> Server::open_rooms(const ServeConfig& config) {

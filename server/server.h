@@ -59,13 +59,15 @@ class Server {
   /// For runs that are still to be re-run and written.
   static constexpr Duration kLastRecords = std::chrono::milliseconds(150);
 
-  /// Loads the maps or the recording to go on from, opens the port, creates the recordings.
+  /// Loads the maps or the recording to go on from, opens the ports, creates the recordings.
   static core::Expected<std::unique_ptr<Server>> create(ServeConfig config, Outside outside,
                                                         std::shared_ptr<spdlog::logger> log);
   ~Server();
 
   /// `127.0.0.1:7777`, with the port that was really taken.
   [[nodiscard]] const std::string& address() const { return address_; }
+  /// `http://127.0.0.1:7778/`, likewise; empty: there is no --web.
+  [[nodiscard]] const std::string& web_url() const { return environment_.web_url; }
 
   /// Serves until a signal ends it or the tick limit; everybody has been told and all is written when it
   /// returns.
@@ -88,6 +90,7 @@ class Server {
 
  private:
   Server(const ServeConfig& config, Outside outside, std::shared_ptr<spdlog::logger> log);
+  core::Expected<void> open_ports(const ServeConfig& config);
   core::Expected<void> open_rooms(const ServeConfig& config);
   core::Expected<void> open_rotation(const ServeConfig& config, std::vector<ChosenGame> games,
                                      std::uint64_t seed);

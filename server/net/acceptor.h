@@ -1,19 +1,21 @@
-// Opens the port and turns connections into sessions; keeps them until they are closed.
+// The server's ports: turns connections into sessions and keeps them until they are closed. On one port the
+// server speaks first, on the other, the web's, the client does (doorway.h).
 #pragma once
 
+#include <spdlog/common.h>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/steady_timer.hpp>
-#include <boost/asio/strand.hpp>
-#include <boost/system/error_code.hpp>
 
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
 
 #include "server/net/connection_limits.h"
+#include "server/net/doorway.h"
 #include "server/net/listen_address.h"
+#include "server/net/port.h"
 #include "server/net/session.h"
 #include "shared/core/error.h"
 
@@ -24,34 +26,54 @@ class Acceptor {
   /// All outlive it.
   Acceptor(const Lanes& lanes, const SessionEnvironment& environment);
 
-  /// Listens. Before the threads run.
-  core::Expected<boost::asio::ip::tcp::endpoint> open(const ListenAddress& address);
+  // Listen. Before the threads run.
+  core::Expected<boost::asio::ip::tcp::endpoint> open(const ListenAddress& address) {
+    return lines_.open(address);
+  }
+  core::Expected<boost::asio::ip::tcp::endpoint> open_web(const ListenAddress& address) {
+    return web_.open(address);
+  }
 
   // Any thread:
   void start();
-  /// Closes the port, says bye to who is left; `stopped` when the last session is closed.
+  /// Closes the ports, says bye to who is left; `stopped` when the last connection is closed.
   void stop(protocol::Bye bye, std::function<void()> stopped);
 
  private:
-  using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
+  /// Somebody who was let in.
+  struct Guest {
+    SessionId id = 0;
+    std::string address;  ///< ConnectionLimits::key()
+    std::size_t lane = 0;
+    std::optional<protocol::ErrorMessage> refusal;  ///< why he must go again
+  };
+  /// One of whom it is not known yet whether a session comes of him.
+  struct Visit {
+    Guest guest;
+    std::function<void()> end;
+  };
 
-  void accept();
-  void on_accept(const boost::system::error_code& error, boost::asio::ip::tcp::socket socket);
-  void open_session(boost::asio::ip::tcp::socket socket);
-  [[nodiscard]] std::size_t next_lane() const { return static_cast<std::size_t>(next_id_ % lanes_.size()); }
+  /// Nobody where it was too many even to be told.
+  std::optional<Guest> admit(boost::asio::ip::tcp::socket& socket, std::size_t lane);
+  void meet(boost::asio::ip::tcp::socket socket, Guest guest);
+  void on_first_byte(SessionId id, Comes what, boost::asio::ip::tcp::socket socket);
+  void open_session(std::unique_ptr<Wire> wire, const Guest& guest, Session::Greeting greeting);
+  void end_visit(SessionId id);
   void on_closed(SessionId id, const std::string& address);
-  void pause();
+  void tell_when_empty();
+  void log(spdlog::level::level_enum level, const std::string& address, const std::string& what);
 
   const Lanes& lanes_;
   const SessionEnvironment& environment_;
-  Strand strand_;
-  boost::asio::ip::tcp::acceptor acceptor_;
-  boost::asio::steady_timer pause_;
+  Port::Strand strand_;
+  Port lines_;
+  Port web_;
   // The strand's:
   ConnectionLimits addresses_;
   std::unordered_map<SessionId, std::shared_ptr<Session>> sessions_;
+  std::unordered_map<SessionId, Visit> visits_;
   SessionId next_id_ = 1;
-  bool starved_ = false;  ///< accepting failed last time; told once
+  bool is_stopping_ = false;
   std::function<void()> stopped_;
 };
 

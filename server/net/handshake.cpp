@@ -1,12 +1,15 @@
 #include "server/net/handshake.h"
 
+#include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
+#include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
 #include "shared/match/match.h"
 #include "shared/protocol/codes.h"
@@ -85,6 +88,16 @@ protocol::Hello hello_of(std::uint64_t session, std::string_view server, std::ve
                     "resume",    "rules", "records", "rotation"};
   hello.limits = limits;
   return hello;
+}
+
+std::string where_http_is(std::string_view line, std::string_view web_url) {
+  constexpr std::string_view kMethods[] = {"GET ",    "HEAD ",    "POST ",   "PUT ",
+                                           "DELETE ", "OPTIONS ", "CONNECT "};
+  const auto begins = [line](std::string_view method) { return line.starts_with(method); };
+  if (std::none_of(std::begin(kMethods), std::end(kMethods), begins)) return {};
+  if (line.find(" HTTP/") == std::string_view::npos) return {};
+  if (web_url.empty()) return "; this port speaks no HTTP, and no other does: start the server with --web";
+  return core::joined({"; this port speaks no HTTP: open ", web_url});
 }
 
 protocol::ErrorMessage unknown_room(const std::string& asked, const std::vector<std::string>& rooms) {

@@ -43,6 +43,9 @@ class Handshake {
 /// What a session is told first of all. session: its number, for logs.
 protocol::Hello hello_of(std::uint64_t session, std::string_view server, std::vector<std::string> rooms,
                          const protocol::Limits& limits);
+/// What a line that begins an HTTP request is told besides: where a browser is to go. Empty for other lines.
+/// web_url: of this server's page; empty: it has none.
+std::string where_http_is(std::string_view line, std::string_view web_url);
 /// The answer to a join of a room that is not among those.
 protocol::ErrorMessage unknown_room(const std::string& asked, const std::vector<std::string>& rooms);
 

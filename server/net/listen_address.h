@@ -12,6 +12,7 @@
 namespace woodlouse::server {
 
 inline constexpr std::uint16_t kDefaultPort = 7777;
+inline constexpr std::uint16_t kDefaultWebPort = 7778;
 
 struct ListenAddress {
   std::string host = "127.0.0.1";     ///< a name or an address, IPv6 without brackets
@@ -19,8 +20,11 @@ struct ListenAddress {
   friend bool operator==(const ListenAddress&, const ListenAddress&) = default;
 };
 
-/// HOST, HOST:PORT, :PORT (every IPv4 address), [IPV6]:PORT.
-core::Expected<ListenAddress> parse_listen_address(std::string_view text);
+/// HOST, HOST:PORT, :PORT (every IPv4 address), [IPV6]:PORT. option: which one says so, for errors. port:
+/// where none is named.
+core::Expected<ListenAddress> parse_listen_address(std::string_view text,
+                                                   std::string_view option = "--listen",
+                                                   std::uint16_t port = kDefaultPort);
 
 /// `host:port`, `[host]:port` for IPv6.
 std::string to_text(const ListenAddress& address);

@@ -42,11 +42,10 @@ Session::Session(SessionId id, std::unique_ptr<Wire> wire, const Lanes& lanes, s
   assert(wire_ != nullptr);
 }
 
-void Session::start(std::function<void()> closed) {
-  asio::dispatch(lane_, [self = shared_from_this(), closed = std::move(closed)]() mutable {
+void Session::start(std::function<void()> closed, Greeting greeting) {
+  asio::dispatch(lane_, [self = shared_from_this(), closed = std::move(closed), greeting]() mutable {
     self->closed_ = std::move(closed);
-    self->say(hello_of(self->id_, self->environment_.server_name, self->environment_.directory.names(),
-                       *self->limits_));
+    if (greeting == Greeting::kAtOnce) self->greet();
     self->on_watch();
     self->read();
   });
@@ -92,6 +91,7 @@ void Session::take_lines(Time now) {
 }
 
 void Session::on_line(const protocol::LineFramer::Line& line, Time now) {
+  greet();
   pulse_.hear(now, false);
   environment_.traffic.lines_received.fetch_add(1, std::memory_order_relaxed);
   if (const auto refusal = allowance_.take_line(line.text.size() + 1, now))
@@ -100,7 +100,8 @@ void Session::on_line(const protocol::LineFramer::Line& line, Time now) {
     return fail(code::kLineTooLong, "a line is longer than " + std::to_string(limits_->line) + " bytes");
   auto decoded = protocol::decode_client(line.text);
   if (decoded) return on_message(std::move(*decoded), now);
-  const protocol::ErrorMessage error = handshake_.judge(decoded.error());
+  protocol::ErrorMessage error = handshake_.judge(decoded.error());
+  error.text += where_http_is(line.text, environment_.web_url);
   if (error.fatal) return fail(error);
   say(error);
 }

@@ -54,6 +54,7 @@ struct SessionEnvironment {
   Timekeeper& timekeeper;
   std::string_view server_name;  ///< with its version
   std::shared_ptr<spdlog::logger> log;
+  std::string web_url{};  ///< where a browser may go; empty: nowhere
 };
 
 class Session final : public Subscriber, private Sender::Owner, public std::enable_shared_from_this<Session> {
@@ -68,8 +69,11 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
 
   // One of the two, once; any thread.
 
+  enum class Greeting : std::uint8_t { kAtOnce, kAfterFirstLine };
   /// Says hello and begins to read. closed: called once, on the session's lane, when the wire is closed.
-  void start(std::function<void()> closed);
+  /// kAfterFirstLine: hello is held back until the client has said a line, whatever it is; who goes without
+  /// one hears none.
+  void start(std::function<void()> closed, Greeting greeting = Greeting::kAtOnce);
   /// Instead of start(): an error and a bye, no hello.
   void start_refused(protocol::ErrorMessage why, std::function<void()> closed);
 
@@ -113,6 +117,10 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   /// What comes after a `leave` or while a bye is said is thrown away.
   [[nodiscard]] bool is_listening() const {
     return state_ == State::kOpen && handshake_.state() != Handshake::State::kLeaving;
+  }
+  void greet() {
+    if (std::exchange(is_greeted_, true)) return;
+    say(hello_of(id_, environment_.server_name, environment_.directory.names(), *limits_));
   }
   void take_lines(Time now);
   void on_line(const protocol::LineFramer::Line& line, Time now);
@@ -196,6 +204,7 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   std::shared_ptr<Door> door_;  ///< null before the join
   std::array<char, 2048> incoming_{};
   protocol::LineFramer framer_;
+  bool is_greeted_ = false;   ///< hello is said
   bool input_ended_ = false;  ///< the client has shut its sending side: nothing is left to read
   Parting parting_ = Parting::kLost;
   Allowance allowance_;

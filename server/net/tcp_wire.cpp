@@ -23,12 +23,12 @@ using UserTimeout = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_USER_T
 
 }  // namespace
 
-error_code TcpWire::set_options(std::chrono::milliseconds patience) {
+error_code set_options(asio::ip::tcp::socket& socket, std::chrono::milliseconds patience) {
   error_code error;
-  socket_.non_blocking(true, error);
-  if (!error) socket_.set_option(asio::ip::tcp::no_delay(true), error);
-  if (!error) socket_.set_option(NotSentLowWater(kUnsentBytes), error);
-  if (!error) socket_.set_option(UserTimeout(static_cast<int>(patience.count())), error);
+  socket.non_blocking(true, error);
+  if (!error) socket.set_option(asio::ip::tcp::no_delay(true), error);
+  if (!error) socket.set_option(NotSentLowWater(kUnsentBytes), error);
+  if (!error) socket.set_option(UserTimeout(static_cast<int>(patience.count())), error);
   return error;
 }
 

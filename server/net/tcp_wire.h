@@ -14,17 +14,18 @@
 
 namespace woodlouse::server {
 
+/// What is written leaves at once, and little of it waits in the kernel; what the other side's system takes
+/// no notice of for `patience` breaks the connection. A wire also works where this fails, with fresh frames
+/// coming later and ends seen later.
+[[nodiscard]] boost::system::error_code set_options(boost::asio::ip::tcp::socket& socket,
+                                                    std::chrono::milliseconds patience);
+
 class TcpWire final : public Wire {
  public:
   using Socket = boost::asio::ip::tcp::socket;
 
   /// The socket is connected; its executor is the lane.
   explicit TcpWire(Socket socket) : socket_(std::move(socket)) {}
-
-  /// What is written leaves at once, and little of it waits in the kernel; what the other side's system takes
-  /// no notice of for `patience` breaks the connection. The wire also works where this fails, with fresh
-  /// frames coming later and ends seen later.
-  [[nodiscard]] boost::system::error_code set_options(std::chrono::milliseconds patience);
 
   void read_some(std::span<char> into, Handler handler) override;
   [[nodiscard]] std::size_t write_now(std::span<const Line> lines) override;

@@ -147,6 +147,7 @@ TEST_CASE("a wrong option is refused by its name") {
       {{"--map", "a", "--step-threads", "65"}, "--step-threads"},
       {{"--map", "a", "--log-format", "xml"}, "--log-format"},
       {{"--map", "a", "--listen", "host:seven"}, "--listen"},
+      {{"--map", "a", "--web", "::1:80"}, "--web"},
       {{"--map", "a", "--record", "%Q"}, "--record"},
       {{"--map", "a", "--record-every", "1h"}, "--record-every"},
       {{"--map", "a", "--record-keep", "1G"}, "--record-keep"},
@@ -158,6 +159,12 @@ TEST_CASE("a wrong option is refused by its name") {
   const auto config = parse(arguments);
   REQUIRE_FALSE(config);
   CHECK_THAT(config.error().text(), Catch::Contains(names));
+}
+
+TEST_CASE("a web port is opened only for who asks for one") {
+  CHECK_FALSE(serve({"--map", "a"}).web);
+  CHECK(serve({"--map", "a", "--web", "localhost"}).web == ListenAddress{"localhost", 7778});
+  CHECK(serve({"fork", "game.ndjson", "--tick", "6", "--web", ":0"}).web == ListenAddress{"0.0.0.0", 0});
 }
 
 TEST_CASE("recordings may be cut and bounded") {

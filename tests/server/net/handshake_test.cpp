@@ -105,3 +105,13 @@ TEST_CASE("a join of another protocol version is fatal") {
   Handshake handshake;
   CHECK(handshake.judge(protocol::DecodeError{"bad_protocol", "join.protocol is 2", true}).fatal);
 }
+
+TEST_CASE("only a line that begins an HTTP request is told where HTTP is spoken") {
+  const std::string url = "http://127.0.0.1:7778/";
+  for (const auto* line : {"GET / HTTP/1.1", "POST /x HTTP/1.0", "HEAD / HTTP/1.1"}) {
+    CHECK(where_http_is(line, url).find(url) != std::string::npos);
+    CHECK(where_http_is(line, "").find("--web") != std::string::npos);
+  }
+  for (const auto* line : {"", "GET", "GET /", "Host: HTTP/1.1", "{\"type\":\"GET / HTTP/1.1\"}"})
+    CHECK(where_http_is(line, url).empty());
+}

@@ -28,3 +28,10 @@ TEST_CASE("a listen address that is none is refused with what to write instead")
   CHECK_THAT(address.error().where, Catch::Contains(text));
   CHECK_FALSE(address.error().hint.empty());
 }
+
+TEST_CASE("an address says by which option it was given, and has the port of that") {
+  CHECK(parse_listen_address("[::1]", "--web", kDefaultWebPort).value() == ListenAddress{"::1", 7778});
+  const auto address = parse_listen_address("host:x", "--web", kDefaultWebPort);
+  REQUIRE_FALSE(address);
+  CHECK(address.error().where == "--web host:x");
+}

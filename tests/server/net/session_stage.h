@@ -100,8 +100,8 @@ struct Stage {
   }
 
   /// The client has come.
-  void start() {
-    session->start([this] { ++closed; });
+  void start(Session::Greeting greeting = Session::Greeting::kAtOnce) {
+    session->start([this] { ++closed; }, greeting);
     run();
   }
   void start_refused(const protocol::ErrorMessage& why) {
