@@ -18,6 +18,7 @@
 #include "server/log.h"
 #include "server/net/listen_address.h"
 #include "server/watchers/recordings.h"
+#include "server/web_options.h"
 #include "shared/core/error.h"
 #include "shared/protocol/limits.h"
 
@@ -30,9 +31,9 @@ struct ServeConfig {
   std::vector<std::filesystem::path> maps;  ///< a room each and mode; 1 to kMaxRooms, none for a fork
   std::optional<ForkPoint> fork;            ///< one room, whose map, tick rate and seed are the recording's
   ListenAddress listen;
-  std::optional<ListenAddress> web;  ///< where the client speaks first; empty: nowhere
-  std::uint32_t tick_hz = 60;        ///< 1..1000
-  std::uint32_t state_hz = 20;       ///< divides tick_hz
+  std::optional<WebSettings> web;  ///< where the client speaks first; empty: nowhere
+  std::uint32_t tick_hz = 60;      ///< 1..1000
+  std::uint32_t state_hz = 20;     ///< divides tick_hz
   std::optional<RecordSettings> record;
   std::optional<std::filesystem::path> records;  ///< the folder of the races' boards; empty: there are none
   bool shadow = false;                           ///< re-run and compare each tick beside the game

@@ -116,7 +116,7 @@ core::Expected<void> Server::open_ports(const ServeConfig& config) {
   if (!lines) return tl::unexpected(lines.error());
   address_ = to_text(*lines);
   if (!config.web) return {};
-  const auto web = acceptor_.open_web(*config.web);
+  const auto web = acceptor_.open_web(config.web->listen, config.web->names);
   if (!web) return tl::unexpected(web.error());
   environment_.web_url = core::joined({"http://", to_text(*web), "/"});
   return {};

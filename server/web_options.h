@@ -3,8 +3,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "server/net/listen_address.h"
+#include "server/net/web_names.h"
 #include "shared/core/error.h"
 
 namespace CLI {
@@ -16,11 +18,18 @@ namespace woodlouse::server {
 /// As typed, before they are checked.
 struct TypedWeb {
   std::optional<std::string> listen;
+  std::vector<std::string> hosts, origins;
+};
+
+/// Checked.
+struct WebSettings {
+  ListenAddress listen;
+  WebNames names;
 };
 
 void add_web_options(CLI::App& app, TypedWeb& typed);
 
 /// Nothing: there is no such port. Errors: where = the option.
-core::Expected<std::optional<ListenAddress>> checked_web(const TypedWeb& typed);
+core::Expected<std::optional<WebSettings>> checked_web(const TypedWeb& typed);
 
 }  // namespace woodlouse::server

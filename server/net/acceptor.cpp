@@ -40,6 +40,17 @@ Acceptor::Acceptor(const Lanes& lanes, const SessionEnvironment& environment)
       web_(lanes, strand_, environment.log, "--web"),
       addresses_(environment.limits) {}
 
+core::Expected<tcp::endpoint> Acceptor::open(const ListenAddress& address) {
+  auto bound = lines_.open(address);
+  if (bound) web_environment_.lines_port = bound->port();
+  return bound;
+}
+
+core::Expected<tcp::endpoint> Acceptor::open_web(const ListenAddress& address, WebNames names) {
+  web_environment_.names = std::move(names);
+  return web_.open(address);
+}
+
 void Acceptor::start() {
   asio::post(strand_, [this] {
     lines_.start([this](tcp::socket socket, std::size_t lane) {
@@ -82,15 +93,46 @@ void Acceptor::meet(tcp::socket socket, Guest guest) {
 }
 
 void Acceptor::on_first_byte(SessionId id, Comes what, tcp::socket socket) {
-  const Guest guest = visits_.at(id).guest;
-  if (what == Comes::kLines && !is_stopping_) {
-    visits_.erase(id);
-    return open_session(std::make_unique<TcpWire>(std::move(socket)), guest,
-                        Session::Greeting::kAfterFirstLine);
-  }
-  if (what == Comes::kHttp) log(spdlog::level::debug, guest.address, "HTTP is not spoken here: closed");
-  if (what == Comes::kTls) log(spdlog::level::debug, guest.address, "TLS is not spoken here: closed");
-  end_visit(id);
+  if (what == Comes::kTls)
+    log(spdlog::level::debug, visits_.at(id).guest.address, "TLS is not spoken here: closed");
+  if (is_stopping_ || what == Comes::kTls || what == Comes::kNothing) return end_visit(id);
+  if (what == Comes::kHttp) return open_http_door(id, std::move(socket));
+  open_session(std::make_unique<TcpWire>(std::move(socket)), take_visit(id),
+               Session::Greeting::kAfterFirstLine);
+}
+
+void Acceptor::open_http_door(SessionId id, tcp::socket socket) {
+  Visit& visit = visits_.at(id);
+  const std::string& address = visit.guest.address;
+  visit.is_http = addresses_.take_http(address);
+  std::string refusal;
+  if (!visit.is_http)
+    refusal = "your address has " + std::to_string(ConnectionLimits::kMostHttp) + " of these already";
+  if (visit.guest.refusal) refusal = visit.guest.refusal->text;
+  const auto door = make_http_door(std::move(socket), environment_, web_environment_,
+                                   addresses_.account(address), std::move(refusal),
+                                   {[this, id] { asio::post(strand_, [this, id] { end_visit(id); }); },
+                                    [this, id](std::unique_ptr<Wire> wire) {
+                                      asio::post(strand_, [this, id, upgraded = std::move(wire)]() mutable {
+                                        on_upgraded(id, std::move(upgraded));
+                                      });
+                                    }});
+  visit.end = [door] { door->end(); };
+  door->start();
+}
+
+void Acceptor::on_upgraded(SessionId id, std::unique_ptr<Wire> wire) {
+  if (is_stopping_) return end_visit(id);
+  open_session(std::move(wire), take_visit(id), Session::Greeting::kAtOnce);
+}
+
+Acceptor::Guest Acceptor::take_visit(SessionId id) {
+  const auto visit = visits_.find(id);
+  assert(visit != visits_.end());
+  Guest guest = std::move(visit->second.guest);
+  if (visit->second.is_http) addresses_.give_http_back(guest.address);
+  visits_.erase(visit);
+  return guest;
 }
 
 void Acceptor::open_session(std::unique_ptr<Wire> wire, const Guest& guest, Session::Greeting greeting) {
@@ -108,10 +150,8 @@ void Acceptor::open_session(std::unique_ptr<Wire> wire, const Guest& guest, Sess
 
 /// No session came of it.
 void Acceptor::end_visit(SessionId id) {
-  const auto visit = visits_.find(id);
-  assert(visit != visits_.end() && !sessions_.contains(id));
-  addresses_.release(visit->second.guest.address, environment_.timekeeper.now());
-  visits_.erase(visit);
+  assert(!sessions_.contains(id));
+  addresses_.release(take_visit(id).address, environment_.timekeeper.now());
   tell_when_empty();
 }
 

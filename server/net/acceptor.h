@@ -14,6 +14,7 @@
 
 #include "server/net/connection_limits.h"
 #include "server/net/doorway.h"
+#include "server/net/http_door.h"
 #include "server/net/listen_address.h"
 #include "server/net/port.h"
 #include "server/net/session.h"
@@ -27,12 +28,9 @@ class Acceptor {
   Acceptor(const Lanes& lanes, const SessionEnvironment& environment);
 
   // Listen. Before the threads run.
-  core::Expected<boost::asio::ip::tcp::endpoint> open(const ListenAddress& address) {
-    return lines_.open(address);
-  }
-  core::Expected<boost::asio::ip::tcp::endpoint> open_web(const ListenAddress& address) {
-    return web_.open(address);
-  }
+  core::Expected<boost::asio::ip::tcp::endpoint> open(const ListenAddress& address);
+  /// After open().
+  core::Expected<boost::asio::ip::tcp::endpoint> open_web(const ListenAddress& address, WebNames names);
 
   // Any thread:
   void start();
@@ -51,12 +49,17 @@ class Acceptor {
   struct Visit {
     Guest guest;
     std::function<void()> end;
+    bool is_http = false;  ///< counted as such
   };
 
   /// Nobody where it was too many even to be told.
   std::optional<Guest> admit(boost::asio::ip::tcp::socket& socket, std::size_t lane);
   void meet(boost::asio::ip::tcp::socket socket, Guest guest);
   void on_first_byte(SessionId id, Comes what, boost::asio::ip::tcp::socket socket);
+  void open_http_door(SessionId id, boost::asio::ip::tcp::socket socket);
+  void on_upgraded(SessionId id, std::unique_ptr<Wire> wire);
+  /// It is known now what came of it.
+  Guest take_visit(SessionId id);
   void open_session(std::unique_ptr<Wire> wire, const Guest& guest, Session::Greeting greeting);
   void end_visit(SessionId id);
   void on_closed(SessionId id, const std::string& address);
@@ -68,6 +71,7 @@ class Acceptor {
   Port::Strand strand_;
   Port lines_;
   Port web_;
+  WebEnvironment web_environment_;
   // The strand's:
   ConnectionLimits addresses_;
   std::unordered_map<SessionId, std::shared_ptr<Session>> sessions_;

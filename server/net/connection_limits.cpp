@@ -37,6 +37,20 @@ void ConnectionLimits::release(const std::string& key, Time now) {
   forget_some(now);
 }
 
+bool ConnectionLimits::take_http(const std::string& key) {
+  Address& address = addresses_.at(key);
+  assert(address.connections > address.http);
+  if (address.http >= kMostHttp) return false;
+  ++address.http;
+  return true;
+}
+
+void ConnectionLimits::give_http_back(const std::string& key) {
+  Address& address = addresses_.at(key);
+  assert(address.http > 0 && address.connections >= address.http);
+  --address.http;
+}
+
 /// Two for each that comes: those that left are soon all looked at.
 void ConnectionLimits::forget_some(Time now) {
   for (int k = 0; k < 2 && !leaving_.empty(); ++k) {

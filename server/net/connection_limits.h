@@ -21,6 +21,8 @@ class ConnectionLimits {
   static constexpr std::uint32_t kCourtesy = 16;
   /// One connection in so many is for addresses that have none: a few can't keep out everybody else.
   static constexpr std::uint32_t kReserve = 20;
+  /// So many of an address's connections may speak HTTP: what a browser opens for a page, several times.
+  static constexpr std::uint32_t kMostHttp = 32;
 
   /// limits outlives it.
   explicit ConnectionLimits(const LiveLimits& limits) : limits_(limits) {}
@@ -29,6 +31,10 @@ class ConnectionLimits {
   /// A connection of that address: all but kDrop count it until release().
   Admission admit(const std::string& key, Time now);
   void release(const std::string& key, Time now);
+  /// Whether one of its connections may speak HTTP; then it counts as such until give_http_back(). REQUIRES
+  /// that it was admitted and not released.
+  [[nodiscard]] bool take_http(const std::string& key);
+  void give_http_back(const std::string& key);
   /// REQUIRES that it was admitted and not released. It outlives the address's connections while there is
   /// something to remember: who comes back finds it as he left it.
   [[nodiscard]] const std::shared_ptr<AddressAccount>& account(const std::string& key) const {
@@ -42,6 +48,7 @@ class ConnectionLimits {
  private:
   struct Address {
     std::uint32_t connections = 0;
+    std::uint32_t http = 0;  ///< of them
     std::shared_ptr<AddressAccount> account;
     bool is_leaving = false;  ///< stands in leaving_
   };

@@ -148,6 +148,9 @@ TEST_CASE("a wrong option is refused by its name") {
       {{"--map", "a", "--log-format", "xml"}, "--log-format"},
       {{"--map", "a", "--listen", "host:seven"}, "--listen"},
       {{"--map", "a", "--web", "::1:80"}, "--web"},
+      {{"--map", "a", "--web-host", "a.org"}, "--web-host"},
+      {{"--map", "a", "--web", ":1", "--web-host", "a:80"}, "--web-host a:80"},
+      {{"--map", "a", "--web", ":1", "--web-origin", "null"}, "--web-origin null"},
       {{"--map", "a", "--record", "%Q"}, "--record"},
       {{"--map", "a", "--record-every", "1h"}, "--record-every"},
       {{"--map", "a", "--record-keep", "1G"}, "--record-keep"},
@@ -163,8 +166,14 @@ TEST_CASE("a wrong option is refused by its name") {
 
 TEST_CASE("a web port is opened only for who asks for one") {
   CHECK_FALSE(serve({"--map", "a"}).web);
-  CHECK(serve({"--map", "a", "--web", "localhost"}).web == ListenAddress{"localhost", 7778});
-  CHECK(serve({"fork", "game.ndjson", "--tick", "6", "--web", ":0"}).web == ListenAddress{"0.0.0.0", 0});
+  CHECK(serve({"--map", "a", "--web", "localhost"}).web->listen == ListenAddress{"localhost", 7778});
+  CHECK(serve({"fork", "game.ndjson", "--tick", "6", "--web", ":0"}).web->listen ==
+        ListenAddress{"0.0.0.0", 0});
+  const WebNames names = serve({"--map", "a", "--web", ":1", "--web-host", "A.org", "--web-host", "b.org",
+                                "--web-origin", "https://c.org"})
+                             .web->names;
+  CHECK(names.hosts == std::vector<std::string>{"a.org", "b.org"});
+  CHECK(names.origins == std::vector<Origin>{{true, "c.org", 443}});
 }
 
 TEST_CASE("recordings may be cut and bounded") {

@@ -94,3 +94,18 @@ TEST_CASE("an IPv6 network of 64 bits counts as one address, a mapped IPv4 addre
         ConnectionLimits::key(make_address("10.0.0.1")));
   CHECK(ConnectionLimits::key(make_address("10.0.0.2")) != ConnectionLimits::key(make_address("10.0.0.1")));
 }
+
+TEST_CASE("of an address's connections only some may speak HTTP at a time") {
+  Limited house(64);
+  ConnectionLimits& connections = house.limits;
+  for (std::uint32_t k = 0; k < ConnectionLimits::kMostHttp; ++k) {
+    REQUIRE(house.admit("10.0.0.1") == Admission::kWelcome);
+    CHECK(connections.take_http("10.0.0.1"));
+  }
+  REQUIRE(house.admit("10.0.0.1") == Admission::kWelcome);
+  REQUIRE(house.admit("10.0.0.2") == Admission::kWelcome);
+  CHECK_FALSE(connections.take_http("10.0.0.1"));
+  CHECK(connections.take_http("10.0.0.2"));
+  connections.give_http_back("10.0.0.1");
+  CHECK(connections.take_http("10.0.0.1"));
+}

@@ -1,0 +1,277 @@
+#include "server/net/http_door.h"
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/dispatch.hpp>
+#include <boost/asio/error.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/error.hpp>
+#include <boost/beast/http/field.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/serializer.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <boost/beast/http/verb.hpp>
+#include <boost/beast/http/write.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
+
+#include <array>
+#include <cassert>
+#include <string_view>
+#include <utility>
+
+#include "server/net/web_answers.h"
+#include "server/net/web_wire.h"
+
+namespace woodlouse::server {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+using boost::system::error_code;
+
+// One head and what may be read behind it.
+constexpr std::size_t kBufferBytes = 2 * std::size_t{HttpDoor::kHeadBytes};
+
+constexpr const char* kPolicy =
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' data:; "
+    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// What is refused of a head that could not be read. Nothing: the connection is broken or at its end.
+std::optional<WebAnswer> refusal_of(const error_code& error, bool may_ask) {
+  if (error == http::error::end_of_stream || error == http::error::partial_message) return std::nullopt;
+  if (error == http::error::header_limit || error == http::error::buffer_overflow)
+    return refusal(431, "the request's head is longer than 8192 bytes");
+  if (error == http::error::body_limit)
+    return may_ask ? refusal(413, "a request has no body here")
+                   : refusal(405, "only GET and HEAD are answered");
+  if (error == http::error::bad_version) return refusal(505, "HTTP/1.1 is spoken here");
+  if (error.category() == http::make_error_code(http::error::bad_method).category())
+    return refusal(400, "that is no HTTP request");
+  return std::nullopt;
+}
+
+/// Those that look after the server are told, however much others of their address ask.
+bool is_probe(std::string_view target) { return target == "/healthz" || target == "/readyz"; }
+
+class TcpHttpDoor final : public HttpDoor, public std::enable_shared_from_this<TcpHttpDoor> {
+ public:
+  TcpHttpDoor(asio::ip::tcp::socket socket, const SessionEnvironment& environment, const WebEnvironment& web,
+              std::shared_ptr<AddressAccount> account, std::string refusal, Ends ends)
+      : lane_(socket.get_executor()),
+        socket_(std::move(socket)),
+        environment_(environment),
+        web_(web),
+        account_(std::move(account)),
+        refusal_(std::move(refusal)),
+        ends_(std::move(ends)),
+        alarm_(environment.timekeeper.make_alarm(lane_)) {
+    assert(account_ != nullptr && ends_.closed && ends_.upgraded);
+  }
+
+  void start() override {
+    asio::dispatch(lane_, [self = shared_from_this()] { self->read_head(); });
+  }
+  void end() override {
+    asio::post(lane_, [self = shared_from_this()] {
+      self->is_stopping_ = true;
+      if (!self->is_answering_) self->close();
+    });
+  }
+
+ private:
+  void read_head();
+  void on_head(const error_code& error);
+  [[nodiscard]] WebAnswer judge();
+  [[nodiscard]] std::string why_no_upgrade();
+  void upgrade();
+  void answer(WebAnswer answer, bool is_last);
+  void on_answered(const error_code& error);
+  void drain();
+  void close();
+  /// It ends then, if nothing else is set before.
+  void end_at(Time until) {
+    until_ = until;
+    alarm_->set(until, [self = shared_from_this()](bool cancelled) {
+      if (!cancelled && self->now() >= self->until_) self->close();
+    });
+  }
+  [[nodiscard]] Time now() const { return environment_.timekeeper.now(); }
+  [[nodiscard]] std::string_view field(http::field name) const {
+    const auto value = parser_->get()[name];
+    return {value.data(), value.size()};
+  }
+  [[nodiscard]] std::string_view target() const {
+    const auto value = parser_->get().target();
+    return {value.data(), value.size()};
+  }
+  [[nodiscard]] bool may_ask() const {
+    const http::verb method = parser_->get().method();
+    return method == http::verb::get || method == http::verb::head;
+  }
+
+  asio::any_io_executor lane_;
+  asio::ip::tcp::socket socket_;
+  const SessionEnvironment& environment_;
+  const WebEnvironment& web_;
+  std::shared_ptr<AddressAccount> account_;
+  std::string refusal_;
+  Ends ends_;  ///< empty once one was called
+
+  std::unique_ptr<Alarm> alarm_;
+  Time until_{};
+  beast::flat_buffer buffer_{kBufferBytes};
+  std::optional<http::request_parser<http::empty_body>> parser_;
+  std::uint32_t requests_ = 0;
+  http::response<http::string_body> response_;
+  std::optional<http::response_serializer<http::string_body>> serializer_;
+  bool is_answering_ = false;
+  bool is_last_ = false;  ///< of the answer that is written
+  bool is_stopping_ = false;
+  std::array<char, 512> thrown_away_{};
+};
+
+void TcpHttpDoor::read_head() {
+  if (!ends_.closed) return;
+  parser_.emplace();
+  parser_->header_limit(kHeadBytes);
+  parser_->body_limit(0);
+  end_at(now() + kPatience);
+  http::async_read_header(
+      socket_, buffer_, *parser_,
+      [self = shared_from_this()](const error_code& error, std::size_t) { self->on_head(error); });
+}
+
+void TcpHttpDoor::on_head(const error_code& error) {
+  if (!ends_.closed) return;
+  ++requests_;
+  if (error) {
+    auto refused = refusal_of(error, may_ask());
+    return refused ? answer(std::move(*refused), true) : close();
+  }
+  if (!parser_->is_done()) {  // a body comes, which nobody reads
+    return answer(may_ask() ? refusal(413, "a request has no body here")
+                            : refusal(405, "only GET and HEAD are answered"),
+                  true);
+  }
+  WebAnswer answered = judge();
+  if (answered.status == 101) return upgrade();
+  const bool is_refused = answered.status >= 400 && answered.status != 404;
+  const bool is_last =
+      !parser_->get().keep_alive() || requests_ >= kMostRequests || is_stopping_ || is_refused;
+  answer(std::move(answered), is_last);
+}
+
+/// 101: a session may begin.
+WebAnswer TcpHttpDoor::judge() {
+  if (!refusal_.empty()) return refusal(503, refusal_);
+  const http::request<http::empty_body>& request = parser_->get();
+  if (request.count(http::field::host) != 1) return refusal(400, "a request names one Host");
+  const std::string_view host = field(http::field::host);
+  if (const std::string why = why_not_host(host, web_.names); !why.empty()) return refusal(403, why);
+  if (!may_ask()) return refusal(405, "only GET and HEAD are answered");
+  if (!is_probe(target()) && account_->wait(Spending::kAnswerBytes, now()) > Duration{})
+    return refusal(429, "your address has asked for too much; try again in a second");
+  if (target().substr(0, target().find('?')) == "/ws") {
+    if (!beast::websocket::is_upgrade(request))
+      return refusal(426, "here WebSockets begin: ask for an upgrade");
+    const std::string why = why_no_upgrade();
+    return why.empty() ? WebAnswer{101, {}, {}} : refusal(403, why);
+  }
+  const auto authority = parse_authority(host);
+  assert(authority.has_value());
+  WebAnswer answered = answer_to(target(), authority->host, environment_.directory,
+                                 {environment_.server_name, web_.lines_port, is_stopping_});
+  account_->charge(Spending::kAnswerBytes, static_cast<double>(answered.body.size()), now());
+  return answered;
+}
+
+std::string TcpHttpDoor::why_no_upgrade() {
+  const std::size_t origins = parser_->get().count(http::field::origin);
+  if (buffer_.size() > 0) return "wait for the answer before you send";
+  if (is_stopping_) return "the server stops";
+  if (origins == 0) return {};  // no browser
+  if (origins > 1) return "a page has one Origin";
+  return why_not_origin(field(http::field::origin), false, field(http::field::host), web_.names);
+}
+
+void TcpHttpDoor::upgrade() {
+  alarm_->cancel();
+  auto upgraded = [ends = std::exchange(ends_, {})](std::unique_ptr<Wire> wire) {
+    if (wire == nullptr) return ends.closed();
+    ends.upgraded(std::move(wire));
+  };
+  accept_web_wire(std::move(socket_), parser_->get(), environment_.limits.now()->line, std::move(upgraded));
+}
+
+void TcpHttpDoor::answer(WebAnswer answer, bool is_last) {
+  assert(!is_answering_ && answer.status >= 200);
+  is_answering_ = true;
+  is_last_ = is_last;
+  response_ = {};
+  response_.version(11);
+  response_.result(answer.status);
+  response_.set(http::field::server, "woodlouse");
+  response_.set(http::field::content_type, {answer.type.data(), answer.type.size()});
+  response_.set(http::field::cache_control, "no-store");
+  response_.set("Content-Security-Policy", kPolicy);
+  response_.set("X-Content-Type-Options", "nosniff");
+  response_.set("Referrer-Policy", "no-referrer");
+  response_.set("Cross-Origin-Opener-Policy", "same-origin");
+  if (answer.status == 405) response_.set(http::field::allow, "GET, HEAD");
+  if (answer.status == 426) response_.set(http::field::upgrade, "websocket");
+  if (answer.status == 429 || answer.status == 503) response_.set(http::field::retry_after, "1");
+  response_.keep_alive(!is_last);
+  response_.body() = std::move(answer.body);
+  response_.prepare_payload();
+  serializer_.emplace(response_);
+  end_at(now() + kPatience);
+  auto answered = [self = shared_from_this()](const error_code& error, std::size_t) {
+    self->on_answered(error);
+  };
+  if (parser_->get().method() == http::verb::head)
+    http::async_write_header(socket_, *serializer_, std::move(answered));
+  else
+    http::async_write(socket_, *serializer_, std::move(answered));
+}
+
+void TcpHttpDoor::on_answered(const error_code& error) {
+  if (!ends_.closed) return;
+  is_answering_ = false;
+  if (error) return close();
+  if (!is_last_ && !is_stopping_) return read_head();
+  error_code ignored;  // then he has gone
+  socket_.shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
+  end_at(now() + kLinger);
+  drain();
+}
+
+/// What he still says is thrown away: closing with unread bytes would take the answer with it.
+void TcpHttpDoor::drain() {
+  socket_.async_read_some(asio::buffer(thrown_away_),
+                          [self = shared_from_this()](const error_code& error, std::size_t) {
+                            if (!self->ends_.closed) return;
+                            error ? self->close() : self->drain();
+                          });
+}
+
+void TcpHttpDoor::close() {
+  if (!ends_.closed) return;
+  alarm_->cancel();
+  error_code ignored;  // closed all the same
+  socket_.close(ignored);
+  std::exchange(ends_, {}).closed();
+}
+
+}  // namespace
+
+std::shared_ptr<HttpDoor> make_http_door(asio::ip::tcp::socket socket, const SessionEnvironment& environment,
+                                         const WebEnvironment& web, std::shared_ptr<AddressAccount> account,
+                                         std::string refusal, HttpDoor::Ends ends) {
+  return std::make_shared<TcpHttpDoor>(std::move(socket), environment, web, std::move(account),
+                                       std::move(refusal), std::move(ends));
+}
+
+}  // namespace woodlouse::server

@@ -1,0 +1,125 @@
+#include "server/net/web_wire.h"
+
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/error.hpp>
+#include <boost/beast/core/stream_traits.hpp>
+#include <boost/beast/http/field.hpp>
+#include <boost/beast/websocket/stream.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace woodlouse::server {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace websocket = boost::beast::websocket;
+using boost::system::error_code;
+
+constexpr std::chrono::seconds kAcceptWithin{10};
+// Pings and pongs of the WebSocket's own pass by what a session counts. Each batch that goes out makes up for
+// a few, so that who is shown a game may ping as often as he likes, and nobody without end.
+constexpr std::uint32_t kMostControls = 256;
+constexpr std::uint32_t kControlsABatch = 8;
+
+/// Without compression: a batch is packed for each client anew, and shared buffers would be shared no more.
+class WebWire final : public Wire {
+ public:
+  WebWire(asio::ip::tcp::socket socket, std::size_t longest) : socket_(std::move(socket)) {
+    socket_.set_option(websocket::stream_base::timeout{kAcceptWithin, websocket::stream_base::none(), false});
+    socket_.set_option(websocket::stream_base::decorator(
+        [](websocket::response_type& response) { response.set(beast::http::field::server, "woodlouse"); }));
+    socket_.auto_fragment(false);
+    socket_.text(true);
+    socket_.read_message_max(longest);
+    socket_.control_callback([this](websocket::frame_type kind, beast::string_view) { on_control(kind); });
+  }
+
+  template <typename Accepted>
+  void accept(const beast::http::request<beast::http::empty_body>& request, Accepted accepted) {
+    socket_.async_accept(request, std::move(accepted));
+  }
+
+  void read_some(std::span<char> into, Handler handler) override {
+    assert(into.size() > 1);
+    // The newline that ends the message as a line finds its place behind it.
+    socket_.async_read_some(
+        asio::buffer(into.data(), into.size() - 1),
+        [this, into, handler = std::move(handler)](const error_code& error, std::size_t size) {
+          on_read(into, handler, error, size);
+        });
+  }
+
+  /// Beast writes its answers to pings and closes in turns with what we write.
+  [[nodiscard]] std::size_t write_now(std::span<const Line>) override { return 0; }
+
+  void write(std::span<const Line> lines, std::size_t skipped, Handler handler) override {
+    assert(!lines.empty() && skipped == 0);
+    static_cast<void>(skipped);
+    controls_ -= std::min(controls_, kControlsABatch);
+    buffers_.clear();
+    for (const Line& line : lines) buffers_.push_back(asio::buffer(*line));
+    socket_.async_write(std::span<const asio::const_buffer>(buffers_), std::move(handler));
+  }
+
+  /// With the code for a normal end, whatever it was: the bye before it says why.
+  [[nodiscard]] error_code shut_down_sending() override {
+    if (!socket_.is_open()) return asio::error::not_connected;
+    socket_.async_close({websocket::close_code::normal}, [](const error_code&) {});
+    return {};
+  }
+
+  [[nodiscard]] error_code close() override {
+    error_code error;
+    beast::get_lowest_layer(socket_).close(error);
+    return error;
+  }
+
+ private:
+  void on_read(std::span<char> into, const Handler& handler, const error_code& error, std::size_t size) {
+    if (error == websocket::error::closed) return handler(asio::error::eof, 0);
+    if (error) return handler(error, 0);
+    if (!socket_.got_text()) {
+      socket_.async_close({websocket::close_code::unknown_data},
+                          [handler](const error_code&) { handler(asio::error::eof, 0); });
+      return;
+    }
+    assert(size < into.size());
+    if (size > 0) last_byte_ = into[size - 1];
+    if (socket_.is_message_done() && std::exchange(last_byte_, '\0') != '\n') into[size++] = '\n';
+    if (size == 0) return read_some(into, handler);  // an empty part
+    handler({}, size);
+  }
+
+  void on_control(websocket::frame_type kind) {
+    if (kind == websocket::frame_type::close || ++controls_ <= kMostControls) return;
+    static_cast<void>(close());
+  }
+
+  websocket::stream<asio::ip::tcp::socket, false> socket_;
+  std::vector<asio::const_buffer> buffers_;  ///< of the write that runs
+  char last_byte_ = '\0';                    ///< of the message that comes
+  std::uint32_t controls_ = 0;
+};
+
+}  // namespace
+
+void accept_web_wire(asio::ip::tcp::socket socket,
+                     const beast::http::request<beast::http::empty_body>& request, std::size_t longest,
+                     std::function<void(std::unique_ptr<Wire> wire)> accepted) {
+  assert(longest > 0 && accepted);
+  auto wire = std::make_unique<WebWire>(std::move(socket), longest);
+  WebWire& accepting = *wire;
+  accepting.accept(request,
+                   [wire = std::move(wire), accepted = std::move(accepted)](const error_code& error) mutable {
+                     accepted(error ? nullptr : std::move(wire));
+                   });
+}
+
+}  // namespace woodlouse::server
