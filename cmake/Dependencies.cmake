@@ -18,6 +18,7 @@ if(WOODLOUSE_ONLY STREQUAL "freestanding")
 endif()
 find_package(Boost 1.81 REQUIRED)
 find_package(spdlog REQUIRED)
+find_package(OpenSSL 3.0 REQUIRED)
 # What tests and measures need, players don't.
 if(NOT WOODLOUSE_ONLY STREQUAL "play")
   find_package(Eigen3 3.4 REQUIRED NO_MODULE)

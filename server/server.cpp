@@ -116,7 +116,7 @@ core::Expected<void> Server::open_ports(const ServeConfig& config) {
   if (!lines) return tl::unexpected(lines.error());
   address_ = to_text(*lines);
   if (!config.web) return {};
-  const auto web = acceptor_.open_web(config.web->listen, config.web->names);
+  const auto web = acceptor_.open_web(*config.web);
   if (!web) return tl::unexpected(web.error());
   environment_.web_url = core::joined({"http://", to_text(*web), "/"});
   return {};
@@ -283,8 +283,10 @@ void Server::reload() {
   const protocol::Limits limits = limits_of(*config);
   limits_.replace(limits);
   for (const auto& room : lobby_.rooms()) room->use(limits);
+  if (config->web) acceptor_.reread(*config->web);
   log_->warn(
-      "SIGHUP: limits and log level are read again; limits of a session hold for who comes from now on");
+      "SIGHUP: limits, log level and certificate are read again; limits of a session hold for who comes from "
+      "now on");
 }
 
 void Server::reopen() {

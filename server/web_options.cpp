@@ -20,17 +20,31 @@ void add_web_options(CLI::App& app, TypedWeb& typed) {
          "A page's scheme://host:port that may open WebSockets, besides this server's own; several may "
          "be given")
       ->envname("WOODLOUSE_WEB_ORIGIN");
+  app.add_option("--tls-cert", typed.certificate,
+                 "PEM file of a certificate and those that vouch for it: TLS is spoken on --web, too; SIGHUP "
+                 "reads it again")
+      ->envname("WOODLOUSE_TLS_CERT");
+  app.add_option("--tls-key", typed.key, "PEM file of its key, without a password")
+      ->envname("WOODLOUSE_TLS_KEY");
 }
 
 core::Expected<std::optional<WebSettings>> checked_web(const TypedWeb& typed) {
   if (!typed.listen) {
-    if (typed.hosts.empty() && typed.origins.empty()) return std::nullopt;
-    return core::fail(typed.hosts.empty() ? "--web-origin" : "--web-host", "there is no port for browsers",
-                      "say where:  --web 127.0.0.1:7778");
+    const char* useless = nullptr;
+    if (typed.key) useless = "--tls-key";
+    if (typed.certificate) useless = "--tls-cert";
+    if (!typed.origins.empty()) useless = "--web-origin";
+    if (!typed.hosts.empty()) useless = "--web-host";
+    if (useless == nullptr) return std::nullopt;
+    return core::fail(useless, "there is no port for browsers", "say where:  --web 127.0.0.1:7778");
   }
+  if (typed.certificate.has_value() != typed.key.has_value())
+    return core::fail(typed.key ? "--tls-key" : "--tls-cert", "a certificate and its key belong together",
+                      "give both:  --tls-cert fullchain.pem --tls-key privkey.pem");
   auto address = parse_listen_address(*typed.listen, "--web", kDefaultWebPort);
   if (!address) return tl::unexpected(address.error());
-  WebSettings settings{std::move(*address), {}};
+  WebSettings settings{std::move(*address), {}, std::nullopt};
+  if (typed.certificate) settings.tls = TlsFiles{*typed.certificate, *typed.key};
   for (const std::string& text : typed.hosts) {
     auto host = checked_web_host(text);
     if (!host) return tl::unexpected(host.error());

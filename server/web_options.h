@@ -1,11 +1,11 @@
 // The options of the port on which the client speaks first.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "server/net/listen_address.h"
 #include "server/net/web_names.h"
 #include "shared/core/error.h"
 
@@ -19,12 +19,7 @@ namespace woodlouse::server {
 struct TypedWeb {
   std::optional<std::string> listen;
   std::vector<std::string> hosts, origins;
-};
-
-/// Checked.
-struct WebSettings {
-  ListenAddress listen;
-  WebNames names;
+  std::optional<std::filesystem::path> certificate, key;
 };
 
 void add_web_options(CLI::App& app, TypedWeb& typed);

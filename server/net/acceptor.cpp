@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "server/net/tcp_wire.h"
+#include "server/net/tls_doorway.h"
+#include "server/net/tls_wire.h"
 #include "shared/protocol/codes.h"
 
 namespace woodlouse::server {
@@ -46,9 +48,23 @@ core::Expected<tcp::endpoint> Acceptor::open(const ListenAddress& address) {
   return bound;
 }
 
-core::Expected<tcp::endpoint> Acceptor::open_web(const ListenAddress& address, WebNames names) {
-  web_environment_.names = std::move(names);
-  return web_.open(address);
+core::Expected<tcp::endpoint> Acceptor::open_web(const WebSettings& settings) {
+  web_environment_.names = settings.names;
+  if (settings.tls) {
+    auto tls = load_tls(*settings.tls);
+    if (!tls) return tl::unexpected(tls.error());
+    tls_ = std::move(*tls);
+  }
+  return web_.open(settings.listen);
+}
+
+void Acceptor::reread(const WebSettings& settings) {
+  if (!settings.tls) return;
+  auto tls = load_tls(*settings.tls);
+  if (!tls)
+    return environment_.log->error(
+        fmt::format("the old certificate serves on: {}: {}", tls.error().where, tls.error().what));
+  asio::post(strand_, [this, fresh = std::move(*tls)]() mutable { tls_ = std::move(fresh); });
 }
 
 void Acceptor::start() {
@@ -93,15 +109,36 @@ void Acceptor::meet(tcp::socket socket, Guest guest) {
 }
 
 void Acceptor::on_first_byte(SessionId id, Comes what, tcp::socket socket) {
-  if (what == Comes::kTls)
-    log(spdlog::level::debug, visits_.at(id).guest.address, "TLS is not spoken here: closed");
-  if (is_stopping_ || what == Comes::kTls || what == Comes::kNothing) return end_visit(id);
+  if (is_stopping_ || what == Comes::kNothing) return end_visit(id);
+  if (what == Comes::kTls) return shake_hands(id, std::move(socket));
   if (what == Comes::kHttp) return open_http_door(id, std::move(socket));
   open_session(std::make_unique<TcpWire>(std::move(socket)), take_visit(id),
                Session::Greeting::kAfterFirstLine);
 }
 
-void Acceptor::open_http_door(SessionId id, tcp::socket socket) {
+void Acceptor::shake_hands(SessionId id, tcp::socket socket) {
+  Visit& visit = visits_.at(id);
+  if (tls_ == nullptr) {
+    log(spdlog::level::debug, visit.guest.address, "TLS is not spoken here, without --tls-cert: closed");
+    return end_visit(id);
+  }
+  const auto doorway = make_tls_doorway(std::move(socket), *tls_, environment_.timekeeper);
+  visit.end = [doorway] { doorway->end(); };
+  doorway->start([this, id](Comes what, std::unique_ptr<TlsConnection> connection) {
+    asio::post(strand_, [this, id, what, inside = std::move(connection)]() mutable {
+      on_first_byte_inside(id, what, std::move(inside));
+    });
+  });
+}
+
+void Acceptor::on_first_byte_inside(SessionId id, Comes what, std::unique_ptr<TlsConnection> connection) {
+  if (is_stopping_ || what == Comes::kNothing) return end_visit(id);
+  if (what == Comes::kHttp) return open_http_door(id, std::move(connection));
+  open_session(make_tls_wire(std::move(connection)), take_visit(id), Session::Greeting::kAfterFirstLine);
+}
+
+template <typename Connection>
+void Acceptor::open_http_door(SessionId id, Connection connection) {
   Visit& visit = visits_.at(id);
   const std::string& address = visit.guest.address;
   visit.is_http = addresses_.take_http(address);
@@ -109,7 +146,7 @@ void Acceptor::open_http_door(SessionId id, tcp::socket socket) {
   if (!visit.is_http)
     refusal = "your address has " + std::to_string(ConnectionLimits::kMostHttp) + " of these already";
   if (visit.guest.refusal) refusal = visit.guest.refusal->text;
-  const auto door = make_http_door(std::move(socket), environment_, web_environment_,
+  const auto door = make_http_door(std::move(connection), environment_, web_environment_,
                                    addresses_.account(address), std::move(refusal),
                                    {[this, id] { asio::post(strand_, [this, id] { end_visit(id); }); },
                                     [this, id](std::unique_ptr<Wire> wire) {

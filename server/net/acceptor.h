@@ -18,6 +18,8 @@
 #include "server/net/listen_address.h"
 #include "server/net/port.h"
 #include "server/net/session.h"
+#include "server/net/tls_context.h"
+#include "server/net/web_names.h"
 #include "shared/core/error.h"
 
 namespace woodlouse::server {
@@ -30,10 +32,13 @@ class Acceptor {
   // Listen. Before the threads run.
   core::Expected<boost::asio::ip::tcp::endpoint> open(const ListenAddress& address);
   /// After open().
-  core::Expected<boost::asio::ip::tcp::endpoint> open_web(const ListenAddress& address, WebNames names);
+  core::Expected<boost::asio::ip::tcp::endpoint> open_web(const WebSettings& settings);
 
   // Any thread:
   void start();
+  /// Reads certificate and key again, for who comes from now on; where there are none, nothing. If they can't
+  /// be used the old ones serve on, and the log says why.
+  void reread(const WebSettings& settings);
   /// Closes the ports, says bye to who is left; `stopped` when the last connection is closed.
   void stop(protocol::Bye bye, std::function<void()> stopped);
 
@@ -56,7 +61,11 @@ class Acceptor {
   std::optional<Guest> admit(boost::asio::ip::tcp::socket& socket, std::size_t lane);
   void meet(boost::asio::ip::tcp::socket socket, Guest guest);
   void on_first_byte(SessionId id, Comes what, boost::asio::ip::tcp::socket socket);
-  void open_http_door(SessionId id, boost::asio::ip::tcp::socket socket);
+  void shake_hands(SessionId id, boost::asio::ip::tcp::socket socket);
+  void on_first_byte_inside(SessionId id, Comes what, std::unique_ptr<TlsConnection> connection);
+  /// Connection: as make_http_door() takes them.
+  template <typename Connection>
+  void open_http_door(SessionId id, Connection connection);
   void on_upgraded(SessionId id, std::unique_ptr<Wire> wire);
   /// It is known now what came of it.
   Guest take_visit(SessionId id);
@@ -72,6 +81,8 @@ class Acceptor {
   Port lines_;
   Port web_;
   WebEnvironment web_environment_;
+  std::shared_ptr<boost::asio::ssl::context>
+      tls_;  ///< null: TLS is not spoken; once the threads run the strand's
   // The strand's:
   ConnectionLimits addresses_;
   std::unordered_map<SessionId, std::shared_ptr<Session>> sessions_;

@@ -5,6 +5,7 @@
 #include <boost/asio/error.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/core/stream_traits.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/error.hpp>
 #include <boost/beast/http/field.hpp>
@@ -19,8 +20,10 @@
 #include <array>
 #include <cassert>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
+#include "server/net/tls_wire.h"
 #include "server/net/web_answers.h"
 #include "server/net/web_wire.h"
 
@@ -34,6 +37,8 @@ using boost::system::error_code;
 
 // One head and what may be read behind it.
 constexpr std::size_t kBufferBytes = 2 * std::size_t{HttpDoor::kHeadBytes};
+
+constexpr std::size_t kLineEnd = 2;  // "\r\n", which may stand at a message's end
 
 constexpr const char* kPolicy =
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' data:; "
@@ -56,12 +61,15 @@ std::optional<WebAnswer> refusal_of(const error_code& error, bool may_ask) {
 /// Those that look after the server are told, however much others of their address ask.
 bool is_probe(std::string_view target) { return target == "/healthz" || target == "/readyz"; }
 
-class TcpHttpDoor final : public HttpDoor, public std::enable_shared_from_this<TcpHttpDoor> {
+/// Stream: a socket, or TLS on one.
+template <typename Stream>
+class StreamHttpDoor final : public HttpDoor, public std::enable_shared_from_this<StreamHttpDoor<Stream>> {
  public:
-  TcpHttpDoor(asio::ip::tcp::socket socket, const SessionEnvironment& environment, const WebEnvironment& web,
-              std::shared_ptr<AddressAccount> account, std::string refusal, Ends ends)
-      : lane_(socket.get_executor()),
-        socket_(std::move(socket)),
+  StreamHttpDoor(Stream stream, std::string_view first, const SessionEnvironment& environment,
+                 const WebEnvironment& web, std::shared_ptr<AddressAccount> account, std::string refusal,
+                 Ends ends)
+      : lane_(stream.get_executor()),
+        stream_(std::move(stream)),
         environment_(environment),
         web_(web),
         account_(std::move(account)),
@@ -69,19 +77,23 @@ class TcpHttpDoor final : public HttpDoor, public std::enable_shared_from_this<T
         ends_(std::move(ends)),
         alarm_(environment.timekeeper.make_alarm(lane_)) {
     assert(account_ != nullptr && ends_.closed && ends_.upgraded);
+    buffer_.commit(asio::buffer_copy(buffer_.prepare(first.size()), asio::buffer(first)));
   }
 
   void start() override {
-    asio::dispatch(lane_, [self = shared_from_this()] { self->read_head(); });
+    asio::dispatch(lane_, [self = this->shared_from_this()] { self->read_head(); });
   }
   void end() override {
-    asio::post(lane_, [self = shared_from_this()] {
+    asio::post(lane_, [self = this->shared_from_this()] {
       self->is_stopping_ = true;
       if (!self->is_answering_) self->close();
     });
   }
 
  private:
+  static constexpr bool kIsSecure = !std::is_same_v<Stream, asio::ip::tcp::socket>;
+
+  [[nodiscard]] asio::ip::tcp::socket& socket() { return beast::get_lowest_layer(stream_); }
   void read_head();
   void on_head(const error_code& error);
   [[nodiscard]] WebAnswer judge();
@@ -89,12 +101,13 @@ class TcpHttpDoor final : public HttpDoor, public std::enable_shared_from_this<T
   void upgrade();
   void answer(WebAnswer answer, bool is_last);
   void on_answered(const error_code& error);
+  void shut_down();
   void drain();
   void close();
   /// It ends then, if nothing else is set before.
   void end_at(Time until) {
     until_ = until;
-    alarm_->set(until, [self = shared_from_this()](bool cancelled) {
+    alarm_->set(until, [self = this->shared_from_this()](bool cancelled) {
       if (!cancelled && self->now() >= self->until_) self->close();
     });
   }
@@ -113,7 +126,7 @@ class TcpHttpDoor final : public HttpDoor, public std::enable_shared_from_this<T
   }
 
   asio::any_io_executor lane_;
-  asio::ip::tcp::socket socket_;
+  Stream stream_;
   const SessionEnvironment& environment_;
   const WebEnvironment& web_;
   std::shared_ptr<AddressAccount> account_;
@@ -133,18 +146,20 @@ class TcpHttpDoor final : public HttpDoor, public std::enable_shared_from_this<T
   std::array<char, 512> thrown_away_{};
 };
 
-void TcpHttpDoor::read_head() {
+template <typename Stream>
+void StreamHttpDoor<Stream>::read_head() {
   if (!ends_.closed) return;
   parser_.emplace();
   parser_->header_limit(kHeadBytes);
   parser_->body_limit(0);
   end_at(now() + kPatience);
   http::async_read_header(
-      socket_, buffer_, *parser_,
-      [self = shared_from_this()](const error_code& error, std::size_t) { self->on_head(error); });
+      stream_, buffer_, *parser_,
+      [self = this->shared_from_this()](const error_code& error, std::size_t) { self->on_head(error); });
 }
 
-void TcpHttpDoor::on_head(const error_code& error) {
+template <typename Stream>
+void StreamHttpDoor<Stream>::on_head(const error_code& error) {
   if (!ends_.closed) return;
   ++requests_;
   if (error) {
@@ -165,7 +180,8 @@ void TcpHttpDoor::on_head(const error_code& error) {
 }
 
 /// 101: a session may begin.
-WebAnswer TcpHttpDoor::judge() {
+template <typename Stream>
+WebAnswer StreamHttpDoor<Stream>::judge() {
   if (!refusal_.empty()) return refusal(503, refusal_);
   const http::request<http::empty_body>& request = parser_->get();
   if (request.count(http::field::host) != 1) return refusal(400, "a request names one Host");
@@ -188,25 +204,29 @@ WebAnswer TcpHttpDoor::judge() {
   return answered;
 }
 
-std::string TcpHttpDoor::why_no_upgrade() {
+template <typename Stream>
+std::string StreamHttpDoor<Stream>::why_no_upgrade() {
   const std::size_t origins = parser_->get().count(http::field::origin);
   if (buffer_.size() > 0) return "wait for the answer before you send";
   if (is_stopping_) return "the server stops";
   if (origins == 0) return {};  // no browser
   if (origins > 1) return "a page has one Origin";
-  return why_not_origin(field(http::field::origin), false, field(http::field::host), web_.names);
+  return why_not_origin(field(http::field::origin), kIsSecure, field(http::field::host), web_.names);
 }
 
-void TcpHttpDoor::upgrade() {
+template <typename Stream>
+void StreamHttpDoor<Stream>::upgrade() {
   alarm_->cancel();
   auto upgraded = [ends = std::exchange(ends_, {})](std::unique_ptr<Wire> wire) {
     if (wire == nullptr) return ends.closed();
     ends.upgraded(std::move(wire));
   };
-  accept_web_wire(std::move(socket_), parser_->get(), environment_.limits.now()->line, std::move(upgraded));
+  accept_web_wire(std::move(stream_), parser_->get(), environment_.limits.now()->line + kLineEnd,
+                  std::move(upgraded));
 }
 
-void TcpHttpDoor::answer(WebAnswer answer, bool is_last) {
+template <typename Stream>
+void StreamHttpDoor<Stream>::answer(WebAnswer answer, bool is_last) {
   assert(!is_answering_ && answer.status >= 200);
   is_answering_ = true;
   is_last_ = is_last;
@@ -228,40 +248,52 @@ void TcpHttpDoor::answer(WebAnswer answer, bool is_last) {
   response_.prepare_payload();
   serializer_.emplace(response_);
   end_at(now() + kPatience);
-  auto answered = [self = shared_from_this()](const error_code& error, std::size_t) {
+  auto answered = [self = this->shared_from_this()](const error_code& error, std::size_t) {
     self->on_answered(error);
   };
   if (parser_->get().method() == http::verb::head)
-    http::async_write_header(socket_, *serializer_, std::move(answered));
+    http::async_write_header(stream_, *serializer_, std::move(answered));
   else
-    http::async_write(socket_, *serializer_, std::move(answered));
+    http::async_write(stream_, *serializer_, std::move(answered));
 }
 
-void TcpHttpDoor::on_answered(const error_code& error) {
+template <typename Stream>
+void StreamHttpDoor<Stream>::on_answered(const error_code& error) {
   if (!ends_.closed) return;
   is_answering_ = false;
   if (error) return close();
   if (!is_last_ && !is_stopping_) return read_head();
-  error_code ignored;  // then he has gone
-  socket_.shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
   end_at(now() + kLinger);
+  if constexpr (kIsSecure)
+    stream_.async_shutdown([self = this->shared_from_this()](const error_code&) { self->shut_down(); });
+  else
+    shut_down();
+}
+
+template <typename Stream>
+void StreamHttpDoor<Stream>::shut_down() {
+  if (!ends_.closed) return;
+  error_code ignored;  // then he has gone
+  socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
   drain();
 }
 
 /// What he still says is thrown away: closing with unread bytes would take the answer with it.
-void TcpHttpDoor::drain() {
-  socket_.async_read_some(asio::buffer(thrown_away_),
-                          [self = shared_from_this()](const error_code& error, std::size_t) {
-                            if (!self->ends_.closed) return;
-                            error ? self->close() : self->drain();
-                          });
+template <typename Stream>
+void StreamHttpDoor<Stream>::drain() {
+  socket().async_read_some(asio::buffer(thrown_away_),
+                           [self = this->shared_from_this()](const error_code& error, std::size_t) {
+                             if (!self->ends_.closed) return;
+                             error ? self->close() : self->drain();
+                           });
 }
 
-void TcpHttpDoor::close() {
+template <typename Stream>
+void StreamHttpDoor<Stream>::close() {
   if (!ends_.closed) return;
   alarm_->cancel();
   error_code ignored;  // closed all the same
-  socket_.close(ignored);
+  socket().close(ignored);
   std::exchange(ends_, {}).closed();
 }
 
@@ -270,8 +302,18 @@ void TcpHttpDoor::close() {
 std::shared_ptr<HttpDoor> make_http_door(asio::ip::tcp::socket socket, const SessionEnvironment& environment,
                                          const WebEnvironment& web, std::shared_ptr<AddressAccount> account,
                                          std::string refusal, HttpDoor::Ends ends) {
-  return std::make_shared<TcpHttpDoor>(std::move(socket), environment, web, std::move(account),
-                                       std::move(refusal), std::move(ends));
+  return std::make_shared<StreamHttpDoor<asio::ip::tcp::socket>>(
+      std::move(socket), "", environment, web, std::move(account), std::move(refusal), std::move(ends));
+}
+
+std::shared_ptr<HttpDoor> make_http_door(std::unique_ptr<TlsConnection> connection,
+                                         const SessionEnvironment& environment, const WebEnvironment& web,
+                                         std::shared_ptr<AddressAccount> account, std::string refusal,
+                                         HttpDoor::Ends ends) {
+  assert(connection != nullptr);
+  return std::make_shared<StreamHttpDoor<decltype(TlsConnection::stream)>>(
+      std::move(connection->stream), connection->first, environment, web, std::move(account),
+      std::move(refusal), std::move(ends));
 }
 
 }  // namespace woodlouse::server

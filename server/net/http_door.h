@@ -26,6 +26,8 @@ struct WebEnvironment {
   std::uint16_t lines_port = 0;  ///< where the server speaks first
 };
 
+struct TlsConnection;
+
 class HttpDoor {
  public:
   static constexpr Duration kPatience = std::chrono::seconds(10);  ///< for a head, and for an answer
@@ -53,6 +55,11 @@ class HttpDoor {
 /// The socket's executor is a lane; nothing of what came was read. refusal: why each request on it is
 /// refused; empty: they are answered.
 std::shared_ptr<HttpDoor> make_http_door(boost::asio::ip::tcp::socket socket,
+                                         const SessionEnvironment& environment, const WebEnvironment& web,
+                                         std::shared_ptr<AddressAccount> account, std::string refusal,
+                                         HttpDoor::Ends ends);
+/// The same after the handshake of TLS.
+std::shared_ptr<HttpDoor> make_http_door(std::unique_ptr<TlsConnection> connection,
                                          const SessionEnvironment& environment, const WebEnvironment& web,
                                          std::shared_ptr<AddressAccount> account, std::string refusal,
                                          HttpDoor::Ends ends);

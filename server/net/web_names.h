@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "server/net/listen_address.h"
+#include "server/net/tls_context.h"
 #include "shared/core/error.h"
 
 namespace woodlouse::server {
@@ -36,6 +38,13 @@ struct Origin {
 struct WebNames {
   std::vector<std::string> hosts;  ///< besides addresses and localhost; lower case
   std::vector<Origin> origins;     ///< besides the request's own
+};
+
+/// What is asked of the port on which the client speaks first.
+struct WebSettings {
+  ListenAddress listen;
+  WebNames names;
+  std::optional<TlsFiles> tls;  ///< none: TLS is not spoken
 };
 
 // As typed, checked. Errors: where = the option.

@@ -4,6 +4,7 @@
 #include <boost/asio/error.hpp>
 #include <boost/beast/core/stream_traits.hpp>
 #include <boost/beast/http/field.hpp>
+#include <boost/beast/websocket/ssl.hpp>
 #include <boost/beast/websocket/stream.hpp>
 
 #include <algorithm>
@@ -29,9 +30,10 @@ constexpr std::uint32_t kMostControls = 256;
 constexpr std::uint32_t kControlsABatch = 8;
 
 /// Without compression: a batch is packed for each client anew, and shared buffers would be shared no more.
+template <typename Stream>
 class WebWire final : public Wire {
  public:
-  WebWire(asio::ip::tcp::socket socket, std::size_t longest) : socket_(std::move(socket)) {
+  WebWire(Stream stream, std::size_t longest) : socket_(std::move(stream)) {
     socket_.set_option(websocket::stream_base::timeout{kAcceptWithin, websocket::stream_base::none(), false});
     socket_.set_option(websocket::stream_base::decorator(
         [](websocket::response_type& response) { response.set(beast::http::field::server, "woodlouse"); }));
@@ -102,24 +104,36 @@ class WebWire final : public Wire {
     static_cast<void>(close());
   }
 
-  websocket::stream<asio::ip::tcp::socket, false> socket_;
+  websocket::stream<Stream, false> socket_;
   std::vector<asio::const_buffer> buffers_;  ///< of the write that runs
   char last_byte_ = '\0';                    ///< of the message that comes
   std::uint32_t controls_ = 0;
 };
+
+template <typename Stream>
+void accept_on(Stream stream, const beast::http::request<beast::http::empty_body>& request,
+               std::size_t longest, std::function<void(std::unique_ptr<Wire> wire)> accepted) {
+  assert(longest > 0 && accepted);
+  auto wire = std::make_unique<WebWire<Stream>>(std::move(stream), longest);
+  WebWire<Stream>& accepting = *wire;
+  accepting.accept(request,
+                   [wire = std::move(wire), accepted = std::move(accepted)](const error_code& error) mutable {
+                     accepted(error ? nullptr : std::move(wire));
+                   });
+}
 
 }  // namespace
 
 void accept_web_wire(asio::ip::tcp::socket socket,
                      const beast::http::request<beast::http::empty_body>& request, std::size_t longest,
                      std::function<void(std::unique_ptr<Wire> wire)> accepted) {
-  assert(longest > 0 && accepted);
-  auto wire = std::make_unique<WebWire>(std::move(socket), longest);
-  WebWire& accepting = *wire;
-  accepting.accept(request,
-                   [wire = std::move(wire), accepted = std::move(accepted)](const error_code& error) mutable {
-                     accepted(error ? nullptr : std::move(wire));
-                   });
+  accept_on(std::move(socket), request, longest, std::move(accepted));
+}
+
+void accept_web_wire(decltype(TlsConnection::stream) stream,
+                     const beast::http::request<beast::http::empty_body>& request, std::size_t longest,
+                     std::function<void(std::unique_ptr<Wire> wire)> accepted) {
+  accept_on(std::move(stream), request, longest, std::move(accepted));
 }
 
 }  // namespace woodlouse::server

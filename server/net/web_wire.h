@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 
+#include "server/net/tls_wire.h"
 #include "server/net/wire.h"
 
 namespace woodlouse::server {
@@ -18,6 +19,10 @@ namespace woodlouse::server {
 /// from the client. accepted: called once on the socket's executor, a lane; null where the connection broke
 /// or the request was none that this WebSocket's version takes.
 void accept_web_wire(boost::asio::ip::tcp::socket socket,
+                     const boost::beast::http::request<boost::beast::http::empty_body>& request,
+                     std::size_t longest, std::function<void(std::unique_ptr<Wire> wire)> accepted);
+
+void accept_web_wire(decltype(TlsConnection::stream) stream,
                      const boost::beast::http::request<boost::beast::http::empty_body>& request,
                      std::size_t longest, std::function<void(std::unique_ptr<Wire> wire)> accepted);
 

@@ -49,6 +49,8 @@ ARROWS["bench"] = LIBRARY | PROGRAMS
 OUTSIDE = {
     "boost/": {room for room in PROGRAMS if room != "client/drawing"} | {"bots", "bench"},
     "boost/beast/": {"server/net"},
+    "boost/asio/ssl": {"server/net"},
+    "openssl/": {"server/net"},
     "nlohmann/": {"shared/json/parser.cpp", "server/config_file.cpp", "client/config.cpp"},
     "Eigen/": {"bench"},
     "xxhash.h": {"core"},
