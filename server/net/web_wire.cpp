@@ -24,6 +24,8 @@ namespace websocket = boost::beast::websocket;
 using boost::system::error_code;
 
 constexpr std::chrono::seconds kAcceptWithin{10};
+// From a close frame to the end of the connection; sessions linger as long.
+constexpr std::chrono::seconds kCloseWithin{1};
 // Pings and pongs of the WebSocket's own pass by what a session counts. Each batch that goes out makes up for
 // a few, so that who is shown a game may ping as often as he likes, and nobody without end.
 constexpr std::uint32_t kMostControls = 256;
@@ -34,7 +36,7 @@ template <typename Stream>
 class WebWire final : public Wire {
  public:
   WebWire(Stream stream, std::size_t longest) : socket_(std::move(stream)) {
-    socket_.set_option(websocket::stream_base::timeout{kAcceptWithin, websocket::stream_base::none(), false});
+    use_patience(kAcceptWithin);
     socket_.set_option(websocket::stream_base::decorator(
         [](websocket::response_type& response) { response.set(beast::http::field::server, "woodlouse"); }));
     socket_.auto_fragment(false);
@@ -46,6 +48,11 @@ class WebWire final : public Wire {
   template <typename Accepted>
   void accept(const beast::http::request<beast::http::empty_body>& request, Accepted accepted) {
     socket_.async_accept(request, std::move(accepted));
+  }
+
+  /// For a handshake, also for that of the end. None for silence: sessions have their own.
+  void use_patience(std::chrono::seconds patience) {
+    socket_.set_option(websocket::stream_base::timeout{patience, websocket::stream_base::none(), false});
   }
 
   void read_some(std::span<char> into, Handler handler) override {
@@ -118,7 +125,9 @@ void accept_on(Stream stream, const beast::http::request<beast::http::empty_body
   WebWire<Stream>& accepting = *wire;
   accepting.accept(request,
                    [wire = std::move(wire), accepted = std::move(accepted)](const error_code& error) mutable {
-                     accepted(error ? nullptr : std::move(wire));
+                     if (error) return accepted(nullptr);
+                     wire->use_patience(kCloseWithin);
+                     accepted(std::move(wire));
                    });
 }
 
