@@ -2,6 +2,7 @@
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/error.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/beast/core/stream_traits.hpp>
 #include <boost/beast/http/field.hpp>
 #include <boost/beast/websocket/ssl.hpp>
@@ -24,7 +25,7 @@ namespace websocket = boost::beast::websocket;
 using boost::system::error_code;
 
 constexpr std::chrono::seconds kAcceptWithin{10};
-// From a close frame to the end of the connection; sessions linger as long.
+// From a close frame of ours to the end of the connection; sessions linger as long.
 constexpr std::chrono::seconds kCloseWithin{1};
 // Pings and pongs of the WebSocket's own pass by what a session counts. Each batch that goes out makes up for
 // a few, so that who is shown a game may ping as often as he likes, and nobody without end.
@@ -71,6 +72,12 @@ class WebWire final : public Wire {
   void write(std::span<const Line> lines, std::size_t skipped, Handler handler) override {
     assert(!lines.empty() && skipped == 0);
     static_cast<void>(skipped);
+    // Beast closes it, for a broken frame: it would write again when the other side has ended, too.
+    if (!socket_.is_open()) {
+      asio::post(socket_.get_executor(),
+                 [handler = std::move(handler)] { handler(asio::error::operation_aborted, 0); });
+      return;
+    }
     controls_ -= std::min(controls_, kControlsABatch);
     buffers_.clear();
     for (const Line& line : lines) buffers_.push_back(asio::buffer(*line));
@@ -107,8 +114,14 @@ class WebWire final : public Wire {
   }
 
   void on_control(websocket::frame_type kind) {
-    if (kind == websocket::frame_type::close || ++controls_ <= kMostControls) return;
-    static_cast<void>(close());
+    if (kind == websocket::frame_type::close) {
+      // Beast answers, then waits for the other side's end, and writes nothing else till then: a client that
+      // has closed but for its socket would hold its place. So nothing more comes in.
+      error_code ignored;  // then it has gone
+      beast::get_lowest_layer(socket_).shutdown(asio::ip::tcp::socket::shutdown_receive, ignored);
+    } else if (++controls_ > kMostControls) {
+      static_cast<void>(close());
+    }
   }
 
   websocket::stream<Stream, false> socket_;
