@@ -49,7 +49,8 @@ class TlsWire final : public Wire {
 
   [[nodiscard]] error_code shut_down_sending() override {
     if (!connection_->stream.lowest_layer().is_open()) return asio::error::not_connected;
-    connection_->stream.async_shutdown([](const error_code&) {});
+    // It goes on for a moment when we have closed, and what it is of lasts as long.
+    connection_->stream.async_shutdown([kept = connection_](const error_code&) {});
     return {};
   }
 
@@ -60,7 +61,7 @@ class TlsWire final : public Wire {
   }
 
  private:
-  std::unique_ptr<TlsConnection> connection_;
+  std::shared_ptr<TlsConnection> connection_;
   std::vector<asio::const_buffer> buffers_;  ///< of the write that runs
 };
 
