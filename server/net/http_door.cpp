@@ -86,7 +86,8 @@ class StreamHttpDoor final : public HttpDoor, public std::enable_shared_from_thi
   void end() override {
     asio::post(lane_, [self = this->shared_from_this()] {
       self->is_stopping_ = true;
-      if (!self->is_answering_) self->close();
+      if (!self->is_answering_) return self->close();
+      self->end_at(self->now() + Session::kShutdownLinger);
     });
   }
 
@@ -263,7 +264,7 @@ void StreamHttpDoor<Stream>::on_answered(const error_code& error) {
   is_answering_ = false;
   if (error) return close();
   if (!is_last_ && !is_stopping_) return read_head();
-  end_at(now() + kLinger);
+  if (!is_stopping_) end_at(now() + kLinger);  // else end() has said till when
   if constexpr (kIsSecure)
     stream_.async_shutdown([self = this->shared_from_this()](const error_code&) { self->shut_down(); });
   else

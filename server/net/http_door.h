@@ -48,7 +48,7 @@ class HttpDoor {
 
   // Any thread:
   virtual void start() = 0;
-  /// The server stops: what is being answered is the last.
+  /// The server stops: what is being answered is the last, and has as long as a session's bye.
   virtual void end() = 0;
 };
 
