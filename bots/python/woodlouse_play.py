@@ -1,4 +1,4 @@
-"""Plays what a room plays: drives races, eats crumbs, holds hills. A beginning to improve on.
+"""Plays what a room plays: drives races (woodlouse_racer.py), eats crumbs, holds hills. A beginning to improve on.
 
     import woodlouse, woodlouse_play
 
@@ -8,9 +8,10 @@
 
 from math import hypot, inf, sqrt
 
+from woodlouse_racer import Racer
 from woodlouse_ways import Ways
 
-STUCK_S = 10.0  # without coming nearer, after which a racer begins again and others go elsewhere
+STUCK_S = 5.0  # without coming nearer, after which a forager goes elsewhere
 STALLED_S = 1.0  # of standing, after which a louse takes a run-up
 SLOW_S = 2.0  # without coming nearer, after which it looks for another way than straight
 RUN_UPS = 3  # each of which gets that time anew
@@ -96,18 +97,6 @@ class Driver:
         dx, dy = self._ground.way(me.x, me.y, *place)
         return dx, dy, hypot(dx, dy)
 
-    def carries(self, me, place):
-        """Whether it comes straight to the place, by its speed and its thrust."""
-        return self._ways.carries(me, place)
-
-    def cost(self, me, place):
-        """Of the way from there to a place: metres, more where it is steep."""
-        return self._ways.cost(me.x, me.y, place)
-
-    def cost_between(self, one, other):
-        """The same from place to place."""
-        return self._ways.cost(*one, other)
-
     def push(self, tick, me, place, speed_there, goal=None):
         """The thrust towards a place [m], to be there with so many m/s. goal: whose progress it is, the place's own where it
         is left out."""
@@ -157,76 +146,6 @@ class Driver:
         return onwards * along[0] - across * along[1], onwards * along[1] + across * along[0]
 
 
-class Racer:
-    """Drives through the next gate where the way to the one behind it is short, as fast as the turn lets it."""
-
-    def __init__(self, game):
-        self._game, self._driver, self._gates = game, Driver(game), game.rules["gates"]
-        self._chosen = None, None  # a gate, and where on it
-        self._back = None  # the gate that it drives back from, to come from its right-hand side
-
-    def push(self, state):
-        gate = self._game.gate
-        if gate is None or not gate < len(self._gates):
-            return None
-        if self._driver.stuck_s(state.tick) > STUCK_S:
-            self._game.respawn()
-            self._driver.head_for(None, state.tick)
-            return None
-        me, after = state.me, (gate + 1) % len(self._gates)
-        middle, along, across, half = self._shape(gate)
-        dx, dy, far = self._driver.way(me, middle)
-        behind = -(dx * across[0] + dy * across[1])  # so far past the gate's line it is [m]
-        if behind > 0:
-            self._back = gate
-        elif behind < -2:
-            self._back = None
-        if self._back == gate:
-            before = (middle[0] - 4 * across[0], middle[1] - 4 * across[1])
-            return self._driver.push(state.tick, me, before, 2.0, (gate, "back"))
-        # Seen from here, where the straight way on crosses the gate's line.
-        ox, oy = self._ground_way(middle, self._shape(after)[0])
-        there = ox * across[0] + oy * across[1]
-        share = -behind / max(0.1, there - behind) if there > 0 else 0.0
-        aside = (-dx + share * (dx + ox)) * along[0] + (-dy + share * (dy + oy)) * along[1]
-        room = max(0.3 * half, half - 1.5)
-        aside = max(-room, min(room, aside))
-        cross = (middle[0] + aside * along[0], middle[1] + aside * along[1])
-        if not self._driver.carries(me, cross):
-            cross = self._easiest(me, gate, [(middle[0] + share * room * along[0], middle[1] + share * room * along[1])
-                                             for share in (0.0, -0.5, 0.5, -1.0, 1.0)])
-        speed = TOP_SPEED if self._gates[gate].get("air") else self._speed_at(me, cross, self._shape(after)[0])
-        return self._driver.push(state.tick, me, cross, speed, gate)
-
-    def _easiest(self, me, gate, places):
-        """Of places on a gate that from which the way on is easiest, as seen when it was looked for first."""
-        if self._chosen[0] != gate:
-            after = self._shape((gate + 1) % len(self._gates))[0]
-            self._chosen = gate, min(places, key=lambda place: self._driver.cost(me, place) +
-                                     self._driver.cost_between(place, after))
-        return self._chosen[1]
-
-    def _ground_way(self, one, other):
-        return self._game.map().way(*one, *other)
-
-    def _shape(self, gate):
-        """Its middle, its direction from a to b, the direction in which it is driven through, and half of its length."""
-        (ax, ay), (bx, by) = self._gates[gate]["a"], self._gates[gate]["b"]
-        size = hypot(bx - ax, by - ay)
-        along = ((bx - ax) / size, (by - ay) / size)
-        return ((ax + bx) / 2, (ay + by) / 2), along, (-along[1], along[0]), size / 2
-
-    def _speed_at(self, me, cross, after):
-        """With which the turn from here over there to the place after it can be driven, with half of the thrust."""
-        dx, dy, come = self._driver.way(me, cross)
-        ox, oy = self._ground_way(cross, after)
-        go = hypot(ox, oy)
-        cosine = (dx * ox + dy * oy) / max(1e-9, come * go)
-        tangent = sqrt(max(0.0, 1 - cosine) / max(1e-6, 1 + cosine))  # of half the turn
-        radius = 0.5 * go / max(1e-3, tangent)
-        return max(2.0, min(TOP_SPEED, sqrt(0.5 * self._game.physics["thrust_max"] * radius)))
-
-
 class Forager:
     """Goes for the crumb that gives most for the time it takes."""
 
@@ -237,7 +156,7 @@ class Forager:
     def push(self, state):
         crumbs = self._game.round.crumbs if self._game.round else {}
         wanted = {crumb for crumb in crumbs.values() if crumb not in self._given_up}
-        if self._driver.stuck_s(state.tick) > STUCK_S / 2 and self._target in wanted:
+        if self._driver.stuck_s(state.tick) > STUCK_S and self._target in wanted:
             wanted.discard(self._target)
             self._given_up.add(self._target)
         if not wanted:
@@ -276,7 +195,6 @@ class Holder:
             return self._charge(state, other)
         self._contested_since = None
         return self._driver.push(state.tick, state.me, tuple(self._places[place % len(self._places)]["at"]), 0.0)
-
 
     def _contester(self, state, place):
         """The nearest other louse on the place, where it is on it itself."""

@@ -12,7 +12,7 @@ import woodlouse
 import woodlouse_play
 from woodlouse_ways import Ways
 
-PHYSICS = {"gravity": 9.81, "drag": 0.2, "friction": 0.05, "thrust_max": 4}
+PHYSICS = {"gravity": 9.81, "drag": 0.2, "friction": 0.05, "thrust_max": 4, "edge_restitution": 0.5}
 Me = collections.namedtuple("Me", "x y vx vy", defaults=(0.0, 0.0))
 
 
@@ -30,7 +30,8 @@ RIDGE = ground(lambda x, y: 3.0 if 2 <= x <= 4 and y < 8 else 0.0)
 def game(mode, rules, of=LEVEL, **standing):
     """As much of a Game as a player looks at; respawns counts."""
     made = types.SimpleNamespace(id=2, mode=mode, rules=rules, physics=PHYSICS, tick_hz=60, map=lambda: of, respawns=0,
-                                 round=None, players={}, seconds_of=lambda moments: moments / 65536 / 60, **standing)
+                                 round=None, players={}, last_ack=None,
+                                 seconds_of=lambda moments: moments / 65536 / 60, **standing)
 
     def respawn():
         made.respawns += 1
@@ -82,12 +83,11 @@ class Playing(unittest.TestCase):
         x, y = player.push(seen(Me(-5, 0)))
         self.assertGreater(x, 0.5)
         self.assertAlmostEqual(y, 0, delta=0.1)
-        x, _ = player.push(seen(Me(3, 0), 1))
+        self.assertIsNone(player.push(seen(Me(-4.9, 0, 0.2), 3)), "it has decided just now")
+        x, _ = player.push(seen(Me(3, 0), 12))
         self.assertLess(x, -0.5, "it is past the line: back")
-        x, _ = player.push(seen(Me(-1, 0), 2))
-        self.assertLess(x, 0, "not far enough to come again")
-        x, _ = player.push(seen(Me(-3, 0), 3))
-        self.assertGreater(x, 0)
+        x, _ = player.push(seen(Me(-3, 0), 24))
+        self.assertGreater(x, 0.5)
 
     def test_a_racer_that_does_not_get_on_begins_again(self):
         played = game("race", {"gates": self.GATES}, gate=0)
