@@ -77,7 +77,7 @@ class Rotation(unittest.TestCase):
                                 break
                         self.assertNotEqual(begun["now"], begun["at"], welcome["mode"])
             finally:
-                server.process.terminate()
+                server.stop()
                 _, errors = climber.communicate(timeout=20)
             self.assertNotIn("Traceback", errors)
 

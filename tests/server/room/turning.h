@@ -75,10 +75,13 @@ class HandmadeRotation final : public Rotation {
 struct Turning : House {
   explicit Turning(SeenGames& seen, HandmadeRotation& rotation, std::uint32_t rounds = 1)
       : House(turning(rounds), game_of("table", state::Mode::kHill), watched(seen), &rotation),
-        turns(rotation) {
+        turns(rotation),
+        seen_(seen) {
     room->start([] {});
     tick();
   }
+  /// What was not finished holds the room, which must not outlive what it runs on.
+  ~Turning() { seen_.unfinished.clear(); }
   static RoomSettings turning(std::uint32_t rounds) {
     RoomSettings result = settings(8);
     result.name = "rotation";
@@ -108,6 +111,9 @@ struct Turning : House {
     tick();
   }
   HandmadeRotation& turns;
+
+ private:
+  SeenGames& seen_;
 };
 
 inline std::string code_of(const protocol::ServerMessage& message) {
