@@ -9,8 +9,8 @@
 
 #include "tests/server/net/session_stage.h"
 
-using namespace woodlouse;
-using namespace woodlouse::server;
+namespace woodlouse::server::allowance_test {
+
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
@@ -144,3 +144,5 @@ TEST_CASE(
   stage.pass(seconds(20));
   CHECK(pongs() == 20);
 }
+
+}  // namespace woodlouse::server::allowance_test

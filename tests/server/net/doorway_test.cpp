@@ -15,7 +15,7 @@
 
 #include "tests/server/timing/manual_timekeeper.h"
 
-using namespace woodlouse::server;
+namespace woodlouse::server::doorway_test {
 
 namespace {
 
@@ -117,3 +117,5 @@ TEST_CASE("what nobody speaks at a doorway is closed, as is who goes, and who is
     CHECK(porch.timekeeper.pending() == 0);
   }
 }
+
+}  // namespace woodlouse::server::doorway_test

@@ -9,8 +9,8 @@
 #include "shared/protocol/messages.h"
 #include "tests/server/net/session_stage.h"
 
-using namespace woodlouse;
-using namespace woodlouse::server;
+namespace woodlouse::server::greeting_test {
+
 using std::chrono::seconds;
 
 namespace {
@@ -70,3 +70,5 @@ TEST_CASE("an HTTP request on the port of lines is told where the page is") {
   CHECK(stage.has_got("bad_json"));
   CHECK(stage.last_line().find("open http://127.0.0.1:7778/") != std::string::npos);
 }
+
+}  // namespace woodlouse::server::greeting_test

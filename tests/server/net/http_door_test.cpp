@@ -15,8 +15,8 @@
 
 #include "tests/server/net/session_stage.h"
 
-using namespace woodlouse;
-using namespace woodlouse::server;
+namespace woodlouse::server::http_door_test {
+
 using boost::asio::ip::tcp;
 
 namespace {
@@ -226,3 +226,5 @@ TEST_CASE("the end of the server is the end of a socket on which nothing is answ
   browser.door->end();
   browser.until_closed();
 }
+
+}  // namespace woodlouse::server::http_door_test

@@ -11,8 +11,8 @@
 #include "tests/server/net/memory_wire.h"
 #include "tests/server/room/house.h"
 
-using namespace woodlouse;
-using namespace woodlouse::server;
+namespace woodlouse::server::leaving_test {
+
 using std::chrono::seconds;
 
 namespace {
@@ -249,3 +249,5 @@ TEST_CASE(
   visit.house.settle();
   CHECK(visit.closed);
 }
+
+}  // namespace woodlouse::server::leaving_test

@@ -7,8 +7,8 @@
 #include "server/net/session.h"
 #include "tests/server/net/session_stage.h"
 
-using namespace woodlouse;
-using namespace woodlouse::server;
+namespace woodlouse::server::liveness_test {
+
 using std::chrono::seconds;
 
 namespace {
@@ -78,3 +78,5 @@ TEST_CASE("a connection that ends is lost, `leave` and a fault of the client's a
     CHECK(stage.volcano->parting == Parting::kLeft);
   }
 }
+
+}  // namespace woodlouse::server::liveness_test

@@ -6,7 +6,8 @@
 
 #include "shared/core/random.h"
 
-using namespace woodlouse::server;
+namespace woodlouse::server::outbox_test {
+
 using Outcome = FrameSlots::Outcome;
 
 namespace {
@@ -178,3 +179,5 @@ TEST_CASE(
   CHECK(outbox.offer(delta(3, 0)) == Outcome::kStored);
   CHECK(text(outbox.take()) == "event welcome map k0 d3 ");
 }
+
+}  // namespace woodlouse::server::outbox_test

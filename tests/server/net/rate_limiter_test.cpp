@@ -2,7 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-using namespace woodlouse::server;
+namespace woodlouse::server::rate_limiter_test {
+
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 using Verdict = RateLimiter::Verdict;
@@ -53,3 +54,5 @@ TEST_CASE("a sustained flood is told from a client that is a little too eager") 
   CHECK_FALSE(lives(150));
   CHECK_FALSE(lives(1000));
 }
+
+}  // namespace woodlouse::server::rate_limiter_test

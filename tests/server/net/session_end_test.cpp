@@ -7,8 +7,8 @@
 #include "server/net/session.h"
 #include "tests/server/net/session_stage.h"
 
-using namespace woodlouse;
-using namespace woodlouse::server;
+namespace woodlouse::server::session_end_test {
+
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
@@ -308,3 +308,5 @@ TEST_CASE("whichever call of the connection fails, the session closes once and l
   }
   CHECK(faults > 10);
 }
+
+}  // namespace woodlouse::server::session_end_test

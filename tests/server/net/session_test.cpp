@@ -12,8 +12,8 @@
 #include "shared/protocol/codes.h"
 #include "tests/server/net/session_stage.h"
 
-using namespace woodlouse;
-using namespace woodlouse::server;
+namespace woodlouse::server::session_test {
+
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
@@ -298,3 +298,5 @@ TEST_CASE("a client that reads nothing is sent ever less, is told, and is ended 
         "alone\n");
   CHECK(stage.volcano->parting == Parting::kLost);
 }
+
+}  // namespace woodlouse::server::session_test

@@ -13,7 +13,8 @@
 #include <utility>
 #include <vector>
 
-using namespace woodlouse::server;
+namespace woodlouse::server::tcp_wire_test {
+
 namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
@@ -106,3 +107,5 @@ TEST_CASE("closing a wire over TCP ends its read, afterwards every call fails") 
   CHECK(set_options(unconnected, std::chrono::seconds(15)));
   CHECK(pair.wire->shut_down_sending());
 }
+
+}  // namespace woodlouse::server::tcp_wire_test

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <string>
 
-using namespace woodlouse::server;
+namespace woodlouse::server::tls_context_test {
 
 namespace {
 
@@ -40,3 +40,5 @@ TEST_CASE("files of which TLS can't be spoken are refused with the option that n
   CHECK_FALSE(context.error().what.empty());
   CHECK_FALSE(context.error().hint.empty());
 }
+
+}  // namespace woodlouse::server::tls_context_test

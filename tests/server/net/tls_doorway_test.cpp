@@ -17,7 +17,7 @@
 #include "server/net/tls_wire.h"
 #include "tests/server/timing/manual_timekeeper.h"
 
-using namespace woodlouse::server;
+namespace woodlouse::server::tls_doorway_test {
 
 namespace {
 
@@ -80,3 +80,5 @@ TEST_CASE("what only begins as TLS is closed") {
   porch.run();
   CHECK(porch.came == Comes::kNothing);
 }
+
+}  // namespace woodlouse::server::tls_doorway_test

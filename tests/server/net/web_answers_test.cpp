@@ -8,7 +8,7 @@
 
 #include "tests/server/net/session_stage.h"
 
-using namespace woodlouse::server;
+namespace woodlouse::server::web_answers_test {
 
 namespace {
 
@@ -56,3 +56,5 @@ TEST_CASE("of a page that is not there nothing comes back") {
     CHECK(answer.body == asked("/x").body);
   }
 }
+
+}  // namespace woodlouse::server::web_answers_test

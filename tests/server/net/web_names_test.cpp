@@ -5,7 +5,7 @@
 #include <string>
 #include <tuple>
 
-using namespace woodlouse::server;
+namespace woodlouse::server::web_names_test {
 
 namespace {
 
@@ -82,3 +82,5 @@ TEST_CASE("names and origins are checked as they are typed") {
   for (const auto* origin : {"a", "https://a/", "null", ""})
     CHECK(checked_web_origin(origin).error().where.starts_with("--web-origin"));
 }
+
+}  // namespace woodlouse::server::web_names_test
