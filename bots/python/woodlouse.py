@@ -37,13 +37,15 @@ row.vx ...), in units. me: your own row; None for a spectator, and before your l
 
 
 def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields=None, format="quantized", state_hz=None,
-            verify=False, resume=True):
+            verify=False, resume=True, view=None):
     """Connects to HOST:PORT, or HOST:PORT/ROOM, and joins. Raises WoodlouseError. Use it in a `with`: that leaves at the
     end.
 
     role: "bot", "player" or "spectator". fields: names of columns, or "all"; id x y vx vy when left out. A server with rules
     of play is asked for those of a Standing besides, but with "all", for game.score and the like; rows don't show them.
     state_hz: how many states a second; the room's own when left out.
+    view: states show a part of the room: a dict of what look() takes, {} for all of it until look() says otherwise. Own
+    louse and nearest others first: {"rows": 30}. Leave it out where you want everybody.
     verify: recompute the hash of every key from its rows. Asks for all fields in exact format, so leave out `fields`
     and `format`; game.verified counts the keys, and one that differs raises WoodlouseError with the code "differs".
     resume: where the connection breaks, come back within 30 s, into the louse that waits for so long; what is sent
@@ -57,7 +59,9 @@ def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields
     address, _, of_address = address.partition("/")
     room = room or of_address or None
     join = {"type": "join", "protocol": 1, "role": role, "name": name, "format": format}
-    for field, value in (("room", room), ("fields", fields), ("state_hz", state_hz)):
+    if verify and view is not None:
+        raise ValueError("verify needs all lice: leave out `view`")
+    for field, value in (("room", room), ("fields", fields), ("state_hz", state_hz), ("view", view)):
         if value is not None:
             join[field] = value
     return Game(Door(address, join, resume, with_standing(fields)), name, verify, fields)
@@ -200,6 +204,14 @@ class Game(Session):
             message["tick"] = int(tick)
         self._send(message)
         return self._seq
+
+    def look(self, x=None, y=None, louse=None, radius=None, rows=None):
+        """What states show from now on, of a game that was joined with a `view`: lice around (x, y), or around that louse,
+        or around your own; within `radius` [m] of it; at most `rows`, the nearest. Without arguments all of them."""
+        view = {"x": x, "y": y, "louse": louse, "radius": radius, "rows": rows}
+        view = {field: value for field, value in view.items() if value is not None}
+        self._door.look(view)
+        self._send(dict(view, type="view"))
 
     def skip(self):
         """Votes for the room's next game, if it plays several in turns; players may, bots not."""

@@ -26,6 +26,10 @@ class Door:
         """(lines, hello, welcome). Waits where the server says that too many join just now. Raises WoodlouseError."""
         return self._try(lambda error: error.code == "rate_limited", SILENCE_S)
 
+    def look(self, view):
+        """What a join to come asks to be shown."""
+        self._join["view"] = view
+
     def brings_back(self, error):
         """Whether who was stopped by this error may come back."""
         return self._resumes and error.code in _PASSING

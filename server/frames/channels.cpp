@@ -6,8 +6,9 @@
 namespace woodlouse::server {
 
 void Channels::open(ChannelId channel, RowLayout layout) {
-  const auto [at, is_new] =
-      channels_.emplace(channel, Channel{FrameEncoder(std::move(layout)), std::nullopt, std::nullopt});
+  Channel made{FrameEncoder(layout), std::nullopt, std::nullopt};
+  if (layout.in_sheets) made.encoder = SheetEncoder(std::move(layout));
+  const auto [at, is_new] = channels_.emplace(channel, std::move(made));
   assert(is_new);
   static_cast<void>(at);
   static_cast<void>(is_new);
@@ -29,11 +30,11 @@ void Channels::begin_anew() {
 const Frame& Channels::encode(Channel& channel, const Scene& scene, FrameKind kind) {
   ++encoded_;
   if (kind == FrameKind::kKey || !channel.key) {
-    channel.key = channel.encoder.key(scene);
+    channel.key = std::visit([&](auto& encoder) { return encoder.key(scene); }, channel.encoder);
     channel.delta.reset();
     return *channel.key;
   }
-  channel.delta = channel.encoder.delta(scene);
+  channel.delta = std::visit([&](auto& encoder) { return encoder.delta(scene); }, channel.encoder);
   return *channel.delta;
 }
 

@@ -1,4 +1,4 @@
-// The encoders of a room's row layouts: one frame per layout and tick, whoever many want it.
+// The encoders of a room's row layouts: one frame, or one sheet, per layout and tick, however many want it.
 // Pure. One owner, no locking.
 #pragma once
 
@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "server/frames/frame_encoder.h"
 #include "server/frames/layouts.h"
+#include "server/frames/sheet_encoder.h"
 
 namespace woodlouse::server {
 
@@ -41,7 +43,7 @@ class Channels {
 
  private:
   struct Channel {
-    FrameEncoder encoder;
+    std::variant<FrameEncoder, SheetEncoder> encoder;
     std::optional<Frame> key, delta;
   };
   const Frame& encode(Channel& channel, const Scene& scene, FrameKind kind);

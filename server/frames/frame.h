@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "server/frames/line.h"
+#include "server/frames/row_sheet.h"
 
 namespace woodlouse::server {
 
@@ -18,6 +19,7 @@ struct Frame {
   std::uint64_t base = 0;   ///< a key's own tick
   std::uint64_t index = 0;  ///< counts the room's frames: tick / (tick_hz / state_hz)
   Line text;
+  SharedRowSheet sheet{};  ///< instead of the text: of which each client is shown a part (viewer.h)
 };
 
 }  // namespace woodlouse::server

@@ -22,19 +22,13 @@ void append_proof(std::string& text, const state::HashLink& link) {
   json::append_hash(text += R"(,"generator":)", link.generator);
 }
 
+}  // namespace
+
 void append_its_game(std::string& text, const protocol::Game& game) {
   json::ObjectText object(text += R"(,"game":)");
   protocol::append_game(object, game);
   object.end();
 }
-
-rules::Standing standing_of(const Scene& scene, std::size_t louse) {
-  if (!scene.game) return {};
-  assert(scene.game->standings.size() == scene.lice.size());
-  return scene.game->standings[louse];
-}
-
-}  // namespace
 
 FrameEncoder::FrameEncoder(RowLayout layout) : rows_(std::move(layout)) {
   proves_hash_ =
@@ -55,7 +49,7 @@ void FrameEncoder::write_key(std::string& text, const Scene& scene) {
     const state::Louse& louse = scene.lice[k];
     if (k > 0) text += ',';
     const std::size_t begin = text.size();
-    const rules::Standing standing = standing_of(scene, k);
+    const rules::Standing standing = scene.standing(k);
     rows_.append(text, louse, standing, scene.terrain);
     key_rows_.push_back({louse, standing, begin, text.size()});
   }
@@ -90,7 +84,7 @@ void FrameEncoder::write_delta(std::string& text, const Scene& scene) {
   bool first = true;
   for (std::size_t k = 0; k < scene.lice.size(); ++k) {
     const state::Louse& louse = scene.lice[k];
-    const rules::Standing standing = standing_of(scene, k);
+    const rules::Standing standing = scene.standing(k);
     while (known != key_rows_.cend() && known->louse.id < louse.id) report_gone();
     const bool is_known = known != key_rows_.cend() && known->louse.id == louse.id;
     if (is_known && same_bytes(known->louse, louse) && known->standing == standing) {

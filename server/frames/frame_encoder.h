@@ -8,6 +8,7 @@
 // socket. The room's strand owns it.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -40,7 +41,18 @@ struct Scene {
   std::uint64_t hash = 0;           ///< of the state at `tick`
   state::HashLink link;             ///< what went into the hash besides the lice
   std::optional<GameScene> game{};  ///< where there are rules
+  bool wraps = false;               ///< beyond each edge of the map lies the opposite one
+
+  /// Of lice[louse], by the rules of play.
+  [[nodiscard]] rules::Standing standing(std::size_t louse) const {
+    if (!game) return {};
+    assert(game->standings.size() == lice.size());
+    return game->standings[louse];
+  }
 };
+
+/// The member `game` of a frame, after others.
+void append_its_game(std::string& text, const protocol::Game& game);
 
 class FrameEncoder {
  public:

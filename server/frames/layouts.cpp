@@ -32,11 +32,12 @@ bool has_all(const RowLayout& layout, const std::vector<protocol::Column>& field
 }  // namespace
 
 RowLayout Layouts::wider(const RowLayout& layout) const {
-  RowLayout best{protocol::all_columns(), layout.format};
+  RowLayout best{protocol::all_columns(), layout.format, layout.in_sheets};
   if (!has_all(best, layout.fields)) best.fields = every_column();
   for (const auto& [id, use] : uses_) {
     const RowLayout& own = use.layout;
-    if (own.format == layout.format && own.fields.size() < best.fields.size() && has_all(own, layout.fields))
+    if (own.format == layout.format && own.in_sheets == layout.in_sheets &&
+        own.fields.size() < best.fields.size() && has_all(own, layout.fields))
       best = own;
   }
   return best;

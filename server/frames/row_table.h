@@ -18,6 +18,7 @@ namespace woodlouse::server {
 struct RowLayout {
   std::vector<protocol::Column> fields;
   protocol::Format format = protocol::Format::kQuantized;
+  bool in_sheets = false;  ///< each client is shown a part of the rows (row_sheet.h)
   friend auto operator<=>(const RowLayout&, const RowLayout&) = default;
 };
 

@@ -20,8 +20,9 @@ struct Snapshot {
   std::uint64_t hash = 0;
   state::HashLink link;
   std::optional<GameScene> game;
+  bool wraps = false;
 
-  [[nodiscard]] Scene scene() const { return {tick, index, lice, *terrain, hash, link, game}; }
+  [[nodiscard]] Scene scene() const { return {tick, index, lice, *terrain, hash, link, game, wraps}; }
 };
 
 using SharedSnapshot = SharedValue<Snapshot>;
@@ -35,6 +36,7 @@ inline SharedSnapshot take_snapshot(SharedPool<Snapshot>& pool, const Scene& sce
     taken.hash = scene.hash;
     taken.link = scene.link;
     taken.game = scene.game;
+    taken.wraps = scene.wraps;
   };
   return pool.make(fill, [](const Snapshot&) { return true; });
 }

@@ -119,6 +119,7 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
     return push(Line(std::move(line)));
   }
   if (auto* wanted = std::get_if<protocol::Join>(&message)) return join(std::move(*wanted), now);
+  if (const auto* wanted = std::get_if<protocol::Look>(&message)) return look(wanted->view);
   if (waits_for_its_turn(message)) return ask(std::move(message), now);
   if (std::holds_alternative<protocol::Leave>(message)) {
     if (!input_ended_) parting_ = Parting::kLeft;
@@ -130,6 +131,7 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
 
 void Session::join(protocol::Join join, Time now) {
   door_ = environment_.directory.find(join.room);
+  view_ = join.view;
   if (door_) return door_->join({id_, shared_from_this(), std::move(join), allowance_.address().id(), now});
   handshake_.refused();
   say(unknown_room(join.room, environment_.directory.names()));
@@ -166,15 +168,13 @@ void Session::deliver(Line line) {
              [self = shared_from_this(), line = std::move(line)]() mutable { self->push(std::move(line)); });
 }
 
-void Session::answer(protocol::ServerMessage message) {
-  asio::post(lane_, [self = shared_from_this(), message = std::move(message)] { self->say(message); });
-}
-
 void Session::show_again(const Frame& frame) {
   asio::post(lane_, [self = shared_from_this(), frame] {
     if (self->state_ != State::kOpen) return;
-    if (frame.kind == FrameKind::kKey) self->key_bytes_ = frame.text->size();
-    self->sender_.outbox().offer(frame);
+    const auto seen = self->seen(frame);
+    if (!seen) return;
+    if (seen->kind == FrameKind::kKey) self->key_bytes_ = seen->text->size();
+    self->sender_.outbox().offer(*seen);
     self->sender_.write_soon();
   });
 }
@@ -186,7 +186,9 @@ void Session::show(const Frame& frame) {
 
 void Session::show_here(const Frame& frame) {
   if (state_ != State::kOpen || !rate_.wants(frame, divisor_)) return;
-  const FrameSlots::Outcome outcome = sender_.outbox().offer(frame);
+  const auto shown = seen(frame);
+  if (!shown) return;
+  const FrameSlots::Outcome outcome = sender_.outbox().offer(*shown);
   if (outcome == FrameSlots::Outcome::kStale) return;
   tell_pace(rate_.on_frame(now(), outcome == FrameSlots::Outcome::kReplaced));
   sender_.write();
@@ -215,6 +217,7 @@ void Session::welcome(protocol::Welcome welcome, std::uint32_t divisor) {
     if (self->state_ != State::kOpen) return;
     self->divisor_ = divisor;
     self->map_bytes_ = welcome.map_bytes;
+    self->begin_viewing(welcome);
     self->sender_.outbox().begin_anew();
     self->say(welcome);
     self->watch_next(self->now());
@@ -233,12 +236,6 @@ void Session::refuse_join(protocol::ErrorMessage error) {
     self->say(error);
     for (const auto& refusal : self->allowance_.refuse_waiting()) self->say(refusal);
     if (leaves) self->say_goodbye();
-  });
-}
-
-void Session::end(protocol::Bye bye) {
-  asio::post(lane_, [self = shared_from_this(), bye = std::move(bye)] {
-    self->say_bye({}, bye, Outbox::Replaceable::kDropped, kShutdownLinger);
   });
 }
 

@@ -26,6 +26,7 @@
 #include <string_view>
 #include <utility>
 
+#include "server/frames/viewer.h"
 #include "server/net/allowance.h"
 #include "server/net/handshake.h"
 #include "server/net/pulse.h"
@@ -80,7 +81,10 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   // Subscriber: any thread.
   [[nodiscard]] std::size_t lane() const override { return lane_number_; }
   void deliver(Line line) override;
-  void answer(protocol::ServerMessage message) override;
+  void answer(protocol::ServerMessage message) override {
+    boost::asio::post(lane_,
+                      [self = shared_from_this(), message = std::move(message)] { self->say(message); });
+  }
   void show(const Frame& frame) override;
   void show_again(const Frame& frame) override;
   void deliver_map(Line line) override;
@@ -94,7 +98,11 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   void let_go() override {
     boost::asio::post(lane_, [self = shared_from_this()] { self->say_goodbye(); });
   }
-  void end(protocol::Bye bye) override;
+  void end(protocol::Bye bye) override {
+    boost::asio::post(lane_, [self = shared_from_this(), bye = std::move(bye)] {
+      self->say_bye({}, bye, Outbox::Replaceable::kDropped, kShutdownLinger);
+    });
+  }
 
  private:
   static constexpr std::size_t kKeptLine = 1024;  ///< bytes of an answer whose memory is used again
@@ -155,6 +163,26 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   }
 
   void show_here(const Frame& frame);
+  /// To each game of a room anew: other lice.
+  void begin_viewing(const protocol::Welcome& welcome) {
+    viewer_.reset();
+    if (welcome.view_rows)
+      viewer_ = std::make_unique<Viewer>(view_.value_or(protocol::View{}), welcome.id, *welcome.view_rows);
+  }
+  void look(const protocol::View& view) {
+    if (!view_ && !viewer_)
+      return say(protocol::ErrorMessage{std::string(protocol::code::kNoView),
+                                        R"(view: join with "view":{} to be shown a part of the room)",
+                                        false,
+                                        {}});
+    view_ = view;
+    if (viewer_) viewer_->look(view);
+  }
+  /// What this client sees of it; none: nothing that it could use.
+  [[nodiscard]] std::optional<Frame> seen(const Frame& frame) {
+    if (!frame.sheet) return frame;
+    return viewer_ ? viewer_->frame(frame) : std::nullopt;
+  }
   void say(const protocol::ServerMessage& message) {
     push(answers_.line([&](std::string& text) { protocol::append(text, message); }));
   }
@@ -213,6 +241,8 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   Sender sender_;
   SendRate rate_;
   std::uint32_t divisor_ = 1;
+  std::optional<protocol::View> view_;  ///< asked for
+  std::unique_ptr<Viewer> viewer_;      ///< where frames show a view
   // Of the answers to get_map and, about, to resync; guesses until the welcome has come.
   std::size_t map_bytes_ = 64u << 10, key_bytes_ = 4u << 10;
   std::size_t records_bytes_ = 4u << 10, ghost_bytes_ = 16u << 10;  ///< of the longest so far, or guesses

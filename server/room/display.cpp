@@ -23,11 +23,12 @@ protocol::Welcome Display::welcome_to_all(Company company) const {
 
 void Display::welcome(Seat& seat, const Arrival& arrival, bool is_back, Company company) {
   const protocol::Join& join = arrival.join;
-  const auto acquired =
-      layouts_.acquire({join.fields, join.format}, arrival.address, settings_.limits.layouts_per_address);
+  const bool sees_part = join.view || settings_.limits.frame_rows < protocol::kEveryRow;
+  const auto acquired = layouts_.acquire({join.fields, join.format, sees_part}, arrival.address,
+                                         settings_.limits.layouts_per_address);
   auto& occupant = std::get<SessionOccupant>(seat.occupant);
   occupant.channel = acquired.channel;
-  occupant.state_hz = granted_state_hz(join.state_hz, settings_.state_hz);
+  occupant.state_hz = granted_state_hz(wanted_state_hz(join), settings_.state_hz);
   protocol::Welcome welcome =
       addressed(welcome_to_all(std::move(company)), addressee_of(seat, layouts_.layout(acquired.channel)));
   welcome.resumed = is_back;

@@ -49,6 +49,7 @@ Scene scene_of(const match::Match& game, std::uint64_t ticks_a_frame) {
   const auto lice = game.world().lice();
   Scene scene{
       game.tick(), game.tick() / ticks_a_frame, lice, game.world().terrain(), game.hash(), game.link(), {}};
+  scene.wraps = game.world().parameters().edges == state::Edges::kWrap;
   if (game.rules() != nullptr) scene.game = shown_game(*game.rules(), lice);
   return scene;
 }

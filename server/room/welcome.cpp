@@ -29,6 +29,7 @@ protocol::Welcome addressed(protocol::Welcome welcome, const Addressee& to) {
   welcome.fields = to.layout.fields;
   welcome.format = to.layout.format;
   welcome.state_hz = to.state_hz;
+  if (!to.layout.in_sheets) welcome.view_rows.reset();
   return welcome;
 }
 
@@ -43,11 +44,17 @@ protocol::Welcome welcome_for(const RoomSettings& settings, const match::Match& 
   welcome.map_hash = map.hash;
   welcome.extent = {domain.x_min, domain.y_min, domain.x_max, domain.y_max};
   welcome.map_bytes = map_bytes;
+  welcome.view_rows = settings.limits.frame_rows;
   const state::Mode mode = game.settings().mode;
   welcome.physics = map::physics_of(map.definition, mode);
   welcome.mode = state::to_text(mode);
   if (mode != state::Mode::kRoam) welcome.rules = map::mode_text(map.definition.modes, mode);
   return welcome;
+}
+
+std::optional<std::uint32_t> wanted_state_hz(const protocol::Join& join) {
+  if (join.state_hz || join.role != protocol::Role::kSpectator || !join.view) return join.state_hz;
+  return kLookersHz;
 }
 
 std::uint32_t granted_state_hz(std::optional<std::uint32_t> wanted, std::uint32_t most) {

@@ -75,6 +75,37 @@ void read_resume(FieldReader& reader, Join& join) {
   }
 }
 
+void read_view(FieldReader& reader, View& view) {
+  constexpr std::string_view kLouse = "the id of a louse; x and y say another place";
+  const bool has_place = reader.field("x", "a number", Presence::kOptional).has_value() ||
+                         reader.field("y", "a number", Presence::kOptional).has_value();
+  if (has_place) {
+    view.place.emplace();
+    reader.number("x", view.place->x);
+    reader.number("y", view.place->y);
+    if (const auto louse = reader.field("louse", kLouse, Presence::kOptional))
+      reader.refuse("louse", *louse, "left out where x and y say the place");
+  }
+  reader.integer("louse", view.louse, {1, 0xffff'ffff});
+  if (const auto radius = reader.field("radius", "a number above 0", Presence::kOptional)) {
+    view.radius.emplace();
+    reader.number("radius", *view.radius);
+    if (!reader.failed() && !(*view.radius > 0.0)) reader.refuse("radius", *radius, "a number above 0");
+  }
+  reader.integer("rows", view.rows, {1, kEveryRow});
+}
+
+Decoded read_look(FieldReader& reader) {
+  Look look;
+  read_view(reader, look.view);
+  return reader.finish<ClientMessage>(look);
+}
+
+void read_its_view(FieldReader& reader, Join& join) {
+  reader.object(
+      "view", [&](FieldReader& inner) { read_view(inner, join.view.emplace()); }, Presence::kOptional);
+}
+
 Decoded read_join(FieldReader& reader) {
   Join join;
   reader.integer("protocol", join.protocol, kAnyUint32);
@@ -89,6 +120,7 @@ Decoded read_join(FieldReader& reader) {
   reader.choice("format", join.format, kFormatTexts, format_from_text, Presence::kOptional);
   reader.integer("state_hz", join.state_hz, {1, kMaxStateHz});
   read_resume(reader, join);
+  read_its_view(reader, join);
   return reader.finish<ClientMessage>(std::move(join));
 }
 
@@ -148,7 +180,7 @@ Decoded read_get_ghost(FieldReader& reader) {
 
 using Read = Decoded (*)(FieldReader&);
 
-constexpr std::array<std::pair<std::string_view, Read>, 13> kTypes = {{
+constexpr std::array<std::pair<std::string_view, Read>, 14> kTypes = {{
     {"join", read_join},
     {"input", read_input},
     {"chat", read_chat},
@@ -157,6 +189,7 @@ constexpr std::array<std::pair<std::string_view, Read>, 13> kTypes = {{
     {"resync", read_bare<Resync>},
     {"respawn", read_respawn},
     {"skip", read_bare<Skip>},
+    {"view", read_look},
     {"leave", read_bare<Leave>},
     {"ping", read_time<Ping>},
     {"pong", read_time<Pong>},

@@ -140,6 +140,12 @@ Decoded read_welcome(FieldReader& reader, const Context&) {
     welcome.players.push_back(std::move(entry));
   });
   reader.integer("spectators", welcome.spectators, kAnyUint32, Presence::kOptional);
+  reader.object(
+      "view",
+      [&](FieldReader& view) {
+        view.integer("rows", welcome.view_rows.emplace(), {1, kEveryRow});
+      },
+      Presence::kOptional);
   return reader.finish<ServerMessage>(std::move(welcome));
 }
 

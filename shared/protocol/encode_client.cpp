@@ -1,3 +1,5 @@
+#include <cassert>
+
 #include "shared/json/object_text.h"
 #include "shared/protocol/codec.h"
 
@@ -5,6 +7,14 @@ namespace woodlouse::protocol {
 namespace {
 
 void append_name(std::string& out, Column column) { json::append_string(out, to_text(column)); }
+
+void append_view(json::ObjectText& text, const View& view) {
+  assert(!view.place || !view.louse);
+  if (view.place) text.number("x", view.place->x).number("y", view.place->y);
+  if (view.louse) text.integer("louse", *view.louse);
+  if (view.radius) text.number("radius", *view.radius);
+  if (view.rows) text.integer("rows", *view.rows);
+}
 
 void append_line(std::string& out, const Join& join) {
   json::ObjectText text(out, "join");
@@ -17,6 +27,7 @@ void append_line(std::string& out, const Join& join) {
     text.text("resume", join.resume);
   else if (join.may_resume)
     text.boolean("resume", true);
+  if (join.view) text.object("view", [&](json::ObjectText& view) { append_view(view, *join.view); });
   text.end_line();
 }
 
@@ -45,6 +56,11 @@ void append_line(std::string& out, const Respawn& respawn) {
   text.end_line();
 }
 void append_line(std::string& out, const Skip&) { json::ObjectText(out, "skip").end_line(); }
+void append_line(std::string& out, const Look& look) {
+  json::ObjectText text(out, "view");
+  append_view(text, look.view);
+  text.end_line();
+}
 void append_line(std::string& out, const Leave&) { json::ObjectText(out, "leave").end_line(); }
 void append_line(std::string& out, const Ping& ping) {
   json::ObjectText(out, "ping").integer("t", ping.t).end_line();

@@ -54,6 +54,8 @@ void append_line(std::string& out, const Welcome& welcome) {
     entry.integer("id", player.id).text("name", player.name).text("role", to_text(player.role));
   });
   text.integer("spectators", welcome.spectators);
+  if (welcome.view_rows)
+    text.object("view", [&](json::ObjectText& view) { view.integer("rows", *welcome.view_rows); });
   text.end_line();
 }
 

@@ -37,6 +37,8 @@ constexpr std::array kFields = {
     LimitField{"inputs_per_tick", &Limits::inputs_per_tick, 1, 256, "",
                "inputs of a player that one step takes; one more takes the last one's place, or is dropped "
                "where that has waited for a step already"},
+    LimitField{"frame_rows", &Limits::frame_rows, 1, kEveryRow, "",
+               "rows of a frame; where a room has more lice, each client is shown those nearest to its own"},
     LimitField{"chat_per_s", &Limits::chat_per_s, 0, kMany, "1/s", "chat of a session"},
     LimitField{"chat_per_s_address", &Limits::chat_per_s_address, 0, kMany, "1/s", "chat of an address"},
     LimitField{"chat_per_s_room", &Limits::chat_per_s_room, 0, kMany, "1/s", "chat of a room"},

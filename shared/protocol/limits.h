@@ -8,6 +8,9 @@
 
 namespace woodlouse::protocol {
 
+/// More rows than a room has lice.
+inline constexpr std::uint32_t kEveryRow = 1'000'000;
+
 /// The defaults are a server's. Whoever decodes a hello finds 0 for what an older server does not declare.
 struct Limits {
   std::uint32_t line = 4096;  ///< kMaxLineBytes
@@ -25,6 +28,7 @@ struct Limits {
   std::uint32_t max_spectators = 8192;
   std::uint32_t layouts_per_address = 4;
   std::uint32_t inputs_per_tick = 8;
+  std::uint32_t frame_rows = kEveryRow;
   std::uint32_t chat_per_s = 2;
   std::uint32_t chat_per_s_address = 16;
   std::uint32_t chat_per_s_room = 32;

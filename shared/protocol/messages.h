@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "shared/core/vec2.h"
+#include "shared/protocol/columns.h"
 #include "shared/protocol/game.h"
 #include "shared/protocol/limits.h"
 #include "shared/protocol/records.h"
@@ -40,58 +41,7 @@ inline constexpr std::uint32_t kMaxThrustTicks = 0xffff'fffe;
 inline constexpr std::int64_t kMaxInteger = std::int64_t{1} << 53;  ///< what every JSON reader holds exactly
 inline constexpr std::size_t kMaxServerLineBytes = std::size_t{128} << 20;  ///< inbound at a client
 
-// ---- columns -------------------------------------------------------------------------------------------
-
-/// A column of a row; the names on the wire are to_text()'s. See docs/protocol.md for units and quanta.
-enum class Column : std::uint8_t {
-  kId,
-  kX,
-  kY,
-  kVx,
-  kVy,
-  kZ,
-  kHeadingX,
-  kHeadingY,
-  kYaw,
-  kPitch,
-  kRoll,
-  kSpeed,
-  kTx,
-  kTy,
-  kThrustKind,
-  kTicksLeft,
-  kPhase,
-  kFlightZ,
-  kFlightVz,
-  kDistance,
-  // Of the rules of play; 0 where a mode has none.
-  kScore,     ///< points; of a race the best run [moments]
-  kGate,      ///< the next one
-  kLap,       ///< of the run, from 0
-  kLapStart,  ///< [moments]; 0: the clock does not run
-  kBestLap,   ///< [moments]; 0: none
-};
-inline constexpr std::size_t kColumnCount = 25;
-
-std::string_view to_text(Column column);
-std::optional<Column> column_from_text(std::string_view text);
-/// Quantized rows carry integers, multiples of this; 1 for id, thrust_kind, ticks_left, phase.
-double quantum(Column column);
-/// The field of a louse that the column shows, or null where it is computed from the louse and the terrain.
-const state::LouseField* louse_field(Column column);
-
-/// One that counts: an integer in either format.
-bool is_whole(Column column);
-/// One of the rules of play.
-constexpr bool is_of_rules(Column column) { return column >= Column::kScore; }
-
-inline constexpr std::array kRulesColumns = {Column::kScore, Column::kGate, Column::kLap, Column::kLapStart,
-                                             Column::kBestLap};
-
-/// `id x y vx vy`, what a row has unless asked otherwise.
-const std::vector<Column>& default_columns();
-/// `all`: a louse's fields in their order, from which the state hash can be recomputed (exact format).
-const std::vector<Column>& all_columns();
+// ---- what rows are made of, and who asks --------------------------------------------------------------
 
 enum class Format : std::uint8_t { kQuantized, kExact };
 using state::Role;
@@ -100,6 +50,15 @@ std::string_view to_text(Role role);
 std::optional<Role> role_from_text(std::string_view text);
 
 // ---- client to server ----------------------------------------------------------------------------------
+
+/// The part of a room that a client is shown: lice within a circle, of them the nearest, and always the own.
+struct View {
+  std::optional<core::Vec2> place;     ///< its middle [m]; none: `louse`
+  std::optional<std::uint32_t> louse;  ///< whose place is its middle; none: one's own, or the map's middle
+  std::optional<double> radius;        ///< above 0 [m]; none: as far as there are lice
+  std::optional<std::uint32_t> rows;   ///< at most so many, from 1; none: as many as the room allows
+  friend bool operator==(const View&, const View&) = default;
+};
 
 struct Join {
   int protocol = kProtocolVersion;
@@ -111,6 +70,7 @@ struct Join {
   std::optional<std::uint32_t> state_hz;  ///< frames a second; empty: the room's
   bool may_resume = false;                ///< its louse is to wait for it when the connection breaks
   std::string resume{};                   ///< the token of a louse that waits; empty: none
+  std::optional<View> view{};             ///< frames show that alone, and another one on request; none: all
   friend bool operator==(const Join&, const Join&) = default;
 };
 
@@ -145,6 +105,11 @@ struct Respawn {
 struct Skip {
   friend bool operator==(const Skip&, const Skip&) = default;
 };
+/// Another view than that of the join.
+struct Look {
+  View view;
+  friend bool operator==(const Look&, const Look&) = default;
+};
 struct Leave {
   friend bool operator==(const Leave&, const Leave&) = default;
 };
@@ -157,8 +122,8 @@ struct Pong {
   friend bool operator==(const Pong&, const Pong&) = default;
 };
 
-using ClientMessage = std::variant<Join, Input, Chat, List, GetMap, Resync, Respawn, Skip, Leave, Ping, Pong,
-                                   ListRecords, GetGhost>;
+using ClientMessage = std::variant<Join, Input, Chat, List, GetMap, Resync, Respawn, Skip, Look, Leave, Ping,
+                                   Pong, ListRecords, GetGhost>;
 
 // ---- server to client ----------------------------------------------------------------------------------
 
@@ -202,6 +167,8 @@ struct Welcome {
   std::string rules;                 ///< of the mode, as the map has them: a JSON object; empty: roam
   std::vector<PlayerEntry> players;  ///< who is there already, spectators apart
   std::uint32_t spectators = 0;      ///< how many there are
+  /// Frames show a view of at most so many rows; none: every louse.
+  std::optional<std::uint32_t> view_rows{};
   friend bool operator==(const Welcome&, const Welcome&) = default;
 };
 

@@ -46,7 +46,15 @@ TEST_CASE("every client message comes back as it was sent") {
   hopeful.may_resume = true;
   Join back = hopeful;
   back.resume = "5d1c0f";
-  const std::vector<ClientMessage> messages = {hopeful,
+  Join looking = plain;
+  looking.view = View{{}, 7u, 8.5, 30u};
+  Join capped = plain;
+  capped.view = View{};
+  const std::vector<ClientMessage> messages = {looking,
+                                               capped,
+                                               Look{},
+                                               Look{{woodlouse::core::Vec2{-1.5, 2.0}, {}, 0.25, {}}},
+                                               hopeful,
                                                back,
                                                join,
                                                plain,

@@ -14,6 +14,8 @@ namespace {
 
 const std::vector<std::string> kClientLines = {
     R"({"type":"join","protocol":1,"role":"bot","name":"Zo\u00eb","room":"r","fields":["x","id","yaw"],"format":"exact","state_hz":20})",
+    R"({"type":"join","protocol":1,"name":"a","view":{"x":-1.5,"y":2,"radius":8,"rows":30}})",
+    R"({"type":"view","louse":7,"radius":1e3})",
     R"({"type":"input","seq":12,"thrust":[0.5,-0.25],"ticks":30,"tick":4000})",
     R"({"type":"input","seq":4294967295,"thrust":-0.75})",
     R"({"type":"chat","text":"h\u00e9llo \"you\" \ud83d\udc1e"})",

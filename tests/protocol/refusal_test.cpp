@@ -116,6 +116,24 @@ TEST_CASE("missing fields are named with what they are") {
          {R"({"type":"ping"})", code::kMissingField, {"ping.t"}}});
 }
 
+TEST_CASE("a view is refused with the field that is wrong") {
+  const auto joined = [](const std::string& view) {
+    return join(R"("protocol":1,"name":"a","view":)" + view);
+  };
+  check({{joined("3"), code::kBadField, {"join.view", "an object"}},
+         {joined("null"), code::kBadField, {"join.view", "an object"}},
+         {joined(R"({"x":1})"), code::kMissingField, {"join.view.y"}},
+         {joined(R"({"y":1})"), code::kMissingField, {"join.view.x"}},
+         {joined(R"({"x":1,"y":"2"})"), code::kBadField, {"join.view.y", "\"2\""}},
+         {joined(R"({"x":1,"y":2,"louse":3})"), code::kBadField, {"join.view.louse", "left out"}},
+         {joined(R"({"radius":0})"), code::kBadField, {"join.view.radius", "above 0"}},
+         {joined(R"({"radius":-1e-9})"), code::kBadField, {"join.view.radius", "above 0"}},
+         {joined(R"({"rows":0})"), code::kBadField, {"join.view.rows", "1"}},
+         {joined(R"({"rows":2.5})"), code::kBadField, {"join.view.rows"}},
+         {R"({"type":"view","louse":0})", code::kBadField, {"view.louse", "1"}},
+         {R"({"type":"view","rows":1000001})", code::kBadField, {"view.rows", "1000000"}}});
+}
+
 TEST_CASE("another protocol is refused before anything else of the join is looked at") {
   check({{join(R"("protocol":2,"name":5,"role":"king")"), code::kBadProtocol, {"2", "speaks 1"}},
          {join(R"("protocol":0,"name":"a")"), code::kBadProtocol, {}},

@@ -74,6 +74,37 @@ TEST_CASE("the frame rate granted divides the room's and is the nearest below th
   CHECK(guest->divisor == 20 / granted);
 }
 
+TEST_CASE("who is shown a part gets sheets of its own layout, and as a spectator ten of them a second") {
+  House house(settings(100));
+  protocol::Join join;
+  join.view.emplace();
+  const auto player = house.join(1, join);
+  join.role = protocol::Role::kSpectator;
+  const auto spectator = house.join(2, join);
+  join.state_hz = 20;
+  const auto eager = house.join(3, join);
+  const auto plain = house.join(4);
+  CHECK(player->welcomes.at(0).state_hz == 20);
+  CHECK(spectator->welcomes.at(0).state_hz == 10);
+  CHECK(eager->welcomes.at(0).state_hz == 20);
+  CHECK(player->welcomes.at(0).view_rows == protocol::kEveryRow);
+  CHECK_FALSE(plain->welcomes.at(0).view_rows);
+  house.tick(7);
+  for (const auto& guest : {player, spectator, eager})
+    for (const Frame& frame : guest->frames) CHECK((frame.sheet && !frame.text));
+  for (const Frame& frame : plain->frames) CHECK((!frame.sheet && frame.text));
+  CHECK(plain->frames.size() == player->frames.size());
+}
+
+TEST_CASE("where the server allows frames of so many rows, everybody is shown a part") {
+  RoomSettings capped = settings(100);
+  capped.limits.frame_rows = 30;
+  House house(std::move(capped));
+  const auto plain = house.join(1);
+  CHECK(plain->welcomes.at(0).view_rows == 30);
+  CHECK(plain->frames.at(0).sheet);
+}
+
 TEST_CASE("what a session says after it left, or after it was refused, changes nothing") {
   House house(settings(1));
   house.join(1);
