@@ -151,6 +151,7 @@ void Bot::join() {
   join.name = profile_.name;
   join.room = profile_.room;
   join.format = options_.format;
+  if (options_.view_rows != 0) join.view = protocol::View{{}, {}, {}, options_.view_rows};
   if (profile_.task == Task::kAsk) join.state_hz = 1;  // what it asks for is to outweigh what comes anyway
   std::string line = protocol::encode(protocol::ClientMessage(join));
   std::optional<std::string> token;

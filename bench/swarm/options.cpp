@@ -92,6 +92,9 @@ std::variant<Options, int> parse_options(int argc, const char* const* argv) {
   app.add_option("--format", format, "of the rows")
       ->check(CLI::IsMember({"quantized", "exact"}))
       ->capture_default_str();
+  app.add_option("--view-rows", options.view_rows, "each is shown so many, the nearest; 0: all")
+      ->check(CLI::Range(0u, protocol::kEveryRow))
+      ->capture_default_str();
   app.add_option("--room", options.rooms, "to join, of several in turns; the server's first when left out");
   app.add_option("--seed", options.seed, "of the steering")
       ->check(server::whole_number(0))

@@ -21,6 +21,7 @@ struct Options {
   double seconds = 20.0;           ///< measured, after all have joined; 0.1..86400
   double inputs_per_second = 5.0;  ///< per bot, 0..1000
   protocol::Format format = protocol::Format::kQuantized;
+  std::uint32_t view_rows = 0;  ///< that each asks for at most; 0: it is shown everybody
   std::uint64_t seed = 1;
   double joins_per_second = 500.0;
 

@@ -44,8 +44,8 @@ def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields
     role: "bot", "player" or "spectator". fields: names of columns, or "all"; id x y vx vy when left out. A server with rules
     of play is asked for those of a Standing besides, but with "all", for game.score and the like; rows don't show them.
     state_hz: how many states a second; the room's own when left out.
-    view: states show a part of the room: a dict of what look() takes, {} for all of it until look() says otherwise. Own
-    louse and nearest others first: {"rows": 30}. Leave it out where you want everybody.
+    view: states show a part of the room: a dict of what look() takes, as {"rows": 30} for your own louse and those next to
+    it. Left out: everybody.
     verify: recompute the hash of every key from its rows. Asks for all fields in exact format, so leave out `fields`
     and `format`; game.verified counts the keys, and one that differs raises WoodlouseError with the code "differs".
     resume: where the connection breaks, come back within 30 s, into the louse that waits for so long; what is sent
@@ -206,8 +206,8 @@ class Game(Session):
         return self._seq
 
     def look(self, x=None, y=None, louse=None, radius=None, rows=None):
-        """What states show from now on, of a game that was joined with a `view`: lice around (x, y), or around that louse,
-        or around your own; within `radius` [m] of it; at most `rows`, the nearest. Without arguments all of them."""
+        """What states show from now on, or where they showed everybody within a second: lice around (x, y), or around that
+        louse, or around your own; within `radius` [m] of it; at most `rows`, the nearest. Without arguments everybody."""
         view = {"x": x, "y": y, "louse": louse, "radius": radius, "rows": rows}
         view = {field: value for field, value in view.items() if value is not None}
         self._door.look(view)

@@ -20,8 +20,6 @@
 namespace woodlouse::client {
 namespace {
 
-constexpr double kFollowZoom = 2.6;  ///< how much nearer than the whole map, at Scene::zoom 1
-
 void copy_layer(const std::vector<Cell>& layer, const Viewport& viewport, CellBuffer& cells) {
   auto cell = layer.begin();
   for (int row = 0; row < viewport.size.rows; ++row)
@@ -73,7 +71,7 @@ void Composer::Layers::follow(const Scene& scene, Size size) {
   if (louse == nullptr) return;
   const terrain::Rectangle& d = relief->terrain().domain();
   const MapCamera whole = camera_for(d, size);
-  const double zoom = kFollowZoom * std::clamp(scene.zoom, 0.25, 4.0);
+  const double zoom = follow_zoom(scene.zoom);
   const double half_width = whole.column * size.columns / (2.0 * zoom);
   const double half_height = whole.row * size.rows / (2.0 * zoom);
   // Each way by itself: along the map's edge the louse stays off the middle for long.
@@ -101,7 +99,7 @@ void Composer::Layers::prepare(const Scene& scene, Size size) {
   if (key == wanted) return;
   key = std::move(wanted);
   oblique_camera.reset();
-  const double zoom = kFollowZoom * std::clamp(scene.zoom, 0.25, 4.0);
+  const double zoom = follow_zoom(scene.zoom);
   if (pixels && (scene.view == View::kOblique || is_follow)) {
     oblique_camera = is_follow && centre ? oblique_camera_around(*relief, *centre, zoom, size)
                                          : oblique_camera_for(*relief, size);

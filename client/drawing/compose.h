@@ -1,12 +1,16 @@
 // From a Scene to cells: the one entry of the drawing side.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
 #include "client/drawing/cell_buffer.h"
 #include "client/drawing/scene.h"
 
 namespace woodlouse::client {
+
+/// How much nearer View::kFollow is than the whole map, by Scene::zoom.
+constexpr double follow_zoom(double zoom) { return 2.6 * std::clamp(zoom, 0.25, 4.0); }
 
 /// The view that suits a terminal best before anyone has chosen: oblique where there is colour, half-blocks
 /// and 100x30 cells or more, else the map.

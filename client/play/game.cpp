@@ -6,6 +6,8 @@
 #include <utility>
 #include <variant>
 
+#include "client/play/outlook.h"
+
 namespace woodlouse::client {
 namespace {
 
@@ -133,6 +135,8 @@ bool Game::drive(Action action) {
 }
 
 Scene Game::scene(core::Time now, double fps) {
+  if (const auto* welcome = session_.room().welcome(); welcome != nullptr && welcome->id != 0)
+    session_.room().look(outlook(interface_, welcome->extent, session_.room().roster().lice()));
   session_.update(now);
   check_server(now);
   return build_scene(session_, interface_, chat_, {settings_.look, fps, bindings_.release_seen(), now});

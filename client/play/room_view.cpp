@@ -190,6 +190,13 @@ void RoomView::take(const protocol::Rooms& rooms) {
     if (room.name == welcome_->room) roster_.count_spectators(room.spectators);
 }
 
+void RoomView::look(const protocol::View& view) {
+  if (!welcome_ || !welcome_->view_rows || view == looked_) return;
+  if (welcome_->format == protocol::Format::kExact) return;  // hashes are of everybody
+  looked_ = view;
+  outgoing_.emplace_back(protocol::Look{view});
+}
+
 std::optional<double> RoomView::rtt_seconds() const {
   if (round_trips_.empty()) return std::nullopt;
   return *std::min_element(round_trips_.begin(), round_trips_.end());
@@ -212,6 +219,7 @@ void RoomView::on_lost() {
   counted_.reset();
   resync_asked_.reset();
   outgoing_.clear();
+  looked_ = {};
 }
 
 void RoomView::draw_goal(core::Time now) {

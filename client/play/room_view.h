@@ -50,6 +50,10 @@ class RoomView {
     if (text == kSkip) return outgoing_.emplace_back(protocol::Skip{}), void();
     outgoing_.emplace_back(protocol::Chat{std::move(text)});
   }
+  /// What of the room is to be shown, where the server can show a part.
+  void look(const protocol::View& view);
+  /// Whether that is not everybody.
+  [[nodiscard]] bool sees_part() const { return !looked_.is_whole(); }
   void respawn() { outgoing_.emplace_back(protocol::Respawn{}); }
   /// What the rules of play want of you, in a line or two; empty where there are none.
   [[nodiscard]] const std::vector<std::string>& goal() const { return goal_; }
@@ -98,6 +102,7 @@ class RoomView {
   std::map<std::uint32_t, Trail> trails_;
   std::vector<std::string> goal_;
   std::vector<protocol::ClientMessage> outgoing_;
+  protocol::View looked_;           ///< asked for last on this connection
   std::deque<double> round_trips_;  ///< [s], the newest last
   std::optional<core::Time> pinged_;
   std::optional<core::Time> counted_;

@@ -36,6 +36,7 @@ class Roster {
 
   /// The resident of that id; null for ids not announced.
   [[nodiscard]] const Resident* find(std::uint32_t id) const;
+  [[nodiscard]] std::size_t lice() const { return residents_.size(); }
   /// As last counted.
   [[nodiscard]] std::uint32_t spectators() const { return spectators_; }
   [[nodiscard]] const std::deque<Utterance>& chat() const { return chat_; }

@@ -176,6 +176,10 @@ Scene build_scene(const Session& session, const Interface& interface, const Chat
   scene.spectating = own_id == 0;
   if (room.welcome() != nullptr) scene.room = room.welcome()->room;
   fill_louse_numbers(room.sight(), scene.spectating ? scene.follow_id : own_id, scene);
+  if (room.sees_part()) {  // nobody knows how far the others have come
+    scene.hud.rank = 0;
+    scene.hud.players = static_cast<int>(room.roster().lice());
+  }
   if (room.pilot() != nullptr) fill_steering_numbers(room.pilot()->steering(), facts.now, scene.hud);
   fill_connection_numbers(room, scene.hud);
   scene.hud.spectators = static_cast<int>(room.roster().spectators());

@@ -119,7 +119,8 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
     return push(Line(std::move(line)));
   }
   if (auto* wanted = std::get_if<protocol::Join>(&message)) return join(std::move(*wanted), now);
-  if (const auto* wanted = std::get_if<protocol::Look>(&message)) return look(wanted->view);
+  if (const auto* look = std::get_if<protocol::Look>(&message); look != nullptr && !is_for_room(*look))
+    return;
   if (waits_for_its_turn(message)) return ask(std::move(message), now);
   if (std::holds_alternative<protocol::Leave>(message)) {
     if (!input_ended_) parting_ = Parting::kLeft;
@@ -131,7 +132,7 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
 
 void Session::join(protocol::Join join, Time now) {
   door_ = environment_.directory.find(join.room);
-  view_ = join.view;
+  view_ = join.view.value_or(protocol::View{});
   if (door_) return door_->join({id_, shared_from_this(), std::move(join), allowance_.address().id(), now});
   handshake_.refused();
   say(unknown_room(join.room, environment_.directory.names()));

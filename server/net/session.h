@@ -166,22 +166,20 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   /// To each game of a room anew: other lice.
   void begin_viewing(const protocol::Welcome& welcome) {
     viewer_.reset();
-    if (welcome.view_rows)
-      viewer_ = std::make_unique<Viewer>(view_.value_or(protocol::View{}), welcome.id, *welcome.view_rows);
+    louse_ = welcome.id;
+    most_rows_ = welcome.view_rows.value_or(protocol::kEveryRow);
   }
-  void look(const protocol::View& view) {
-    if (!view_ && !viewer_)
-      return say(protocol::ErrorMessage{std::string(protocol::code::kNoView),
-                                        R"(view: join with "view":{} to be shown a part of the room)",
-                                        false,
-                                        {}});
-    view_ = view;
-    if (viewer_) viewer_->look(view);
+  /// The room need only know whether it is shown all or a part.
+  [[nodiscard]] bool is_for_room(const protocol::Look& look) {
+    const bool was_whole = std::exchange(view_, look.view).is_whole();
+    if (viewer_) viewer_->look(view_);
+    return was_whole != view_.is_whole();
   }
   /// What this client sees of it; none: nothing that it could use.
   [[nodiscard]] std::optional<Frame> seen(const Frame& frame) {
     if (!frame.sheet) return frame;
-    return viewer_ ? viewer_->frame(frame) : std::nullopt;
+    if (!viewer_) viewer_ = std::make_unique<Viewer>(view_, louse_, most_rows_);
+    return viewer_->frame(frame);
   }
   void say(const protocol::ServerMessage& message) {
     push(answers_.line([&](std::string& text) { protocol::append(text, message); }));
@@ -241,8 +239,10 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   Sender sender_;
   SendRate rate_;
   std::uint32_t divisor_ = 1;
-  std::optional<protocol::View> view_;  ///< asked for
-  std::unique_ptr<Viewer> viewer_;      ///< where frames show a view
+  protocol::View view_;             ///< asked for
+  std::unique_ptr<Viewer> viewer_;  ///< since a frame came as a sheet
+  std::uint32_t louse_ = 0;         ///< its own; 0: a spectator
+  std::size_t most_rows_ = protocol::kEveryRow;
   // Of the answers to get_map and, about, to resync; guesses until the welcome has come.
   std::size_t map_bytes_ = 64u << 10, key_bytes_ = 4u << 10;
   std::size_t records_bytes_ = 4u << 10, ghost_bytes_ = 16u << 10;  ///< of the longest so far, or guesses

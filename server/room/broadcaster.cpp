@@ -26,6 +26,13 @@ void Broadcaster::remove(SessionId session) {
   });
 }
 
+void Broadcaster::move(SessionId session, ChannelId channel) {
+  asio::post(strand_, [self = shared_from_this(), this, session, channel] {
+    for (Member& member : members_)
+      if (member.session == session) member.channel = channel;
+  });
+}
+
 void Broadcaster::event(std::uint64_t number, Line line) {
   backlog_.fetch_add(1, std::memory_order_relaxed);
   asio::post(strand_, [self = shared_from_this(), this, event = Event{number, std::move(line), 0}]() mutable {

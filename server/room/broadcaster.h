@@ -41,6 +41,7 @@ class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
   // Any thread; in the order called. A member is called on the lane.
   void add(Member member);
   void remove(SessionId session);
+  void move(SessionId session, ChannelId channel);
   void event(std::uint64_t number, Line line);
   /// Lets the member go when it has heard the events before this.
   void let_go(SessionId session);

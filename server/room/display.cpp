@@ -23,9 +23,9 @@ protocol::Welcome Display::welcome_to_all(Company company) const {
 
 void Display::welcome(Seat& seat, const Arrival& arrival, bool is_back, Company company) {
   const protocol::Join& join = arrival.join;
-  const bool sees_part = join.view || settings_.limits.frame_rows < protocol::kEveryRow;
-  const auto acquired = layouts_.acquire({join.fields, join.format, sees_part}, arrival.address,
-                                         settings_.limits.layouts_per_address);
+  const auto acquired =
+      layouts_.acquire({join.fields, join.format, shows_part(join.view.value_or(protocol::View{}))},
+                       arrival.address, settings_.limits.layouts_per_address);
   auto& occupant = std::get<SessionOccupant>(seat.occupant);
   occupant.channel = acquired.channel;
   occupant.state_hz = granted_state_hz(wanted_state_hz(join), settings_.state_hz);
@@ -42,6 +42,7 @@ void Display::subscribe(const SessionOccupant& occupant, std::uint64_t first_eve
 }
 
 void Display::unsubscribe(const SessionOccupant& occupant) {
+  turning_.erase(occupant.session);
   outlet_.remove(occupant.session, occupant.subscriber->lane());
   if (layouts_.release(occupant.channel)) outlet_.close(occupant.channel);
 }
@@ -75,9 +76,29 @@ SharedSnapshot Display::snapshot() {
   return snapshot_;
 }
 
-void Display::send_frames() {
+/// To the same columns in sheets, or not; where there are too many choices to a wider one that has no more.
+void Display::turn(SessionOccupant& occupant, AddressId address, bool shows_part) {
+  RowLayout layout = layouts_.layout(occupant.channel);
+  if (std::exchange(layout.in_sheets, shows_part) == shows_part) return;
+  const auto acquired = layouts_.acquire(layout, address, settings_.limits.layouts_per_address);
+  if (layouts_.layout(acquired.channel).fields != layout.fields) {
+    // The welcome has named the columns: it goes on being shown what it was.
+    static_cast<void>(layouts_.release(acquired.channel));
+    return;
+  }
+  if (acquired.is_new) outlet_.open(acquired.channel, layout);
+  outlet_.move(occupant.session, occupant.subscriber->lane(), acquired.channel);
+  if (layouts_.release(occupant.channel)) outlet_.close(occupant.channel);
+  occupant.channel = acquired.channel;
+}
+
+void Display::send_frames(Seats& seats) {
   if (game_->tick() % ticks_a_frame() != 0 || layouts_.empty()) return;
   const bool is_key = game_->tick() / ticks_a_frame() % settings_.state_hz == 0;
+  if (is_key)
+    for (const auto& [session, shows_part] : std::exchange(turning_, {}))
+      if (Seat* seat = seats.find(session))
+        turn(std::get<SessionOccupant>(seat->occupant), seat->address, shows_part);
   outlet_.show(is_key ? FrameKind::kKey : FrameKind::kDelta, snapshot());
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -41,10 +42,16 @@ class Display {
     outlet_.show_newest(occupant.channel, occupant.subscriber, snapshot());
   }
   void show_map(const SessionOccupant& occupant) const { occupant.subscriber->deliver_map(map_line_); }
+  /// It is shown all, or a part, from the next key on: a client has no two keys of one tick that differ.
+  void look(SessionId session, const protocol::View& view) { turning_[session] = shows_part(view); }
   /// The picture of every layout in use, where one is due.
-  void send_frames();
+  void send_frames(Seats& seats);
 
  private:
+  [[nodiscard]] bool shows_part(const protocol::View& view) const {
+    return !view.is_whole() || settings_.limits.frame_rows < protocol::kEveryRow;
+  }
+  void turn(SessionOccupant& occupant, AddressId address, bool shows_part);
   [[nodiscard]] protocol::Welcome welcome_to_all(Company company) const;
   [[nodiscard]] SharedSnapshot snapshot();
   [[nodiscard]] std::uint64_t ticks_a_frame() const;
@@ -54,6 +61,7 @@ class Display {
   Outlet& outlet_;
   Line map_line_;
   Layouts layouts_;
+  std::map<SessionId, bool> turning_;  ///< with the next key, to a part or to all
   SharedPool<Snapshot> snapshots_;
   SharedSnapshot snapshot_;  ///< of its tick, for all who ask within that
 };

@@ -250,8 +250,7 @@ void Members::dismiss(const protocol::Bye& bye) {
 template <typename Message>
 constexpr bool kAnsweredBefore =
     std::is_same_v<Message, protocol::Join> || std::is_same_v<Message, protocol::List> ||
-    std::is_same_v<Message, protocol::Ping> || std::is_same_v<Message, protocol::Pong> ||
-    std::is_same_v<Message, protocol::Look>;
+    std::is_same_v<Message, protocol::Ping> || std::is_same_v<Message, protocol::Pong>;
 
 void Members::take(SessionId session, const protocol::ClientMessage& message, Time arrived) {
   Seat* seat = seats_.find(session);

@@ -77,7 +77,7 @@ class Members {
   void tell(const match::StepRecord& step);
   /// What a watcher has to tell.
   void tell(const protocol::Event& event) { send(events_.told(event)); }
-  void send_frames() { display_.send_frames(); }
+  void send_frames() { display_.send_frames(seats_); }
 
   /// No session is here, nobody may come back, and nothing goes on that somebody began.
   [[nodiscard]] bool is_deserted();
@@ -106,6 +106,9 @@ class Members {
     display_.show_map(occupant);
   }
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Resync&, Time);
+  void on_message(Seat&, const SessionOccupant& occupant, const protocol::Look& look, Time) {
+    display_.look(occupant.session, look.view);
+  }
   void on_message(Seat& seat, const SessionOccupant&, const protocol::Respawn&, Time arrived);
   void on_message(Seat& seat, const SessionOccupant& occupant, const protocol::Skip&, Time);
   void on_message(Seat&, const SessionOccupant& occupant, const protocol::ListRecords& list, Time) {

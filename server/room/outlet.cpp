@@ -46,6 +46,12 @@ void Outlet::remove(SessionId session, std::size_t lane) {
   asio::post(strand_, [self = shared_from_this(), session, lane] { self->lanes_[lane]->remove(session); });
 }
 
+void Outlet::move(SessionId session, std::size_t lane, ChannelId channel) {
+  asio::post(strand_, [self = shared_from_this(), session, lane, channel] {
+    self->lanes_[lane]->move(session, channel);
+  });
+}
+
 void Outlet::event(std::uint64_t number, Line line) {
   events_.fetch_add(1, std::memory_order_relaxed);
   asio::post(strand_, [self = shared_from_this(), number, line = std::move(line)] {

@@ -34,6 +34,8 @@ class Outlet : public std::enable_shared_from_this<Outlet> {
   void show_newest(ChannelId channel, std::shared_ptr<Subscriber> subscriber, SharedSnapshot now);
   void add(Broadcaster::Member member);
   void remove(SessionId session, std::size_t lane);
+  /// Its frames are those of another channel from now on.
+  void move(SessionId session, std::size_t lane, ChannelId channel);
   void event(std::uint64_t number, Line line);
   void let_go(SessionId session, std::size_t lane);
   void show(FrameKind kind, SharedSnapshot now);

@@ -29,7 +29,6 @@ protocol::Welcome addressed(protocol::Welcome welcome, const Addressee& to) {
   welcome.fields = to.layout.fields;
   welcome.format = to.layout.format;
   welcome.state_hz = to.state_hz;
-  if (!to.layout.in_sheets) welcome.view_rows.reset();
   return welcome;
 }
 

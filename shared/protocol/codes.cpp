@@ -44,8 +44,6 @@ constexpr std::array kCodes = {
               "the room keeps no records, or its board has no row of that rank"},
     CodeEntry{code::kNoVote, "error", Ends::kNo,
               "the room plays one game alone, or the session has no vote: it is a bot"},
-    CodeEntry{code::kNoView, "error", Ends::kNo,
-              "`view` of a session that joined without one: it is shown every louse"},
     CodeEntry{code::kLeft, "bye", Ends::kYes, "the client sent `leave`, or ended its sending side"},
     CodeEntry{code::kShutdown, "bye", Ends::kYes, "the server stops"},
     CodeEntry{code::kReplaced, "bye", Ends::kYes, "the player came back over another connection"},

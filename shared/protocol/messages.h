@@ -57,6 +57,8 @@ struct View {
   std::optional<std::uint32_t> louse;  ///< whose place is its middle; none: one's own, or the map's middle
   std::optional<double> radius;        ///< above 0 [m]; none: as far as there are lice
   std::optional<std::uint32_t> rows;   ///< at most so many, from 1; none: as many as the room allows
+  /// Every louse that the room allows.
+  [[nodiscard]] bool is_whole() const { return *this == View{}; }
   friend bool operator==(const View&, const View&) = default;
 };
 
@@ -70,7 +72,7 @@ struct Join {
   std::optional<std::uint32_t> state_hz;  ///< frames a second; empty: the room's
   bool may_resume = false;                ///< its louse is to wait for it when the connection breaks
   std::string resume{};                   ///< the token of a louse that waits; empty: none
-  std::optional<View> view{};             ///< frames show that alone, and another one on request; none: all
+  std::optional<View> view{};             ///< frames show that alone; none: all
   friend bool operator==(const Join&, const Join&) = default;
 };
 
@@ -167,8 +169,7 @@ struct Welcome {
   std::string rules;                 ///< of the mode, as the map has them: a JSON object; empty: roam
   std::vector<PlayerEntry> players;  ///< who is there already, spectators apart
   std::uint32_t spectators = 0;      ///< how many there are
-  /// Frames show a view of at most so many rows; none: every louse.
-  std::optional<std::uint32_t> view_rows{};
+  std::optional<std::uint32_t> view_rows{};  ///< of a frame at most; none: a server that knows no views
   friend bool operator==(const Welcome&, const Welcome&) = default;
 };
 

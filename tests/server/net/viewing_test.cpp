@@ -60,19 +60,18 @@ TEST_CASE("a view is asked for in the join, changed by a message, and kept for t
   CHECK(stage.last_line().find("[8,") != std::string::npos);
 }
 
-TEST_CASE("who joined without a view can't ask for one, and is told how to") {
+TEST_CASE("the room is told when all becomes a part, and a part all, and of nothing between") {
   Stage stage;
   stage.start();
   stage.send("{\"type\":\"view\",\"radius\":3}\n");
   CHECK(stage.last_line().find("not_joined") != std::string::npos);
   stage.send(kJoin);
-  protocol::Welcome plain = welcome(3);
-  plain.view_rows.reset();
-  stage.session->welcome(plain, 1);
-  stage.run();
-  stage.send("{\"type\":\"view\",\"radius\":3}\n");
-  CHECK(stage.last_line().find("no_view") != std::string::npos);
-  CHECK(stage.last_line().find(R"(\"view\":{})") != std::string::npos);
+  stage.session->welcome(welcome(3), 1);
+  for (const std::string view : {R"("radius":3)", R"("radius":4)", R"("rows":9)", "", ""})
+    stage.send(R"({"type":"view")" + (view.empty() ? view : "," + view) + "}\n");
+  REQUIRE(stage.volcano->messages.size() == 2);
+  CHECK(std::get<protocol::Look>(stage.volcano->messages[0].first).view.radius == 3.0);
+  CHECK(std::get<protocol::Look>(stage.volcano->messages[1].first).view.is_whole());
 }
 
 TEST_CASE("where the room shows everybody a part, a view may be asked for without one in the join") {

@@ -77,23 +77,64 @@ TEST_CASE("the frame rate granted divides the room's and is the nearest below th
 TEST_CASE("who is shown a part gets sheets of its own layout, and as a spectator ten of them a second") {
   House house(settings(100));
   protocol::Join join;
-  join.view.emplace();
+  join.view.emplace().rows = 5;
   const auto player = house.join(1, join);
   join.role = protocol::Role::kSpectator;
   const auto spectator = house.join(2, join);
   join.state_hz = 20;
   const auto eager = house.join(3, join);
   const auto plain = house.join(4);
+  house.room->start([] {});
   CHECK(player->welcomes.at(0).state_hz == 20);
   CHECK(spectator->welcomes.at(0).state_hz == 10);
   CHECK(eager->welcomes.at(0).state_hz == 20);
   CHECK(player->welcomes.at(0).view_rows == protocol::kEveryRow);
-  CHECK_FALSE(plain->welcomes.at(0).view_rows);
+  CHECK(plain->welcomes.at(0).view_rows == protocol::kEveryRow);
   house.tick(7);
   for (const auto& guest : {player, spectator, eager})
     for (const Frame& frame : guest->frames) CHECK((frame.sheet && !frame.text));
   for (const Frame& frame : plain->frames) CHECK((!frame.sheet && frame.text));
   CHECK(plain->frames.size() == player->frames.size());
+}
+
+TEST_CASE("who turns to a part, or back to all, does so with a key, and misses no frame") {
+  House house(settings(100));
+  const auto guest = house.join(1);
+  const auto other = house.join(2);
+  house.room->start([] {});
+  house.tick(5);
+  protocol::View part;
+  part.radius = 5.0;
+  house.door->submit(1, protocol::Look{part}, house.timekeeper.now());
+  house.tick(70);
+  house.door->submit(1, protocol::Look{}, house.timekeeper.now());
+  house.tick(130);
+  REQUIRE(guest->frames.size() == other->frames.size());
+  std::string kinds;
+  for (const Frame& frame : guest->frames) {
+    CHECK(static_cast<bool>(frame.sheet) != static_cast<bool>(frame.text));
+    const char kind = frame.sheet ? 's' : 't';
+    if (!kinds.empty() && kinds.back() == kind) continue;
+    CHECK(frame.kind == FrameKind::kKey);
+    kinds.push_back(kind);
+  }
+  CHECK(kinds == "tst");
+  for (const Frame& frame : other->frames) CHECK(frame.text);
+}
+
+TEST_CASE("who goes, or is asked for twice, while it is about to turn does no harm") {
+  House house(settings(100));
+  house.join(1);
+  const auto guest = house.join(2);
+  house.room->start([] {});
+  protocol::View part;
+  part.rows = 1;
+  house.door->submit(1, protocol::Look{part}, house.timekeeper.now());
+  house.door->submit(2, protocol::Look{part}, house.timekeeper.now());
+  house.door->submit(2, protocol::Look{}, house.timekeeper.now());
+  house.door->leave(1, Parting::kLeft);
+  house.tick(130);
+  for (const Frame& frame : guest->frames) CHECK(frame.text);
 }
 
 TEST_CASE("where the server allows frames of so many rows, everybody is shown a part") {
