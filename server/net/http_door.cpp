@@ -38,6 +38,8 @@ using boost::system::error_code;
 // One head and what may be read behind it.
 constexpr std::size_t kBufferBytes = 2 * std::size_t{HttpDoor::kHeadBytes};
 
+constexpr std::size_t kKeyLength = 24;  // of Sec-WebSocket-Key: 16 bytes in base64
+
 constexpr std::size_t kLineEnd = 2;  // "\r\n", which may stand at a message's end
 
 constexpr const char* kPolicy =
@@ -194,6 +196,8 @@ WebAnswer StreamHttpDoor<Stream>::judge() {
   if (target().substr(0, target().find('?')) == "/ws") {
     if (!beast::websocket::is_upgrade(request))
       return refusal(426, "here WebSockets begin: ask for an upgrade");
+    if (field(http::field::sec_websocket_key).size() != kKeyLength)
+      return refusal(400, "a WebSocket's key is 16 bytes in base64");
     const std::string why = why_no_upgrade();
     return why.empty() ? WebAnswer{101, {}, {}} : refusal(403, why);
   }
