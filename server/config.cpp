@@ -53,6 +53,7 @@ struct TypedServe {
   std::string log_format = "text";
   TypedRecord record;
   TypedWeb web;
+  std::vector<std::string> trusted_proxies;
   std::string config_file;
 };
 
@@ -100,6 +101,10 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
       ->envname("WOODLOUSE_LISTEN")
       ->capture_default_str();
   add_web_options(app, typed.web);
+  app.add_option("--trusted-proxy", typed.trusted_proxies,
+                 "ADDRESS[/PREFIX] of a proxy that says for whom a connection is: by the PROXY protocol, "
+                 "version 2, on both ports, or by X-Forwarded-For on that of --web; several may be given")
+      ->envname("WOODLOUSE_TRUSTED_PROXY");
   app.add_option("--state-hz", serve.state_hz, "Frames a second; divides the tick rate")
       ->envname("WOODLOUSE_STATE_HZ")
       ->check(whole_number(1, kMaxTickHz))
@@ -240,6 +245,13 @@ core::Expected<Config> checked(CLI::App& app, TypedServe& typed) {
   auto listen = parse_listen_address(typed.listen);
   if (!listen) return tl::unexpected(listen.error());
   serve.listen = std::move(*listen);
+  std::vector<ProxyNetwork> networks;
+  for (const std::string& text : typed.trusted_proxies) {
+    auto network = checked_proxy(text);
+    if (!network) return tl::unexpected(network.error());
+    networks.push_back(std::move(*network));
+  }
+  serve.trusted_proxies = TrustedProxies(std::move(networks));
   auto web = checked_web(typed.web);
   if (!web) return tl::unexpected(web.error());
   serve.web = std::move(*web);

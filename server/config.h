@@ -17,6 +17,7 @@
 #include "server/commands/verify.h"
 #include "server/log.h"
 #include "server/net/listen_address.h"
+#include "server/proxies/trusted_proxies.h"
 #include "server/watchers/recordings.h"
 #include "server/web_options.h"
 #include "shared/core/error.h"
@@ -31,6 +32,7 @@ struct ServeConfig {
   std::vector<std::filesystem::path> maps;  ///< a room each and mode; 1 to kMaxRooms, none for a fork
   std::optional<ForkPoint> fork;            ///< one room, whose map, tick rate and seed are the recording's
   ListenAddress listen;
+  TrustedProxies trusted_proxies;  ///< who may say for whom a connection or a request is
   std::optional<WebSettings> web;  ///< where the client speaks first; empty: nowhere
   std::uint32_t tick_hz = 60;      ///< 1..1000
   std::uint32_t state_hz = 20;     ///< divides tick_hz

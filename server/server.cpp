@@ -112,7 +112,7 @@ core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config, Outsi
 }
 
 core::Expected<void> Server::open_ports(const ServeConfig& config) {
-  const auto lines = acceptor_.open(config.listen);
+  const auto lines = acceptor_.open(config.listen, config.trusted_proxies);
   if (!lines) return tl::unexpected(lines.error());
   address_ = to_text(*lines);
   if (!config.web) return {};

@@ -32,6 +32,12 @@ protocol::ErrorMessage too_many(ConnectionLimits::Admission admission, const pro
           {}};
 }
 
+/// Where the server speaks first, who has said nothing by then does not begin with a header.
+constexpr Duration kHeaderPatience = std::chrono::seconds(3);
+
+/// As what the connections of a trusted proxy count of which it has not said whose they are.
+std::string unknown_of(const std::string& proxy) { return "proxy " + proxy; }
+
 }  // namespace
 
 Acceptor::Acceptor(const Lanes& lanes, const SessionEnvironment& environment)
@@ -42,7 +48,8 @@ Acceptor::Acceptor(const Lanes& lanes, const SessionEnvironment& environment)
       web_(lanes, strand_, environment.log, "--web"),
       addresses_(environment.limits) {}
 
-core::Expected<tcp::endpoint> Acceptor::open(const ListenAddress& address) {
+core::Expected<tcp::endpoint> Acceptor::open(const ListenAddress& address, TrustedProxies trusted) {
+  trusted_ = std::move(trusted);
   auto bound = lines_.open(address);
   if (bound) web_environment_.lines_port = bound->port();
   return bound;
@@ -70,21 +77,77 @@ void Acceptor::reread(const WebSettings& settings) {
 void Acceptor::start() {
   asio::post(strand_, [this] {
     lines_.start([this](tcp::socket socket, std::size_t lane) {
-      if (const auto guest = admit(socket, lane))
-        open_session(std::make_unique<TcpWire>(std::move(socket)), *guest, Session::Greeting::kAtOnce);
+      let_in(std::move(socket), lane, kHeaderPatience, &Acceptor::greet);
     });
     web_.start([this](tcp::socket socket, std::size_t lane) {
-      if (auto guest = admit(socket, lane)) meet(std::move(socket), std::move(*guest));
+      let_in(std::move(socket), lane, Doorway::kPatience, &Acceptor::meet);
     });
   });
+}
+
+void Acceptor::let_in(tcp::socket socket, std::size_t lane, Duration patience, Onwards onwards) {
+  auto guest = admit(socket, lane);
+  if (!guest) return;
+  if (guest->proxy.empty()) return (this->*onwards)(std::move(socket), std::move(*guest));
+  const SessionId id = guest->id;
+  const auto doorway = std::make_shared<ProxyDoorway>(std::move(socket), environment_.timekeeper, patience);
+  visits_.emplace(id, Visit{std::move(*guest), [doorway] { doorway->end(); }});
+  doorway->start([this, id, onwards](ProxyHeader header, tcp::socket from) {
+    asio::post(strand_, [this, id, onwards, header = std::move(header), from = std::move(from)]() mutable {
+      on_proxy_header(id, header, std::move(from), onwards);
+    });
+  });
+}
+
+void Acceptor::on_proxy_header(SessionId id, const ProxyHeader& header, tcp::socket socket, Onwards onwards) {
+  Guest& guest = visits_.at(id).guest;
+  assert(!guest.proxy.empty());
+  if (header.verdict == ProxyHeader::Verdict::kRefused)
+    log(spdlog::level::warn, guest.address, "a PROXY header that can't be used: " + header.why + ": closed");
+  if (is_stopping_ || header.verdict == ProxyHeader::Verdict::kRefused) return end_visit(id);
+  if (header.verdict == ProxyHeader::Verdict::kWhole) {
+    settle(guest, header.source ? ConnectionLimits::key(*header.source) : guest.proxy);
+    const bool is_another_proxy = header.source && trusted_.contains(*header.source);
+    guest.proxy = is_another_proxy ? ConnectionLimits::key(*header.source) : "";
+  }
+  (this->*onwards)(std::move(socket), take_visit(id));
+}
+
+void Acceptor::settle(Guest& guest, const std::string& address) {
+  assert(!address.empty());
+  if (address == guest.address) return;
+  const Time now = environment_.timekeeper.now();
+  addresses_.release(guest.address, now);
+  auto admission = addresses_.admit(address, now);
+  if (admission == ConnectionLimits::Admission::kDrop) {
+    // It has to be counted as somebody's while he is told.
+    addresses_.admit_unknown(guest.address, now);
+    admission = ConnectionLimits::Admission::kAddressFull;
+  } else {
+    guest.address = address;
+  }
+  guest.refusal = std::nullopt;
+  if (admission != ConnectionLimits::Admission::kWelcome)
+    guest.refusal = too_many(admission, *environment_.limits.now());
+  environment_.log->debug(fmt::format("session {:016x}: for {}", guest.id, address));
+}
+
+void Acceptor::greet(tcp::socket socket, Guest guest) {
+  open_session(std::make_unique<TcpWire>(std::move(socket)), std::move(guest), Session::Greeting::kAtOnce);
 }
 
 std::optional<Acceptor::Guest> Acceptor::admit(tcp::socket& socket, std::size_t lane) {
   error_code error;
   const tcp::endpoint remote = socket.remote_endpoint(error);
   if (error) return std::nullopt;  // gone before it was seen
-  Guest guest{next_id_, ConnectionLimits::key(remote.address()), lane, std::nullopt};
-  const auto admission = addresses_.admit(guest.address, environment_.timekeeper.now());
+  Guest guest{next_id_, ConnectionLimits::key(remote.address()), lane, std::nullopt, {}};
+  const Time now = environment_.timekeeper.now();
+  if (trusted_.contains(remote.address())) {
+    guest.proxy = guest.address;
+    guest.address = unknown_of(guest.proxy);
+  }
+  const auto admission = guest.proxy.empty() ? addresses_.admit(guest.address, now)
+                                             : addresses_.admit_unknown(guest.address, now);
   if (admission == ConnectionLimits::Admission::kDrop) return std::nullopt;
   ++next_id_;
   const auto limits = environment_.limits.now();
@@ -140,22 +203,44 @@ void Acceptor::on_first_byte_inside(SessionId id, Comes what, std::unique_ptr<Tl
 template <typename Connection>
 void Acceptor::open_http_door(SessionId id, Connection connection) {
   Visit& visit = visits_.at(id);
+  const bool is_proxy = !visit.guest.proxy.empty();
+  HttpDoor::Ends ends{[this, id] { asio::post(strand_, [this, id] { end_visit(id); }); },
+                      [this, id](std::unique_ptr<Wire> wire) {
+                        asio::post(strand_, [this, id, upgraded = std::move(wire)]() mutable {
+                          on_upgraded(id, std::move(upgraded));
+                        });
+                      }};
+  if (is_proxy)
+    ends.who = [this, id](std::string forwarded, HttpDoor::Known known) {
+      asio::post(strand_, [this, id, forwarded = std::move(forwarded), known = std::move(known)] {
+        known(on_forwarded(id, forwarded));
+      });
+    };
+  auto asker = is_proxy ? HttpDoor::Asker{addresses_.account(visit.guest.address), {}} : take_http(visit);
+  const auto door = make_http_door(std::move(connection), environment_, web_environment_, std::move(asker),
+                                   std::move(ends));
+  visit.end = [door] { door->end(); };
+  door->start();
+}
+
+HttpDoor::Asker Acceptor::on_forwarded(SessionId id, const std::string& forwarded) {
+  Visit& visit = visits_.at(id);  // the door says that it is closed later than this
+  if (std::exchange(visit.is_http, false)) addresses_.give_http_back(visit.guest.address);
+  const auto behind = trusted_.behind(forwarded);
+  settle(visit.guest, behind ? ConnectionLimits::key(*behind) : visit.guest.proxy);
+  return take_http(visit);
+}
+
+/// Whoever's the visit is now speaks HTTP.
+HttpDoor::Asker Acceptor::take_http(Visit& visit) {
+  assert(!visit.is_http);
   const std::string& address = visit.guest.address;
   visit.is_http = addresses_.take_http(address);
   std::string refusal;
   if (!visit.is_http)
     refusal = "your address has " + std::to_string(ConnectionLimits::kMostHttp) + " of these already";
   if (visit.guest.refusal) refusal = visit.guest.refusal->text;
-  const auto door = make_http_door(std::move(connection), environment_, web_environment_,
-                                   addresses_.account(address), std::move(refusal),
-                                   {[this, id] { asio::post(strand_, [this, id] { end_visit(id); }); },
-                                    [this, id](std::unique_ptr<Wire> wire) {
-                                      asio::post(strand_, [this, id, upgraded = std::move(wire)]() mutable {
-                                        on_upgraded(id, std::move(upgraded));
-                                      });
-                                    }});
-  visit.end = [door] { door->end(); };
-  door->start();
+  return {addresses_.account(address), std::move(refusal)};
 }
 
 void Acceptor::on_upgraded(SessionId id, std::unique_ptr<Wire> wire) {
@@ -172,7 +257,9 @@ Acceptor::Guest Acceptor::take_visit(SessionId id) {
   return guest;
 }
 
-void Acceptor::open_session(std::unique_ptr<Wire> wire, const Guest& guest, Session::Greeting greeting) {
+void Acceptor::open_session(std::unique_ptr<Wire> wire, Guest guest, Session::Greeting greeting) {
+  // Its proxy never said for whom: then it is its own.
+  if (!guest.proxy.empty() && guest.address == unknown_of(guest.proxy)) settle(guest, guest.proxy);
   const auto session = std::make_shared<Session>(guest.id, std::move(wire), lanes_, guest.lane,
                                                  addresses_.account(guest.address), environment_);
   const bool is_new = sessions_.emplace(guest.id, session).second;

@@ -20,6 +20,8 @@
 #include "server/net/session.h"
 #include "server/net/tls_context.h"
 #include "server/net/web_names.h"
+#include "server/proxies/proxy_doorway.h"
+#include "server/proxies/trusted_proxies.h"
 #include "shared/core/error.h"
 
 namespace woodlouse::server {
@@ -30,7 +32,9 @@ class Acceptor {
   Acceptor(const Lanes& lanes, const SessionEnvironment& environment);
 
   // Listen. Before the threads run.
-  core::Expected<boost::asio::ip::tcp::endpoint> open(const ListenAddress& address);
+  /// trusted: who may say, on either port, for whom a connection or a request is.
+  core::Expected<boost::asio::ip::tcp::endpoint> open(const ListenAddress& address,
+                                                      TrustedProxies trusted = {});
   /// After open().
   core::Expected<boost::asio::ip::tcp::endpoint> open_web(const WebSettings& settings);
 
@@ -49,6 +53,9 @@ class Acceptor {
     std::string address;  ///< ConnectionLimits::key()
     std::size_t lane = 0;
     std::optional<protocol::ErrorMessage> refusal;  ///< why he must go again
+    /// key() of a trusted proxy that has not said for whom this is, or may say so anew with each request;
+    /// else empty. Till it has said so, `address` is a key of its own for those that are not known.
+    std::string proxy{};
   };
   /// One of whom it is not known yet whether a session comes of him.
   struct Visit {
@@ -59,6 +66,18 @@ class Acceptor {
 
   /// Nobody where it was too many even to be told.
   std::optional<Guest> admit(boost::asio::ip::tcp::socket& socket, std::size_t lane);
+  /// Where a connection goes on once it is known whose it is.
+  using Onwards = void (Acceptor::*)(boost::asio::ip::tcp::socket socket, Guest guest);
+  /// `onwards` with whom it lets in; before that what a trusted proxy says.
+  void let_in(boost::asio::ip::tcp::socket socket, std::size_t lane, Duration patience, Onwards onwards);
+  void on_proxy_header(SessionId id, const ProxyHeader& header, boost::asio::ip::tcp::socket socket,
+                       Onwards onwards);
+  /// The connection is of that address from now on.
+  void settle(Guest& guest, const std::string& address);
+  /// A request came through a trusted proxy.
+  HttpDoor::Asker on_forwarded(SessionId id, const std::string& forwarded);
+  HttpDoor::Asker take_http(Visit& visit);
+  void greet(boost::asio::ip::tcp::socket socket, Guest guest);
   void meet(boost::asio::ip::tcp::socket socket, Guest guest);
   void on_first_byte(SessionId id, Comes what, boost::asio::ip::tcp::socket socket);
   void shake_hands(SessionId id, boost::asio::ip::tcp::socket socket);
@@ -69,7 +88,7 @@ class Acceptor {
   void on_upgraded(SessionId id, std::unique_ptr<Wire> wire);
   /// It is known now what came of it.
   Guest take_visit(SessionId id);
-  void open_session(std::unique_ptr<Wire> wire, const Guest& guest, Session::Greeting greeting);
+  void open_session(std::unique_ptr<Wire> wire, Guest guest, Session::Greeting greeting);
   void end_visit(SessionId id);
   void on_closed(SessionId id, const std::string& address);
   void tell_when_empty();
@@ -81,6 +100,7 @@ class Acceptor {
   Port lines_;
   Port web_;
   WebEnvironment web_environment_;
+  TrustedProxies trusted_;
   std::shared_ptr<boost::asio::ssl::context>
       tls_;  ///< null: TLS is not spoken; once the threads run the strand's
   // The strand's:

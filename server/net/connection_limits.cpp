@@ -20,12 +20,25 @@ ConnectionLimits::Admission ConnectionLimits::admit(const std::string& key, Time
   if (connections_ >= limits->max_connections - reserved) admission = Admission::kServerFull;
   if (own >= limits->per_address + kCourtesy || connections_ >= limits->max_connections + kCourtesy)
     return Admission::kDrop;
+  count(key, now);
+  return admission;
+}
+
+ConnectionLimits::Admission ConnectionLimits::admit_unknown(const std::string& key, Time now) {
+  forget_some(now);
+  const std::uint32_t most = limits_.now()->max_connections;
+  if (connections_ >= most + kCourtesy) return Admission::kDrop;
+  const Admission admission = connections_ >= most ? Admission::kServerFull : Admission::kWelcome;
+  count(key, now);
+  return admission;
+}
+
+void ConnectionLimits::count(const std::string& key, Time now) {
   Address& address = addresses_[key];
   if (address.account == nullptr)
-    address.account = std::make_shared<AddressAccount>(next_id_++, key, *limits, now);
+    address.account = std::make_shared<AddressAccount>(next_id_++, key, *limits_.now(), now);
   ++address.connections;
   ++connections_;
-  return admission;
 }
 
 void ConnectionLimits::release(const std::string& key, Time now) {

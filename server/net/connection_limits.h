@@ -30,6 +30,9 @@ class ConnectionLimits {
   enum class Admission { kWelcome, kAddressFull, kServerFull, kDrop };
   /// A connection of that address: all but kDrop count it until release().
   Admission admit(const std::string& key, Time now);
+  /// The same of a trusted proxy's, of which it is not known yet whose it is: the server's own limit alone
+  /// counts, and a key of its own.
+  Admission admit_unknown(const std::string& key, Time now);
   void release(const std::string& key, Time now);
   /// Whether one of its connections may speak HTTP; then it counts as such until give_http_back(). REQUIRES
   /// that it was admitted and not released.
@@ -52,6 +55,7 @@ class ConnectionLimits {
     std::shared_ptr<AddressAccount> account;
     bool is_leaving = false;  ///< stands in leaving_
   };
+  void count(const std::string& key, Time now);
   void forget_some(Time now);
 
   const LiveLimits& limits_;

@@ -68,17 +68,15 @@ template <typename Stream>
 class StreamHttpDoor final : public HttpDoor, public std::enable_shared_from_this<StreamHttpDoor<Stream>> {
  public:
   StreamHttpDoor(Stream stream, std::string_view first, const SessionEnvironment& environment,
-                 const WebEnvironment& web, std::shared_ptr<AddressAccount> account, std::string refusal,
-                 Ends ends)
+                 const WebEnvironment& web, Asker asker, Ends ends)
       : lane_(stream.get_executor()),
         stream_(std::move(stream)),
         environment_(environment),
         web_(web),
-        account_(std::move(account)),
-        refusal_(std::move(refusal)),
+        asker_(std::move(asker)),
         ends_(std::move(ends)),
         alarm_(environment.timekeeper.make_alarm(lane_)) {
-    assert(account_ != nullptr && ends_.closed && ends_.upgraded);
+    assert(asker_.account != nullptr && ends_.closed && ends_.upgraded);
     buffer_.commit(asio::buffer_copy(buffer_.prepare(first.size()), asio::buffer(first)));
   }
 
@@ -99,6 +97,8 @@ class StreamHttpDoor final : public HttpDoor, public std::enable_shared_from_thi
   [[nodiscard]] asio::ip::tcp::socket& socket() { return beast::get_lowest_layer(stream_); }
   void read_head();
   void on_head(const error_code& error);
+  [[nodiscard]] std::string forwarded() const;
+  void answer_request();
   [[nodiscard]] WebAnswer judge();
   [[nodiscard]] std::string why_no_upgrade();
   void upgrade();
@@ -132,8 +132,7 @@ class StreamHttpDoor final : public HttpDoor, public std::enable_shared_from_thi
   Stream stream_;
   const SessionEnvironment& environment_;
   const WebEnvironment& web_;
-  std::shared_ptr<AddressAccount> account_;
-  std::string refusal_;
+  Asker asker_;
   Ends ends_;  ///< empty once one was called
 
   std::unique_ptr<Alarm> alarm_;
@@ -174,6 +173,31 @@ void StreamHttpDoor<Stream>::on_head(const error_code& error) {
                             : refusal(405, "only GET and HEAD are answered"),
                   true);
   }
+  if (!ends_.who) return answer_request();
+  // Until it is known for whom it is nothing is read.
+  ends_.who(forwarded(), [self = this->shared_from_this()](Asker asker) {
+    asio::post(self->lane_, [self, asker = std::move(asker)]() mutable {
+      if (!self->ends_.closed) return;
+      self->asker_ = std::move(asker);
+      self->answer_request();
+    });
+  });
+}
+
+/// All that stands in X-Forwarded-For, of which each proxy has added one or the other.
+template <typename Stream>
+std::string StreamHttpDoor<Stream>::forwarded() const {
+  std::string all;
+  const auto [begin, end] = parser_->get().equal_range("X-Forwarded-For");
+  for (auto field = begin; field != end; ++field) {
+    const auto value = field->value();
+    all.append(all.empty() ? "" : ",").append(value.data(), value.size());
+  }
+  return all;
+}
+
+template <typename Stream>
+void StreamHttpDoor<Stream>::answer_request() {
   WebAnswer answered = judge();
   if (answered.status == 101) return upgrade();
   const bool is_refused = answered.status >= 400 && answered.status != 404;
@@ -185,13 +209,13 @@ void StreamHttpDoor<Stream>::on_head(const error_code& error) {
 /// 101: a session may begin.
 template <typename Stream>
 WebAnswer StreamHttpDoor<Stream>::judge() {
-  if (!refusal_.empty()) return refusal(503, refusal_);
+  if (!asker_.refusal.empty()) return refusal(503, asker_.refusal);
   const http::request<http::empty_body>& request = parser_->get();
   if (request.count(http::field::host) != 1) return refusal(400, "a request names one Host");
   const std::string_view host = field(http::field::host);
   if (const std::string why = why_not_host(host, web_.names); !why.empty()) return refusal(403, why);
   if (!may_ask()) return refusal(405, "only GET and HEAD are answered");
-  if (!is_probe(target()) && account_->wait(Spending::kAnswerBytes, now()) > Duration{})
+  if (!is_probe(target()) && asker_.account->wait(Spending::kAnswerBytes, now()) > Duration{})
     return refusal(429, "your address has asked for too much; try again in a second");
   if (target().substr(0, target().find('?')) == "/ws") {
     if (!beast::websocket::is_upgrade(request))
@@ -205,7 +229,7 @@ WebAnswer StreamHttpDoor<Stream>::judge() {
   assert(authority.has_value());
   WebAnswer answered = answer_to(target(), authority->host, environment_.directory,
                                  {environment_.server_name, web_.lines_port, is_stopping_});
-  account_->charge(Spending::kAnswerBytes, static_cast<double>(answered.body.size()), now());
+  asker_.account->charge(Spending::kAnswerBytes, static_cast<double>(answered.body.size()), now());
   return answered;
 }
 
@@ -305,20 +329,18 @@ void StreamHttpDoor<Stream>::close() {
 }  // namespace
 
 std::shared_ptr<HttpDoor> make_http_door(asio::ip::tcp::socket socket, const SessionEnvironment& environment,
-                                         const WebEnvironment& web, std::shared_ptr<AddressAccount> account,
-                                         std::string refusal, HttpDoor::Ends ends) {
-  return std::make_shared<StreamHttpDoor<asio::ip::tcp::socket>>(
-      std::move(socket), "", environment, web, std::move(account), std::move(refusal), std::move(ends));
+                                         const WebEnvironment& web, HttpDoor::Asker asker,
+                                         HttpDoor::Ends ends) {
+  return std::make_shared<StreamHttpDoor<asio::ip::tcp::socket>>(std::move(socket), "", environment, web,
+                                                                 std::move(asker), std::move(ends));
 }
 
 std::shared_ptr<HttpDoor> make_http_door(std::unique_ptr<TlsConnection> connection,
                                          const SessionEnvironment& environment, const WebEnvironment& web,
-                                         std::shared_ptr<AddressAccount> account, std::string refusal,
-                                         HttpDoor::Ends ends) {
+                                         HttpDoor::Asker asker, HttpDoor::Ends ends) {
   assert(connection != nullptr);
   return std::make_shared<StreamHttpDoor<decltype(TlsConnection::stream)>>(
-      std::move(connection->stream), connection->first, environment, web, std::move(account),
-      std::move(refusal), std::move(ends));
+      std::move(connection->stream), connection->first, environment, web, std::move(asker), std::move(ends));
 }
 
 }  // namespace woodlouse::server

@@ -35,10 +35,20 @@ class HttpDoor {
   static constexpr std::uint32_t kHeadBytes = 8192;
   static constexpr std::uint32_t kMostRequests = 100;
 
-  /// One of them is called, once, on the socket's lane.
+  /// Who asks.
+  struct Asker {
+    std::shared_ptr<AddressAccount> account;
+    std::string refusal;  ///< why he is refused; empty: he is answered
+  };
+  using Known = std::function<void(Asker asker)>;
+
+  /// One of the first two is called, once, on the socket's lane.
   struct Ends {
     std::function<void()> closed;
     std::function<void(std::unique_ptr<Wire> wire)> upgraded;  ///< a session may begin on it
+    /// Where requests come through a trusted proxy: asked on the lane for whom each is, by what stands in its
+    /// X-Forwarded-For; calls known once, on any thread. Empty: all are whose the socket is.
+    std::function<void(std::string forwarded, Known known)> who{};
   };
 
   HttpDoor() = default;
@@ -52,16 +62,13 @@ class HttpDoor {
   virtual void end() = 0;
 };
 
-/// The socket's executor is a lane; nothing of what came was read. refusal: why each request on it is
-/// refused; empty: they are answered.
+/// The socket's executor is a lane; nothing of what came was read. asker: whose requests they are.
 std::shared_ptr<HttpDoor> make_http_door(boost::asio::ip::tcp::socket socket,
                                          const SessionEnvironment& environment, const WebEnvironment& web,
-                                         std::shared_ptr<AddressAccount> account, std::string refusal,
-                                         HttpDoor::Ends ends);
+                                         HttpDoor::Asker asker, HttpDoor::Ends ends);
 /// The same after the handshake of TLS.
 std::shared_ptr<HttpDoor> make_http_door(std::unique_ptr<TlsConnection> connection,
                                          const SessionEnvironment& environment, const WebEnvironment& web,
-                                         std::shared_ptr<AddressAccount> account, std::string refusal,
-                                         HttpDoor::Ends ends);
+                                         HttpDoor::Asker asker, HttpDoor::Ends ends);
 
 }  // namespace woodlouse::server

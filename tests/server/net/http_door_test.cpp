@@ -36,7 +36,7 @@ struct Browser {
   explicit Browser(const std::string& refusal = {}) {
     tcp::acceptor acceptor(io, {asio::ip::address_v4::loopback(), 0});
     far.connect(acceptor.local_endpoint());
-    door = make_http_door(acceptor.accept(), environment, web, account, refusal,
+    door = make_http_door(acceptor.accept(), environment, web, {account, refusal},
                           {[this] { ++closed; }, [this](std::unique_ptr<Wire>) { ++upgraded; }});
     door->start();
     io.poll();
