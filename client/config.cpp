@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cassert>
 #include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
@@ -77,7 +78,16 @@ struct Raw {
   int fps = 30;
   bool watch = false;
   bool verify = false;
+  bool no_files = false;
 };
+
+constexpr std::string_view kNoFiles = "--no-files";
+
+/// Asked before anything is read: a config file could not be unread.
+bool wants_no_files(int argc, const char* const* argv) {
+  return !environment("WOODLOUSE_NO_FILES").empty() ||
+         std::any_of(argv, argv + argc, [](const char* argument) { return kNoFiles == argument; });
+}
 
 Raw raw_of(const Config& config) {
   return {.server = config.server ? config.server->text() : "",
@@ -91,7 +101,8 @@ Raw raw_of(const Config& config) {
           .view = view_words().word(config.view),
           .fps = config.fps,
           .watch = config.part == Part::kWatch,
-          .verify = config.hashes == Hashes::kVerified};
+          .verify = config.hashes == Hashes::kVerified,
+          .no_files = config.no_files};
 }
 
 core::Expected<Config> understood(const Raw& raw) {
@@ -113,6 +124,9 @@ core::Expected<Config> understood(const Raw& raw) {
     return core::fail("name", "it has " + std::to_string(raw.name.size()) + " bytes",
                       "from 1 to 24 bytes of UTF-8");
   }
+  if (raw.no_files && !raw.recording.empty())
+    return core::fail("replay", "a recording is a file, and --no-files forbids all of them");
+  config.no_files = raw.no_files;
   config.map = raw.map;
   config.name = raw.name;
   config.room = raw.room;
@@ -143,9 +157,11 @@ std::filesystem::path config_file() {
 }
 
 /// The defaults: the program's, then the config file's.
-core::Expected<Config> defaults() {
+core::Expected<Config> defaults(bool no_files) {
   Config config;
-  config.name = default_name();
+  config.no_files = no_files;
+  config.name = no_files ? std::string("louse") : default_name();  // the account's name is nobody's
+  if (no_files) return config;
   const std::filesystem::path file = config_file();
   std::error_code error;
   if (file.empty() || !std::filesystem::exists(file, error)) return config;
@@ -186,6 +202,10 @@ void add_options(CLI::App& app, Raw& raw) {
       ->envname("WOODLOUSE_GLYPHS")
       ->capture_default_str();
   app.add_option("--view", raw.view, view_words().list())->envname("WOODLOUSE_VIEW")->capture_default_str();
+  app.add_flag(std::string(kNoFiles), raw.no_files,
+               "read and write no file of the account's: no config file, no recording, no server of its own; "
+               "for who plays through ssh")
+      ->envname("WOODLOUSE_NO_FILES");
   app.add_option("--fps", raw.fps, "frames a second, 5..60")->envname("WOODLOUSE_FPS")->capture_default_str();
   CLI::App* const replay =
       app.add_subcommand("replay", "watch a recording: play, pause, jump, follow; ? shows the keys");
@@ -240,7 +260,9 @@ core::Expected<Config> read_config_file(const std::string& text, const std::stri
 }
 
 Parsed parse_arguments(int argc, const char* const* argv) {
-  const auto base = defaults();
+  assert(argc >= 1 && argv != nullptr);
+  const bool no_files = wants_no_files(argc, argv);
+  const auto base = defaults(no_files);
   if (!base) return mistake(base.error());
   Raw raw = raw_of(*base);
   CLI::App app("Wood-lice on a spline hill: the terminal client.", "woodlouse");
@@ -262,8 +284,12 @@ Parsed parse_arguments(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return mistake({"arguments", error.what(), ""});
   }
+  raw.no_files = raw.no_files || no_files;  // once asked for it stays
   auto config = understood(raw);
   if (!config) return mistake(config.error());
+  if (config->no_files && !config->server)
+    return mistake(
+        {"server", "none is named, and --no-files starts none here", "woodlouse --no-files HOST:PORT"});
   parsed.config = std::move(*config);
   return parsed;
 }

@@ -32,6 +32,9 @@ struct Config {
   GlyphChoice glyphs = GlyphChoice::kAuto;
   std::optional<View> view;  ///< none: what suits the terminal
   int fps = 30;              ///< 5..60
+  /// For who plays from another's account (ssh): nothing of it is read or written, no config file, map or
+  /// recording, and no server is started. REQUIRES a server, and no replay.
+  bool no_files = false;
 };
 
 /// A configuration, or why the program ends now: help and version end it with 0, mistakes with 2.

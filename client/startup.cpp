@@ -5,6 +5,7 @@
 
 #include <array>
 #include <boost/asio/io_context.hpp>
+#include <cassert>
 #include <chrono>
 #include <csignal>
 #include <iostream>
@@ -126,6 +127,7 @@ Outcome tell(boost::asio::io_context& context, Session& session, LocalServer* lo
 }  // namespace
 
 int run_client(const Config& config) {
+  assert(!config.no_files || (config.server && config.part != Part::kReplay));
   const bool as_text = config.glyphs == GlyphChoice::kText;
   if (config.part == Part::kReplay && (as_text || isatty(STDOUT_FILENO) == 0)) {
     return complain(

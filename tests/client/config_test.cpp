@@ -24,9 +24,9 @@ class Environment {
     std::filesystem::create_directories(folder_ / "woodlouse");
     if (!config_json.empty()) std::ofstream(folder_ / "woodlouse" / "config.json") << config_json;
     set("XDG_CONFIG_HOME", folder_.string());
-    for (const char* name :
-         {"WOODLOUSE_NAME", "WOODLOUSE_FPS", "WOODLOUSE_COLOR", "WOODLOUSE_SERVER", "WOODLOUSE_GLYPHS",
-          "WOODLOUSE_VIEW", "WOODLOUSE_ROOM", "WOODLOUSE_MAP", "WOODLOUSE_WATCH", "WOODLOUSE_VERIFY"}) {
+    for (const char* name : {"WOODLOUSE_NAME", "WOODLOUSE_FPS", "WOODLOUSE_COLOR", "WOODLOUSE_SERVER",
+                             "WOODLOUSE_GLYPHS", "WOODLOUSE_VIEW", "WOODLOUSE_ROOM", "WOODLOUSE_MAP",
+                             "WOODLOUSE_WATCH", "WOODLOUSE_VERIFY", "WOODLOUSE_NO_FILES"}) {
       ::unsetenv(name);
     }
   }
@@ -177,4 +177,32 @@ TEST_CASE("hashes are verified where it is asked for, by flag, environment or fi
   }
   Environment environment(R"({"verify": true})");
   CHECK(parse({}).config.hashes == Hashes::kVerified);
+}
+
+TEST_CASE("without files nothing is taken from the account: no config file, no name, no server of its own") {
+  Environment environment(R"({"name": "file", "server": "farm.example", "fps": "not a number"})");
+  environment.set("USER", "game");
+  REQUIRE(parse({}).exit_code == 2);  // the file is read
+  const Parsed parsed = parse({"--no-files", "farm.example:7000"});
+  REQUIRE_FALSE(parsed.exit_code.has_value());
+  REQUIRE(parsed.config.no_files);
+  REQUIRE(parsed.config.name == "louse");
+  REQUIRE(parsed.config.server->text() == "farm.example:7000");
+  REQUIRE(parse({"--no-files", "farm.example", "--name=--no-files"}).config.name == "--no-files");
+  REQUIRE(parse({"farm.example", "--no-files", "--name", "mara"}).config.name == "mara");
+  environment.set("WOODLOUSE_NO_FILES", "1");
+  REQUIRE(parse({"farm.example"}).config.no_files);
+}
+
+TEST_CASE("without files there is no server to start, and no recording to watch") {
+  Environment environment;
+  for (const auto arguments :
+       {std::initializer_list<const char*>{"--no-files"},
+        std::initializer_list<const char*>{"--no-files", "replay", "game.ndjson"},
+        std::initializer_list<const char*>{"replay", "game.ndjson", "--no-files"},
+        std::initializer_list<const char*>{"--no-files", "farm.example", "replay", "x"}}) {
+    const Parsed parsed = parse(arguments);
+    REQUIRE(parsed.exit_code == 2);
+    REQUIRE(parsed.output.find("--no-files") != std::string::npos);
+  }
 }
