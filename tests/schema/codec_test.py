@@ -2,8 +2,10 @@
 A field that is added there without its schema fails here."""
 
 import json
+import os
 import re
 import unittest
+import warnings
 
 import jsonschema
 from schemas import DOCUMENTS, SOURCE, examples, faults, judge, row_schema, tables, validator
@@ -175,6 +177,32 @@ class Codec(unittest.TestCase):
         row = [7, 0, 0.5, -1.25, 0, 0, 1, 0, 0.5, 0, 0, 0, 3.75, 1, 30]
         self.assertEqual(faults(exact, row), [])
         self.assertNotEqual(faults(exact, [7, 0.5, *row[2:]]), [])
+
+    def test_the_readme_s_python_is_as_it_says(self):
+        text = (SOURCE / "docs" / "schema" / "README.md").read_text()
+        blocks, lines = [], []
+        for line in text.splitlines():
+            if line.startswith("    "):
+                lines.append(line[4:])
+            elif lines:
+                blocks.append("\n".join(lines))
+                lines = []
+        self.assertEqual(len(blocks), 2)
+        before = os.getcwd()
+        os.chdir(SOURCE)
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", DeprecationWarning)
+                names = {}
+                exec(blocks[0], names)  # validates a join; raises where it is none
+                with self.assertRaises(jsonschema.ValidationError):
+                    exec(blocks[0].replace('"name": "me"', '"nam": "me"'), {})
+        finally:
+            os.chdir(before)
+        self.assertIn("welcome['format']", blocks[1])
+        row = {"welcome": {"fields": TABLES["all_columns"], "format": "exact"}}
+        exec(blocks[1], row)
+        self.assertEqual(row["row"], row_schema(TABLES["all_columns"], "exact"))
 
 
 if __name__ == "__main__":

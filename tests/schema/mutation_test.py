@@ -5,7 +5,7 @@ import json
 import random
 import unittest
 
-from schemas import DOCUMENTS, SOURCE, changed, codec, examples, faults, judge, mutations, tables, validator
+from schemas import DOCUMENTS, SOURCE, changed, codec, examples, faults, judge, mutations, row_schema, tables, validator
 
 TABLES = tables()
 RS = "\x1e"
@@ -61,6 +61,25 @@ class Mutation(unittest.TestCase):
                    "podium_s", "summits", "crumbs", "origin", "scale", "grid"}
         self.required(schema, values, optional | in_maps)
         self.assertFalse(older & optional)
+
+    def test_a_key_that_proves_itself(self):
+        """Of who asked for all columns, exact: the reader wants the six members besides, and the row's schema each column."""
+        zeros = "0" * 16
+        row = [3, 0, 3.25, 0, 0, 0, 1, 0, 0.5, 0, 0, 0, 3.75, 1, 30]
+        key = {"type": "key", "tick": 840, "louse": [row], "hash": zeros, "previous": zeros, "inputs": zeros, "roster": zeros, "rules": zeros,
+               "link": 839, "generator": zeros}
+        schema, rows = validator("server"), validator("row", row_schema(TABLES["all_columns"], "exact"))
+        done = list(mutations(key))
+        refused = 0
+        for (what, path, mutant), verdict in zip(done, judge("all", [mutant for _, _, mutant in done])):
+            louse = mutant.get("louse")
+            valid = schema.is_valid(mutant) and (not isinstance(louse, list) or all(rows.is_valid(row) for row in louse))
+            refused += not valid
+            if what == "misspelt" or what == "another member":
+                self.assertFalse(valid, path)
+            else:
+                self.assertEqual(valid, verdict == "ok", f"{what} {path}: {verdict}: {mutant}")
+        self.assertGreater(refused, 100)
 
     def compare_server(self, schema, values):
         """What the reader refuses the schema does; it refuses more, as it is of what servers of this version send. A frame's rows

@@ -58,8 +58,8 @@ class NoFiles(unittest.TestCase):
         """The client at its end or in the game; what was opened from its start on."""
         watch = Watch(self.home, self.settings, os.path.dirname(self.settings))
         self.addCleanup(watch.close)
-        self.terminal.run(f"cd {self.home}")
-        self.terminal.run(f"HOME={self.home} USER=game {BIN}/woodlouse {LOOK} {options}")
+        self.terminal.shows(r"[$#]")  # the shell is there
+        self.terminal.run(f"clear; cd {self.home}; HOME={self.home} USER=game {BIN}/woodlouse {LOOK} {options}")
         return watch
 
     def test_without_it_the_config_file_is_opened(self):

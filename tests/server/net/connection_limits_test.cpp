@@ -46,6 +46,19 @@ TEST_CASE("who leaves makes room, and a dropped connection was never counted") {
   CHECK(house.admit("a") == Admission::kWelcome);
 }
 
+TEST_CASE("connections of a proxy that has not said whose they are count against the server's limit alone") {
+  Limited house(2, 100);
+  for (int i = 0; i < 100; ++i) REQUIRE(house.limits.admit_unknown("proxy a", kNow) == Admission::kWelcome);
+  for (std::uint32_t i = 0; i < ConnectionLimits::kCourtesy; ++i)
+    CHECK(house.limits.admit_unknown("proxy a", kNow) == Admission::kServerFull);
+  CHECK(house.limits.admit_unknown("proxy a", kNow) == Admission::kDrop);
+  CHECK(house.admit("b") == Admission::kDrop);
+  house.limits.release("proxy a", kNow);  // that very one is another's now, or a further one
+  CHECK(house.admit("b") == Admission::kServerFull);
+  for (std::uint32_t i = 0; i <= ConnectionLimits::kCourtesy; ++i) house.limits.release("proxy a", kNow);
+  CHECK(house.limits.admit_unknown("proxy a", kNow) == Admission::kWelcome);
+}
+
 TEST_CASE("a few addresses can't take all connections: the last twentieth is for those that have none") {
   Limited house(1000, 100);
   for (int i = 0; i < 95; ++i) REQUIRE(house.admit(i % 2 == 0 ? "a" : "b") == Admission::kWelcome);

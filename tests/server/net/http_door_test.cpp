@@ -8,10 +8,12 @@
 #include <catch2/catch.hpp>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "tests/server/net/session_stage.h"
 
@@ -33,11 +35,13 @@ std::size_t count(std::string_view text, std::string_view part) {
 }
 
 struct Browser {
-  explicit Browser(const std::string& refusal = {}) {
+  explicit Browser(const std::string& refusal = {},
+                   std::function<void(std::string, HttpDoor::Known)> who = {}) {
     tcp::acceptor acceptor(io, {asio::ip::address_v4::loopback(), 0});
     far.connect(acceptor.local_endpoint());
-    door = make_http_door(acceptor.accept(), environment, web, {account, refusal},
-                          {[this] { ++closed; }, [this](std::unique_ptr<Wire>) { ++upgraded; }});
+    door =
+        make_http_door(acceptor.accept(), environment, web, {account, refusal},
+                       {[this] { ++closed; }, [this](std::unique_ptr<Wire>) { ++upgraded; }, std::move(who)});
     door->start();
     io.poll();
   }
@@ -193,6 +197,38 @@ TEST_CASE("a socket past its address's share is told so") {
   const std::string answer = browser.ask(kRequest);
   CHECK(answer.starts_with("HTTP/1.1 503 "));
   CHECK(answer.ends_with("too many\n"));
+}
+
+TEST_CASE("through a proxy each request is another's, who is asked for by all that it says of it") {
+  std::vector<std::string> asked;
+  const protocol::Limits limits;
+  const auto other = std::make_shared<AddressAccount>(8, "192.0.2.1", limits, Time{});
+  Browser browser({}, [&](std::string forwarded, const HttpDoor::Known& known) {
+    asked.push_back(std::move(forwarded));
+    known({other, asked.size() == 3 ? "too many" : ""});
+  });
+  CHECK(
+      browser
+          .ask(
+              "GET /rooms HTTP/1.1\r\nHost: localhost\r\nX-Forwarded-For: a, b\r\nX-Forwarded-For: c\r\n\r\n")
+          .starts_with("HTTP/1.1 200 OK"));
+  CHECK(browser.ask(kRooms).starts_with("HTTP/1.1 200 OK"));
+  CHECK(browser.account->wait(Spending::kAnswerBytes, browser.timekeeper.now()) == Duration{});
+  const std::string last = browser.ask("GET / HTTP/1.1\r\nHost: localhost\r\nx-forwarded-for: d\r\n\r\n");
+  CHECK(last.starts_with("HTTP/1.1 503 "));
+  CHECK(last.find("too many") != std::string::npos);
+  CHECK(asked == std::vector<std::string>{"a, b,c", "", "d"});
+}
+
+TEST_CASE("a request of which it is not known yet whose it is waits, and goes with its socket") {
+  HttpDoor::Known kept;
+  Browser browser({}, [&](const std::string&, HttpDoor::Known known) { kept = std::move(known); });
+  browser.say(kRooms);
+  browser.until([&] { return static_cast<bool>(kept); });
+  CHECK(browser.far.available() == 0);
+  browser.pass(HttpDoor::kPatience);
+  browser.until_closed();
+  kept({browser.account, {}});  // too late
 }
 
 TEST_CASE("a WebSocket begins where a page of this server asks for it") {
