@@ -9,10 +9,22 @@ using namespace protocol;
 
 namespace {
 
+View some_view(std::optional<std::uint32_t> louse) {
+  View view;
+  [[maybe_unused]] const auto& [place, followed, radius, rows] = view;
+  if (louse)
+    view.louse = louse;
+  else
+    view.place = core::Vec2{3.5, -12};
+  view.radius = 10;
+  view.rows = 30;
+  return view;
+}
+
 Join whole_join() {
   Join join;
-  [[maybe_unused]] const auto& [protocol, role, name, room, fields, format, state_hz, may_resume, resume] =
-      join;
+  [[maybe_unused]] const auto& [protocol, role, name, room, fields, format, state_hz, may_resume, resume,
+                                view] = join;
   join.role = Role::kBot;
   join.name = "climber";
   join.room = "volcano";
@@ -21,6 +33,7 @@ Join whole_join() {
   join.state_hz = 10;
   join.may_resume = true;
   join.resume = "646801f8bdabf83c1a04ed33c112afec";
+  join.view = some_view({});
   return join;
 }
 
@@ -55,7 +68,7 @@ Welcome whole_welcome() {
   Welcome welcome;
   [[maybe_unused]] const auto& [id, name, resume_token, resumed, room, tick, tick_hz, state_hz, fields,
                                 format, map_name, map_hash, extent, map_bytes, physics, mode, rules, players,
-                                spectators] = welcome;
+                                spectators, view_rows] = welcome;
   welcome.id = 7;
   welcome.name = "ann";
   welcome.resume_token = "646801f8bdabf83c1a04ed33c112afec";
@@ -70,6 +83,7 @@ Welcome whole_welcome() {
   welcome.rules = R"({"crumbs":24,"radius":0.9,"round_s":180,"podium_s":10,"summits":4})";
   welcome.players = {some_player()};
   welcome.spectators = 2;
+  welcome.view_rows = kEveryRow;
   return welcome;
 }
 
@@ -181,7 +195,7 @@ Records whole_records() {
 }  // namespace
 
 std::vector<ClientMessage> client_samples() {
-  static_assert(std::variant_size_v<ClientMessage> == 13, "a message without a sample");
+  static_assert(std::variant_size_v<ClientMessage> == 14, "a message without a sample");
   Join plain;
   plain.name = "ann";
   plain.fields.clear();
@@ -193,12 +207,15 @@ std::vector<ClientMessage> client_samples() {
   [[maybe_unused]] const auto& [at_gate] = respawn;
   const Chat chat{"hello"};
   [[maybe_unused]] const auto& [text] = chat;
+  const Look look{some_view(7)};
+  [[maybe_unused]] const auto& [its_view] = look;
   const GetGhost ghost{Board::kHandedIn, 3};
   [[maybe_unused]] const auto& [board, rank] = ghost;
   const ListRecords list{Board::kBots};
   [[maybe_unused]] const auto& [its_board] = list;
-  return {whole_join(), plain,     again,  whole_input(), push,      chat, List{}, GetMap{}, Resync{},
-          respawn,      Respawn{}, Skip{}, Ping{123},     Pong{-99}, list, ghost,  Leave{}};
+  return {whole_join(), plain,     again,   whole_input(), push,   chat, List{},
+          GetMap{},     Resync{},  respawn, Respawn{},     Skip{}, look, Look{},
+          Ping{123},    Pong{-99}, list,    ghost,         Leave{}};
 }
 
 std::vector<ServerMessage> server_samples() {
