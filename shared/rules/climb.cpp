@@ -56,7 +56,8 @@ terrain::SurfaceSample ground_at(const map::Map& map, const Images& images, Vec2
     if (images.wraps()) {
       const double period = high - low;
       x -= period * std::floor((x - low) / period);
-      return x < high ? x : low;
+      // Rounding can put what lies a hair beside a seam on its other side.
+      return x >= low && x < high ? x : low;
     }
     return std::clamp(x, low, high);
   };

@@ -56,4 +56,12 @@ TEST_CASE("past the edge the ground is that of the edge, and of the other side w
   CHECK(ground_at(*walls, images_of(*walls), {25.0, 0.0}).z == Approx(12.0));
   const auto wraps = slopes("0,0,0,4,8,4,0,0,0", "wrap");
   CHECK(ground_at(*wraps, images_of(*wraps), {40.0, 0.0}).z == Approx(8.0));
+  // The last places before a seam, and those images of it that rounding puts beside it.
+  for (const double turns : {-3.0, -1.0, 0.0, 1.0, 2.0, 7.0}) {
+    for (const double towards : {-1e9, 1e9}) {
+      const core::Vec2 seam{20.0 + turns * 40.0, 10.0 + turns * 20.0};
+      const core::Vec2 beside{std::nextafter(seam.x, towards), std::nextafter(seam.y, towards)};
+      CHECK(ground_at(*wraps, images_of(*wraps), beside).z == Approx(0.0).margin(1e-9));
+    }
+  }
 }
