@@ -241,7 +241,8 @@ class Motion:
         x, y, vx, vy = end
         if self._wraps:
             x0, y0, x1, y1 = self._extent
-            x, y = x - floor((x - x0) / (x1 - x0)) * (x1 - x0), y - floor((y - y0) / (y1 - y0)) * (y1 - y0)
+            if not (x0 <= x < x1 and y0 <= y < y1):
+                x, y = _carried(x, x0, x1), _carried(y, y0, y1)
         if not heading:
             heading = _unit(vx, vy) if vx or vy else (body.heading_x, body.heading_y)
         return body._replace(x=x, y=y, vx=vx, vy=vy, heading_x=heading[0], heading_y=heading[1])
@@ -295,6 +296,12 @@ def _moved_on(at, rates, h):
     x, y, vx, vy, hx, hy = at
     dx, dy, ax, ay, rx, ry = rates
     return x + h * dx, y + h * dy, vx + h * ax, vy + h * ay, hx + h * rx, hy + h * ry
+
+
+def _carried(p, low, high):
+    """Home by whole periods; rounding can put what lies a hair beside a seam on its other side."""
+    p -= floor((p - low) / (high - low)) * (high - low)
+    return p if low <= p < high else low
 
 
 def _unit(ux, uy):
