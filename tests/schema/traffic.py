@@ -208,7 +208,7 @@ def play(seen, seconds, folder, seed=1):
             rooms.stop()
             turns.stop()
             for client, _ in clients:
-                client.until_end()
+                client.until_end(patience=300)  # all that it was sent and we have not looked at yet
                 client.socket.close()
         lines = validator("recording")
         for name in sorted(os.listdir(folder)):
