@@ -4,6 +4,7 @@ import http.client
 import json
 import os
 import socket
+import ssl
 import struct
 import sys
 import time
@@ -11,7 +12,7 @@ import unittest
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "server"))
-from web_test import WebServer, WebSocket, is_closed_in_silence  # noqa: E402
+from web_test import CERTIFICATES, WebServer, WebSocket, is_closed_in_silence  # noqa: E402
 from wire import PATIENCE, Client, run  # noqa: E402
 
 PROXY, STRANGER = "127.0.0.7", "127.0.0.9"
@@ -71,6 +72,23 @@ class Proxies(unittest.TestCase):
             self.assertIn(b" 503 ", third.socket.recv(4096))
             other = self.lines(server, header("192.0.2.2", tlvs=b"\x04\0\x02xx") + b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n", web=True)
             self.assertIn(b"200 OK", other.socket.recv(4096))
+
+    def test_a_proxy_may_pass_tls_on_and_what_is_said_inside_counts_too(self):
+        context = ssl.create_default_context()
+        context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
+        certificate = [os.path.join(CERTIFICATES, f"first_{part}.pem") for part in ("certificate", "key")]
+        asked = b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n%b\r\n"
+        with self.server("--tls-cert", certificate[0], "--tls-key", certificate[1], "--per-address", "1") as server:
+            for before, fields, address in ((header("192.0.2.1"), b"", "192.0.2.1"), (b"", b"X-Forwarded-For: 192.0.2.2\r\n", "192.0.2.2"),
+                                            # Who is no proxy says nothing of others.
+                                            (header("192.0.2.3"), b"X-Forwarded-For: 192.0.2.9\r\n", "192.0.2.3")):
+                client = self.lines(server, before, web=True)
+                client.socket = context.wrap_socket(client.socket)
+                self.addCleanup(client.socket.close)
+                client.send_bytes(asked.replace(b"%b", fields))
+                self.assertIn(b"200 OK", client.socket.recv(4096))
+                server.wait_for_log(f"for {address}")
+            self.assertNotIn("192.0.2.9", server.log())
 
     def test_a_stranger_s_header_is_believed_by_nobody(self):
         with self.server() as server:
