@@ -165,10 +165,10 @@ struct Welcome {
   /// On the wire: gravity, drag, friction, thrust_max, edge_restitution. The others stand in the map's
   /// definition; decoded, they are what a map has that does not name them.
   state::Parameters physics;
-  std::string mode;                  ///< "roam", "race", "forage" or "hill"
-  std::string rules;                 ///< of the mode, as the map has them: a JSON object; empty: roam
-  std::vector<PlayerEntry> players;  ///< who is there already, spectators apart
-  std::uint32_t spectators = 0;      ///< how many there are
+  std::string mode;                          ///< "roam", "race", "forage" or "hill"
+  std::string rules;                         ///< of the mode, as the map has them: a JSON object; empty: roam
+  std::vector<PlayerEntry> players;          ///< who is there already, spectators apart
+  std::uint32_t spectators = 0;              ///< how many there are
   std::optional<std::uint32_t> view_rows{};  ///< of a frame at most; none: a server that knows no views
   friend bool operator==(const Welcome&, const Welcome&) = default;
 };

@@ -47,7 +47,8 @@ class Mutation(unittest.TestCase):
         schema = validator("client")
         counts = self.compare(schema, "client", values, True)
         self.assertGreater(counts["refused by both"], 300)
-        self.required(schema, values, {"role", "room", "fields", "format", "resume", "state_hz", "ticks", "tick", "at", "board", "rank"})
+        self.required(schema, values, {"role", "room", "fields", "format", "resume", "state_hz", "ticks", "tick", "at", "board", "rank", "view", "louse",
+                                           "radius", "rows"})
 
     def test_each_message_of_a_server(self):
         values = [line for line in [*map(json.loads, TABLES["server_samples"]), *examples("server")]]

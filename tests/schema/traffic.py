@@ -118,7 +118,7 @@ def bad_lines(seen, server):
 
 def ask(client, draw, seq):
     """Something that a player may do; the next seq."""
-    what = draw.randrange(16)
+    what = draw.randrange(17)
     if what == 0:
         client.send({"type": "chat", "text": draw.choice(["hello", "Grüße", "\\ \" 日本", "x" * 500])})
     elif what == 1:
@@ -135,6 +135,8 @@ def ask(client, draw, seq):
         client.send({"type": "input", "seq": seq, "thrust": 1, "tick": 2**53})  # too far
     elif what == 7:
         client.send({"type": "skip"})
+    elif what == 8:
+        client.send({"type": "view", **draw.choice([{}, {"rows": 2}, {"radius": 3.5}, {"x": -3, "y": 2.5, "rows": 1}, {"louse": 3, "radius": 9}])})
     else:
         thrust = draw.choice([draw.uniform(-3, 3), [draw.uniform(-2, 2), draw.uniform(-2, 2)], 1, [1, 0], [1, 0]])
         more = draw.choice([{}, {"ticks": draw.randrange(1, 90)}, {"tick": 0}])
@@ -163,7 +165,8 @@ def ask_all(racer, forager, turner, watcher):
 
 JOINS = [  # in turn
     {"role": "player"}, {"role": "player", "resume": True, "fields": "all", "format": "exact"}, {"role": "spectator"},
-    {"role": "bot", "fields": ["x", "y", "z", "yaw", "pitch", "roll", "speed", "score", "gate", "lap", "lap_start", "best_lap"], "state_hz": 10},
+    {"role": "bot", "fields": ["x", "y", "z", "yaw", "pitch", "roll", "speed", "score", "gate", "lap", "lap_start", "best_lap"], "state_hz": 10,
+     "view": {"rows": 2}},
     {"role": "player", "fields": ["tx", "ty", "thrust_kind", "ticks_left", "phase", "distance"], "format": "exact"},
     {"role": "spectator", "fields": "all", "format": "exact", "state_hz": 1},
 ]
