@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "server/admin_options.h"
 #include "server/config_file.h"
 #include "server/limit_options.h"
 #include "server/option_checks.h"
@@ -54,6 +55,7 @@ struct TypedServe {
   TypedRecord record;
   TypedWeb web;
   std::vector<std::string> trusted_proxies;
+  TypedAdmin admin;
   std::string config_file;
 };
 
@@ -105,6 +107,7 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
                  "ADDRESS[/PREFIX] of a proxy that says for whom a connection is: by the PROXY protocol, "
                  "version 2, on both ports, or by X-Forwarded-For on that of --web; several may be given")
       ->envname("WOODLOUSE_TRUSTED_PROXY");
+  add_admin_options(app, typed.admin);
   app.add_option("--state-hz", serve.state_hz, "Frames a second; divides the tick rate")
       ->envname("WOODLOUSE_STATE_HZ")
       ->check(whole_number(1, kMaxTickHz))
@@ -255,6 +258,9 @@ core::Expected<Config> checked(CLI::App& app, TypedServe& typed) {
   auto web = checked_web(typed.web);
   if (!web) return tl::unexpected(web.error());
   serve.web = std::move(*web);
+  auto admin = checked_admin(typed.admin);
+  if (!admin) return tl::unexpected(admin.error());
+  serve.admin = std::move(*admin);
   auto record = checked_record(typed.record, serve.rotate ? 1 : serve.maps.size());
   if (!record) return tl::unexpected(record.error());
   serve.record = std::move(*record);

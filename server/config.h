@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "server/admin/admin_address.h"
 #include "server/bots/skill.h"
 #include "server/commands/fork.h"
 #include "server/commands/inspect.h"
@@ -33,9 +34,10 @@ struct ServeConfig {
   std::optional<ForkPoint> fork;            ///< one room, whose map, tick rate and seed are the recording's
   ListenAddress listen;
   TrustedProxies trusted_proxies;  ///< who may say for whom a connection or a request is
-  std::optional<WebSettings> web;  ///< where the client speaks first; empty: nowhere
-  std::uint32_t tick_hz = 60;      ///< 1..1000
-  std::uint32_t state_hz = 20;     ///< divides tick_hz
+  std::optional<WebSettings> web;      ///< where the client speaks first; empty: nowhere
+  std::optional<AdminSettings> admin;  ///< the operator's door; empty: there is none
+  std::uint32_t tick_hz = 60;          ///< 1..1000
+  std::uint32_t state_hz = 20;         ///< divides tick_hz
   std::optional<RecordSettings> record;
   std::optional<std::filesystem::path> records;  ///< the folder of the races' boards; empty: there are none
   bool shadow = false;                           ///< re-run and compare each tick beside the game

@@ -84,6 +84,7 @@ int run(const ServeConfig& config, const std::function<core::Expected<ServeConfi
   kept.emplace(taken_signals());
   std::cout << "listening " << (*server)->address() << std::endl;
   if (!(*server)->web_url().empty()) std::cout << "web " << (*server)->web_url() << std::endl;
+  if (!(*server)->admin_address().empty()) std::cout << "admin " << (*server)->admin_address() << std::endl;
   (*server)->run();
   (*server)->print_summary(std::cout);
   return printed((*server)->lost_recordings().empty() && (*server)->lost_records().empty() ? kOk : kFailed);

@@ -19,27 +19,18 @@
 #include "server/limit_options.h"
 #include "server/signals.h"
 #include "server/version.h"
-#include "server/watchers/ground_ahead.h"
-#include "server/watchers/shadow.h"
 #include "shared/core/joined.h"
 #include "shared/core/printable.h"
 #include "shared/core/stable_hash.h"
-#include "shared/core/thread_team.h"
 #include "shared/protocol/codes.h"
 
 namespace woodlouse::server {
 namespace {
 
 namespace asio = boost::asio;
-namespace fs = std::filesystem;
 
 /// Where games take turns.
 constexpr const char* kRotationRoom = "rotation";
-
-/// Beside the recording, or where the server was started.
-fs::path dump_of_shadow(const ServeConfig& config, const std::string& room) {
-  return (config.record ? config.record->pattern.folder() : fs::path()) / ("shadow." + file_part(room));
-}
 
 std::size_t tick_threads(std::size_t rooms) {
   return std::min<std::size_t>(rooms, std::max(1u, std::thread::hardware_concurrency()));
@@ -78,6 +69,7 @@ protocol::Limits limits_of(const ServeConfig& config) {
 
 Server::Server(const ServeConfig& config, Outside outside, std::shared_ptr<spdlog::logger> log)
     : log_(std::move(log)),
+      companions_(log_),
       io_(static_cast<int>(kIoThreads)),
       lanes_(io_, kIoThreads),
       strand_(asio::make_strand(io_)),
@@ -87,9 +79,19 @@ Server::Server(const ServeConfig& config, Outside outside, std::shared_ptr<spdlo
       had_terminal_(has_terminal()),
       limits_(limits_of(config)),
       environment_{lobby_, limits_, traffic_, timekeeper_, kServerName, log_},
-      acceptor_(lanes_, environment_) {}
+      acceptor_(lanes_, environment_),
+      operator_(strand_, lobby_, traffic_, timekeeper_,
+                {[this] { return reload("admin"); },
+                 [this](const std::string& text, const std::string& reason) { stop(text, reason); },
+                 [this] { return stopping_; }},
+                log_),
+      admin_(io_, operator_, timekeeper_, log_) {}
 
-Server::~Server() = default;
+Server::~Server() {
+  // These go first: what they leave behind touches nothing of the others.
+  rotation_.reset();
+  companions_.drop_files();
+}
 
 core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config, Outside outside,
                                                        std::shared_ptr<spdlog::logger> log) {
@@ -102,10 +104,7 @@ core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config, Outsi
   std::unique_ptr<Server> server(new Server(config, std::move(outside), std::move(log)));
   // The ports first: a busy one must not cost somebody his recording.
   if (const auto opened = server->open_ports(config); !opened) return tl::unexpected(opened.error());
-  if (config.step_threads > 1) server->step_team_ = std::make_shared<core::ThreadTeam>(config.step_threads);
-  if (config.record) server->recordings_.emplace(*config.record, server->log_);
-  if (config.records) server->records_.emplace(*config.records, server->log_);
-  if (config.shadow) server->shadows_.emplace(tick_threads(std::max<std::size_t>(1, config.maps.size())));
+  server->companions_.begin(config, tick_threads(std::max<std::size_t>(1, config.maps.size())));
   const auto opened = fork ? server->open_fork_room(config, std::move(*fork)) : server->open_rooms(config);
   if (!opened) return tl::unexpected(opened.error());
   return server;
@@ -115,10 +114,15 @@ core::Expected<void> Server::open_ports(const ServeConfig& config) {
   const auto lines = acceptor_.open(config.listen, config.trusted_proxies);
   if (!lines) return tl::unexpected(lines.error());
   address_ = to_text(*lines);
-  if (!config.web) return {};
-  const auto web = acceptor_.open_web(*config.web);
-  if (!web) return tl::unexpected(web.error());
-  environment_.web_url = core::joined({"http://", to_text(*web), "/"});
+  if (config.web) {
+    const auto web = acceptor_.open_web(*config.web);
+    if (!web) return tl::unexpected(web.error());
+    environment_.web_url = core::joined({"http://", to_text(*web), "/"});
+  }
+  if (!config.admin) return {};
+  auto admin = admin_.open(*config.admin);
+  if (!admin) return tl::unexpected(admin.error());
+  admin_address_ = std::move(*admin);
   return {};
 }
 
@@ -144,10 +148,10 @@ core::Expected<void> Server::open_rotation(const ServeConfig& config, std::vecto
   rotation_.emplace(std::move(games), seed, [this, config](const ChosenGame& game, std::uint64_t its_seed) {
     std::vector<core::Error> failed;
     NextGame next{start_of(game, config, its_seed), {}};
-    next.watchers = make_watchers(config, kRotationRoom, next.start, failed);
+    next.watchers = companions_.make(kRotationRoom, next.start, failed);
     for (const core::Error& error : failed)
       log_->error(fmt::format("room {}: NOT WRITTEN: {}: {}", kRotationRoom, error.where, error.what));
-    next.start.match->use(step_team_);
+    next.start.match->use(companions_.step_team());
     return next;
   });
   return open_room(config, kRotationRoom, std::move(first));
@@ -175,9 +179,9 @@ core::Expected<void> Server::open_room(const ServeConfig& config, const std::str
   settings.adopts_by_name = config.fork && config.fork->adopts_by_name;
   if (rotation_) settings.rounds_a_game = *config.rotate;
   std::vector<core::Error> failed;
-  Watchers watchers = make_watchers(config, name, start, failed);
+  Watchers watchers = companions_.make(name, start, failed);
   if (!failed.empty()) return tl::unexpected(failed.front());
-  start.match->use(step_team_);
+  start.match->use(companions_.step_team());
   log_opened(name, config, start);
   ++rooms_running_;
   const bool is_new =
@@ -204,44 +208,18 @@ void Server::log_opened(const std::string& room, const ServeConfig& config, cons
                            config.tick_hz, config.state_hz, match.settings().seed, threads));
 }
 
-Watchers Server::make_watchers(const ServeConfig& config, const std::string& room, const Start& start,
-                               std::vector<core::Error>& failed) {
-  Watchers watchers;
-  const auto take = [&](auto opened) {
-    if (opened)
-      watchers.push_back(std::move(*opened));
-    else
-      failed.push_back(opened.error());
-  };
-  replay::Header header = replay::make_header(*start.match, kServerName, start.map_file);
-  if (recordings_) {
-    replay::Header recorded = header;
-    recorded.parent = start.parent;
-    take(recordings_->open(room, std::move(recorded)));
-  }
-  if (records_ && start.match->settings().mode == state::Mode::kRace)
-    take(records_->open(room, *start.match, start.map_file));
-  if (shadows_)
-    watchers.push_back(std::make_unique<Shadow>(room, start.map, std::move(header),
-                                                dump_of_shadow(config, room), *shadows_, log_));
-  if (std::holds_alternative<map::TiledTerrain>(start.map->definition.terrain)) {
-    if (!ground_) ground_.emplace(1);
-    if (auto ahead = GroundAhead::make(room, *start.map, start.map_file, *ground_, log_))
-      watchers.push_back(std::move(ahead));
-  }
-  return watchers;
-}
-
 void Server::run() {
   auto ticks_work = asio::make_work_guard(ticks_);
   auto io_work = asio::make_work_guard(io_);
   await_signal();
   const std::size_t rooms = lobby_.rooms().size();  // their first ticks are due when the threads run
   acceptor_.start();
+  admin_.start();
 
   std::vector<std::jthread> threads;
   try {
-    for (std::size_t i = 0; i < tick_threads(rooms); ++i) threads.emplace_back([this] { ticks_.run(); });
+    for (std::size_t i = 0; i < tick_threads(admin_address_.empty() ? rooms : kMaxRooms); ++i)
+      threads.emplace_back([this] { ticks_.run(); });
     for (std::size_t i = 0; i < kIoThreads; ++i) threads.emplace_back([this] { io_.run(); });
   } catch (const std::system_error&) {
     stop_contexts();  // or those that run would never end
@@ -249,9 +227,7 @@ void Server::run() {
   }
   threads.clear();
   rotation_.reset();
-  if (recordings_) recordings_->end(Clock::now() + kLastMoment);
-  if (records_) records_->end(Clock::now() + kLastRecords);
-  if (shadows_) shadows_->join();
+  companions_.end();
 }
 
 void Server::await_signal() {
@@ -264,7 +240,7 @@ void Server::on_signal(int signal) {
   const bool lost_terminal = signal == SIGHUP && had_terminal_ && !has_terminal();
   if (signal == SIGUSR1 || (signal == SIGHUP && !lost_terminal)) {
     if (signal == SIGUSR1) reopen();
-    if (signal == SIGHUP) reload();
+    if (signal == SIGHUP) static_cast<void>(reload("SIGHUP"));  // which the log says
     return await_signal();
   }
   const std::string name = core::joined({"SIG", ::sigabbrev_np(signal)});
@@ -273,11 +249,12 @@ void Server::on_signal(int signal) {
 }
 
 /// What may change while games go on: limits and the log's level.
-void Server::reload() {
+core::Expected<void> Server::reload(const std::string& who) {
   const auto config = outside_.reread();
   if (!config) {
-    log_->error(fmt::format("SIGHUP: nothing is changed: {}: {}", config.error().where, config.error().what));
-    return;
+    log_->error(
+        fmt::format("{}: nothing is changed: {}: {}", who, config.error().where, config.error().what));
+    return tl::unexpected(config.error());
   }
   log_->set_level(spdlog::level::from_str(config->log_level));
   const protocol::Limits limits = limits_of(*config);
@@ -285,13 +262,15 @@ void Server::reload() {
   for (const auto& room : lobby_.rooms()) room->use(limits);
   if (config->web) acceptor_.reread(*config->web);
   log_->warn(
-      "SIGHUP: limits, log level and certificate are read again; limits of a session hold for who comes from "
-      "now on");
+      fmt::format("{}: limits, log level and certificate are read again; limits of a session hold for who "
+                  "comes from now on",
+                  who));
+  return {};
 }
 
 void Server::reopen() {
   outside_.reopen_log();
-  const std::size_t rooms = recordings_ ? recordings_->ask_for_next_files() : 0;
+  const std::size_t rooms = companions_.ask_for_next_files();
   log_->info(rooms == 0
                  ? std::string("SIGUSR1: no room is recorded: no recording begins")
                  : fmt::format("SIGUSR1: the recordings of {} rooms go on in new files from their next "
@@ -311,8 +290,9 @@ void Server::stop(const std::string& text, const std::string& reason) {
     if (!error) give_up_waiting();
   });
   const auto part_done = [this] { asio::post(strand_, [this] { part_stopped(); }); };
-  parts_running_ = 1 + lobby_.stop(bye, reason, part_done);
+  parts_running_ = 2 + lobby_.stop(bye, reason, part_done);
   acceptor_.stop(bye, part_done);
+  admin_.stop(part_done);
 }
 
 void Server::part_stopped() {
@@ -330,10 +310,6 @@ void Server::give_up_waiting() {
 void Server::stop_contexts() {
   ticks_.stop();
   io_.stop();
-}
-
-std::vector<std::string> Server::lost_recordings() const {
-  return recordings_ ? recordings_->lost() : std::vector<std::string>();
 }
 
 void Server::print_summary(std::ostream& out) const {

@@ -13,7 +13,6 @@
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
-#include <boost/asio/thread_pool.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -24,12 +23,14 @@
 #include <string>
 #include <vector>
 
+#include "server/admin/admin_door.h"
 #include "server/chosen_games.h"
+#include "server/companions.h"
 #include "server/config.h"
 #include "server/game_rotation.h"
 #include "server/net/acceptor.h"
 #include "server/net/session.h"
-#include "server/records/records.h"
+#include "server/operator.h"
 #include "server/room/lanes.h"
 #include "server/room/lobby.h"
 #include "server/room/room.h"
@@ -37,9 +38,7 @@
 #include "server/timing/figures.h"
 #include "server/timing/live_limits.h"
 #include "server/timing/steady_timekeeper.h"
-#include "server/watchers/recordings.h"
 #include "shared/core/error.h"
-#include "shared/core/team.h"
 
 namespace woodlouse::server {
 
@@ -54,10 +53,6 @@ class Server {
   static constexpr std::size_t kIoThreads = 2;
   /// From the signal to the exit at most.
   static constexpr Duration kStopWithin = std::chrono::milliseconds(800);
-  /// For what of a recording is still on its way then: one whose disk stands still is left behind.
-  static constexpr Duration kLastMoment = std::chrono::milliseconds(30);
-  /// For runs that are still to be re-run and written.
-  static constexpr Duration kLastRecords = std::chrono::milliseconds(150);
 
   /// Loads the maps or the recording to go on from, opens the ports, creates the recordings.
   static core::Expected<std::unique_ptr<Server>> create(ServeConfig config, Outside outside,
@@ -69,6 +64,9 @@ class Server {
   /// `http://127.0.0.1:7778/`, likewise; empty: there is no --web.
   [[nodiscard]] const std::string& web_url() const { return environment_.web_url; }
 
+  /// Where the operator's door is; empty: there is none.
+  [[nodiscard]] const std::string& admin_address() const { return admin_address_; }
+
   /// Serves until a signal ends it or the tick limit; everybody has been told and all is written when it
   /// returns.
   void run();
@@ -78,11 +76,9 @@ class Server {
   void reopen();
 
   /// "FILE: why", of each recording that ended before its time. After run().
-  [[nodiscard]] std::vector<std::string> lost_recordings() const;
+  [[nodiscard]] std::vector<std::string> lost_recordings() const { return companions_.lost_recordings(); }
   /// "FILE: which run", of each record that is in no file. After run().
-  [[nodiscard]] std::vector<std::string> lost_records() const {
-    return records_ ? records_->lost() : std::vector<std::string>();
-  }
+  [[nodiscard]] std::vector<std::string> lost_records() const { return companions_.lost_records(); }
 
   /// Ticks, lateness, moves of the clock, frames; one line a room, one for all, and one a lost
   /// recording. After run().
@@ -99,13 +95,11 @@ class Server {
   /// would cut short: maps, which may take long, are loaded, and no recording is created.
   void take_signals();
   core::Expected<void> open_room(const ServeConfig& config, const std::string& name, Start start);
-  /// failed: what can't be written; it has no watcher.
-  Watchers make_watchers(const ServeConfig& config, const std::string& room, const Start& start,
-                         std::vector<core::Error>& failed);
   void log_opened(const std::string& room, const ServeConfig& config, const Start& start) const;
   void await_signal();
   void on_signal(int signal);
-  void reload();
+  /// who: asks for it, for the log.
+  core::Expected<void> reload(const std::string& who);
   void room_ended();
   void stop(const std::string& text, const std::string& reason);
   void part_stopped();
@@ -113,9 +107,7 @@ class Server {
   void stop_contexts();
 
   std::shared_ptr<spdlog::logger> log_;
-  std::optional<boost::asio::thread_pool> ground_;  ///< once a map is too big for the memory
-  std::optional<boost::asio::thread_pool> shadows_;
-  std::shared_ptr<core::Team> step_team_;  ///< null: each tick on one thread
+  Companions companions_;
   boost::asio::io_context io_;
   boost::asio::io_context
       ticks_;  ///< ends before io_: what rooms posted holds them, and they hand out over io_
@@ -132,15 +124,13 @@ class Server {
   Lobby lobby_;
   SessionEnvironment environment_;
   Acceptor acceptor_;
-  std::string address_;
+  Operator operator_;
+  AdminDoor admin_;
+  std::string address_, admin_address_;
   // The strand's:
   std::size_t rooms_running_ = 0;  ///< that have not reached the tick limit
   std::size_t parts_running_ = 0;  ///< once stopping: rooms and the acceptor
   bool stopping_ = false;
-
-  // These go first: what they leave behind touches nothing of the others.
-  std::optional<Recordings> recordings_;
-  std::optional<Records> records_;
   std::optional<GameRotation> rotation_;
 };
 

@@ -33,6 +33,8 @@ ARROWS |= {
     "server/records": SHARED | {"server/frames", "server/room", "server/timing", "server/watchers"},
     "server/proxies": SHARED | {"server/timing"},
     "server/net": SHARED | {"server/frames", "server/proxies", "server/room", "server/timing"},
+    "server/access": SHARED | {"server/timing"},
+    "server/admin": SHARED | {"server/access", "server/net", "server/timing"},
     "server/commands": SHARED | {"server/records", "server/room"},
     "client/drawing": SHARED,
     "client/terminal": SHARED | {"client/drawing"},
@@ -49,9 +51,9 @@ ARROWS["bench"] = LIBRARY | PROGRAMS
 # outside header: the rooms or files that may include it. tests may include everything.
 OUTSIDE = {
     "boost/": {room for room in PROGRAMS if room != "client/drawing"} | {"bots", "bench"},
-    "boost/beast/": {"server/net"},
+    "boost/beast/": {"server/net", "server/admin"},
     "boost/asio/ssl": {"server/net"},
-    "openssl/": {"server/net"},
+    "openssl/": {"server/net", "server/access"},
     "nlohmann/": {"shared/json/parser.cpp", "server/config_file.cpp", "client/config.cpp"},
     "Eigen/": {"bench"},
     "xxhash.h": {"core"},

@@ -1,0 +1,65 @@
+#include "server/companions.h"
+
+#include <cassert>
+#include <utility>
+#include <variant>
+
+#include "server/version.h"
+#include "server/watchers/ground_ahead.h"
+#include "server/watchers/record_pattern.h"
+#include "server/watchers/shadow.h"
+#include "shared/core/thread_team.h"
+
+namespace woodlouse::server {
+
+void Companions::begin(const ServeConfig& config, std::size_t shadow_threads) {
+  assert(shadow_threads >= 1 && !recordings_ && !records_);
+  if (config.step_threads > 1) step_team_ = std::make_shared<core::ThreadTeam>(config.step_threads);
+  if (config.record) {
+    recordings_.emplace(*config.record, log_);
+    dump_folder_ = config.record->pattern.folder();
+  }
+  if (config.records) records_.emplace(*config.records, log_);
+  if (config.shadow) shadows_.emplace(shadow_threads);
+}
+
+Watchers Companions::make(const std::string& room, const Start& start, std::vector<core::Error>& failed) {
+  Watchers watchers;
+  const auto take = [&](auto opened) {
+    if (opened)
+      watchers.push_back(std::move(*opened));
+    else
+      failed.push_back(opened.error());
+  };
+  replay::Header header = replay::make_header(*start.match, kServerName, start.map_file);
+  if (recordings_) {
+    replay::Header recorded = header;
+    recorded.parent = start.parent;
+    take(recordings_->open(room, std::move(recorded)));
+  }
+  if (records_ && start.match->settings().mode == state::Mode::kRace)
+    take(records_->open(room, *start.match, start.map_file));
+  if (shadows_)
+    watchers.push_back(std::make_unique<Shadow>(
+        room, start.map, std::move(header), dump_folder_ / ("shadow." + file_part(room)), *shadows_, log_));
+  if (std::holds_alternative<map::TiledTerrain>(start.map->definition.terrain)) {
+    const std::lock_guard lock(ground_mutex_);
+    if (!ground_) ground_.emplace(1);
+    if (auto ahead = GroundAhead::make(room, *start.map, start.map_file, *ground_, log_))
+      watchers.push_back(std::move(ahead));
+  }
+  return watchers;
+}
+
+void Companions::end() {
+  if (recordings_) recordings_->end(Clock::now() + kLastMoment);
+  if (records_) records_->end(Clock::now() + kLastRecords);
+  if (shadows_) shadows_->join();
+}
+
+void Companions::drop_files() {
+  records_.reset();
+  recordings_.reset();
+}
+
+}  // namespace woodlouse::server

@@ -1,0 +1,126 @@
+#include "server/operator.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <boost/asio/post.hpp>
+
+#include <cassert>
+#include <chrono>
+#include <utility>
+
+#include "server/admin/answer.h"
+#include "server/version.h"
+#include "shared/core/printable.h"
+#include "shared/protocol/codes.h"
+
+namespace woodlouse::server {
+namespace {
+
+double as_milliseconds(Duration duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+}  // namespace
+
+Operator::Operator(const Strand& strand, Lobby& lobby, const TrafficMetrics& traffic, Timekeeper& timekeeper,
+                   Server server, std::shared_ptr<spdlog::logger> log)
+    : strand_(strand),
+      lobby_(lobby),
+      traffic_(traffic),
+      timekeeper_(timekeeper),
+      server_(std::move(server)),
+      log_(std::move(log)),
+      begun_(timekeeper.now()) {
+  assert(server_.reload && server_.stop && server_.is_stopping);
+}
+
+void Operator::carry_out(Command command, Answered answered) {
+  boost::asio::post(strand_, [this, command = std::move(command), answered = std::move(answered)]() mutable {
+    dispatch(command, std::move(answered));
+  });
+}
+
+WebAnswer Operator::page(std::string_view path) const {
+  if (path == "/healthz") return refusal(200, "ok");
+  return refusal(404, "there is no such page");
+}
+
+void Operator::dispatch(const Command& command, Answered answered) {
+  if (server_.is_stopping()) return answered(refused(protocol::code::kShutdown, "the server stops"));
+  switch (command.verb) {
+    case Verb::kStatus:
+      return answered(status());
+    case Verb::kRooms:
+      return answered(rooms());
+    case Verb::kReload:
+      return answered(reload());
+    case Verb::kShutdown:
+      return shut_down(answered);
+    default:
+      break;
+  }
+  answered(refused(admin_code::kNotNow, fmt::format("{}: not yet", to_text(command.verb))));
+}
+
+std::string Operator::status() const {
+  const protocol::Rooms list = lobby_.list();
+  std::uint64_t players = 0, bots = 0, spectators = 0;
+  for (const protocol::RoomEntry& room : list.rooms) {
+    players += room.players;
+    bots += room.bots;
+    spectators += room.spectators;
+  }
+  const auto uptime = std::chrono::duration_cast<std::chrono::seconds>(timekeeper_.now() - begun_).count();
+  const std::uint64_t frames = traffic_.frames_sent, bytes = traffic_.bytes_sent,
+                      lines = traffic_.lines_received;
+  return done(
+      fmt::format("{}, up {} s: {} rooms, {} players, {} bots, {} spectators\n"
+                  "sent {} frames, {} bytes; received {} lines",
+                  kServerName, uptime, list.rooms.size(), players, bots, spectators, frames, bytes, lines),
+      [&](json::ObjectText& object) {
+        object.text("server", kServerName).integer("uptime_s", uptime);
+        object.integer("rooms", list.rooms.size()).integer("players", players);
+        object.integer("bots", bots).integer("spectators", spectators);
+        object.integer("frames_sent", frames).integer("bytes_sent", bytes);
+        object.integer("lines_received", lines);
+      });
+}
+
+std::string Operator::rooms() const {
+  const auto all = lobby_.rooms();
+  std::string text = fmt::format("{:<24} {:<16} {:>7} {:>5} {:>10} {:>10} {:>11} {:>8}", "room", "map",
+                                 "players", "bots", "spectators", "tick", "late p99 ms", "work p99");
+  for (const auto& room : all) {
+    const protocol::RoomEntry entry = room->census();
+    const auto figures = room->figures();
+    text += fmt::format("\n{:<24} {:<16} {:>7} {:>5} {:>10} {:>10} {:>11.3f} {:>8.3f}",
+                        core::printable(entry.name), core::printable(entry.map), entry.players, entry.bots,
+                        entry.spectators, figures->ticks, as_milliseconds(figures->lateness.quantile(0.99)),
+                        as_milliseconds(figures->work.quantile(0.99)));
+  }
+  return done(text, [&](json::ObjectText& object) {
+    object.objects("rooms", all, [](json::ObjectText& row, const auto& room) {
+      const protocol::RoomEntry entry = room->census();
+      const auto figures = room->figures();
+      row.text("name", entry.name).text("map", entry.map).integer("players", entry.players);
+      row.integer("bots", entry.bots).integer("spectators", entry.spectators);
+      row.integer("ticks", figures->ticks).integer("clock_moves", figures->clock_moves);
+      row.number("lateness_p99_ms", as_milliseconds(figures->lateness.quantile(0.99)));
+      row.number("work_p99_ms", as_milliseconds(figures->work.quantile(0.99)));
+    });
+  });
+}
+
+std::string Operator::reload() {
+  const auto reloaded = server_.reload();
+  if (!reloaded) return refused(admin_code::kFailed, "nothing is changed: " + reloaded.error().text());
+  return done("limits, log level and certificate are read again");
+}
+
+void Operator::shut_down(const Answered& answered) {
+  log_->info("admin: shutdown");
+  answered(done("the server stops"));
+  server_.stop("the server stops", "shutdown by its operator");
+}
+
+}  // namespace woodlouse::server

@@ -1,0 +1,56 @@
+// What an operator asks of the running server (admin/control.h): it is carried out on the server's strand,
+// and on those of the rooms.
+#pragma once
+
+#include <spdlog/logger.h>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/strand.hpp>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "server/admin/control.h"
+#include "server/room/lobby.h"
+#include "server/timing/figures.h"
+#include "server/timing/timekeeper.h"
+#include "shared/core/error.h"
+
+namespace woodlouse::server {
+
+class Operator final : public Control {
+ public:
+  using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
+
+  /// What it needs of the server; each is called on the server's strand, and returns at once.
+  struct Server {
+    std::function<core::Expected<void>()> reload;
+    std::function<void(const std::string& text, const std::string& reason)> stop;
+    std::function<bool()> is_stopping;
+  };
+
+  /// All outlive it.
+  Operator(const Strand& strand, Lobby& lobby, const TrafficMetrics& traffic, Timekeeper& timekeeper,
+           Server server, std::shared_ptr<spdlog::logger> log);
+
+  void carry_out(Command command, Answered answered) override;
+  [[nodiscard]] WebAnswer page(std::string_view path) const override;
+
+ private:
+  void dispatch(const Command& command, Answered answered);
+  [[nodiscard]] std::string status() const;
+  [[nodiscard]] std::string rooms() const;
+  [[nodiscard]] std::string reload();
+  void shut_down(const Answered& answered);
+
+  Strand strand_;
+  Lobby& lobby_;
+  const TrafficMetrics& traffic_;
+  Timekeeper& timekeeper_;
+  Server server_;
+  std::shared_ptr<spdlog::logger> log_;
+  const Time begun_;
+};
+
+}  // namespace woodlouse::server
