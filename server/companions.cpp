@@ -32,7 +32,7 @@ Watchers Companions::make(const std::string& room, const Start& start, std::vect
       failed.push_back(opened.error());
   };
   replay::Header header = replay::make_header(*start.match, kServerName, start.map_file);
-  if (recordings_) {
+  if (recordings_ && is_to_be_recorded(room)) {
     replay::Header recorded = header;
     recorded.parent = start.parent;
     take(recordings_->open(room, std::move(recorded)));
@@ -43,12 +43,33 @@ Watchers Companions::make(const std::string& room, const Start& start, std::vect
     watchers.push_back(std::make_unique<Shadow>(
         room, start.map, std::move(header), dump_folder_ / ("shadow." + file_part(room)), *shadows_, log_));
   if (std::holds_alternative<map::TiledTerrain>(start.map->definition.terrain)) {
-    const std::lock_guard lock(ground_mutex_);
+    const std::lock_guard lock(mutex_);
     if (!ground_) ground_.emplace(1);
     if (auto ahead = GroundAhead::make(room, *start.map, start.map_file, *ground_, log_))
       watchers.push_back(std::move(ahead));
   }
   return watchers;
+}
+
+bool Companions::is_to_be_recorded(const std::string& room) {
+  const std::lock_guard lock(mutex_);
+  return !unrecorded_.contains(room);
+}
+
+core::Expected<std::unique_ptr<TickWatcher>> Companions::record(const std::string& room,
+                                                                replay::Header header) {
+  if (!recordings_)
+    return core::fail({}, "this server records nothing", "start it with --record, which says where");
+  auto recorder = recordings_->open(room, std::move(header));
+  if (!recorder) return tl::unexpected(recorder.error());
+  const std::lock_guard lock(mutex_);
+  unrecorded_.erase(room);
+  return std::unique_ptr<TickWatcher>(std::move(*recorder));
+}
+
+void Companions::do_not_record(const std::string& room) {
+  const std::lock_guard lock(mutex_);
+  unrecorded_.insert(room);
 }
 
 void Companions::end() {

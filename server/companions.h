@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,12 @@ class Companions {
 
   /// Of a game that has not begun. failed: what can't be written; it has no watcher.
   Watchers make(const std::string& room, const Start& start, std::vector<core::Error>& failed);
+  /// A recording of a game that goes on, which then is recorded, and so are the room's further games. Errors:
+  /// nothing is recorded here (no --record), or it can't be written.
+  core::Expected<std::unique_ptr<TickWatcher>> record(const std::string& room, replay::Header header);
+  /// Nor are the further games of that room.
+  void do_not_record(const std::string& room);
+  [[nodiscard]] bool has_recordings() const { return recordings_.has_value(); }
   /// How many recordings begin new files.
   std::size_t ask_for_next_files() { return recordings_ ? recordings_->ask_for_next_files() : 0; }
 
@@ -60,10 +67,13 @@ class Companions {
   }
 
  private:
+  [[nodiscard]] bool is_to_be_recorded(const std::string& room);
+
   const std::shared_ptr<spdlog::logger> log_;
   std::shared_ptr<core::Team> step_team_;
   std::filesystem::path dump_folder_;  ///< of shadows: beside the recording, or where the server was started
-  std::mutex ground_mutex_;
+  std::mutex mutex_;
+  std::set<std::string, std::less<>> unrecorded_;   ///< rooms, by their operator
   std::optional<boost::asio::thread_pool> ground_;  ///< once a map is too big for the memory
   std::optional<boost::asio::thread_pool> shadows_;
   std::optional<Recordings> recordings_;

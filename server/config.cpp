@@ -67,6 +67,7 @@ struct Typed {
   VerifyConfig verify;
   InspectConfig inspect;
   RecordsConfig records;
+  TypedErrand errand;
 };
 
 /// Which games; a fork takes all of it from its recording.
@@ -108,6 +109,7 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
                  "version 2, on both ports, or by X-Forwarded-For on that of --web; several may be given")
       ->envname("WOODLOUSE_TRUSTED_PROXY");
   add_admin_options(app, typed.admin);
+  add_ban_option(app, serve.ban_file);
   app.add_option("--state-hz", serve.state_hz, "Frames a second; divides the tick rate")
       ->envname("WOODLOUSE_STATE_HZ")
       ->check(whole_number(1, kMaxTickHz))
@@ -307,6 +309,7 @@ core::Expected<Config> parse_config(int argc, const char* const* argv) {
   CLI::App* inspect = add_inspect(app, typed.inspect.request);
   CLI::App* records = add_records_command(app, typed.records.request);
   CLI::App* fork = add_fork(app, typed);
+  CLI::App* admin = add_admin_command(app, typed.errand);
   app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);
@@ -314,8 +317,9 @@ core::Expected<Config> parse_config(int argc, const char* const* argv) {
     return Config{PrintConfig{std::string(kServerName) + "\n"}};
   } catch (const CLI::CallForHelp&) {
     CLI::App* shown = &app;
-    for (CLI::App* command : {check, verify, inspect, records, fork})
-      if (command->parsed()) shown = command == records ? named_command(records) : command;
+    for (CLI::App* command : {check, verify, inspect, records, fork, admin})
+      if (command->parsed())
+        shown = command == records || command == admin ? named_command(command) : command;
     return Config{PrintConfig{shown->help()}};
   } catch (const CLI::Error& error) {
     std::string hint = "see woodlouse-server ";
@@ -326,6 +330,11 @@ core::Expected<Config> parse_config(int argc, const char* const* argv) {
   if (verify->parsed()) return Config{typed.verify};
   if (inspect->parsed()) return Config{typed.inspect};
   if (records->parsed()) return Config{typed.records};
+  if (admin->parsed()) {
+    auto errand = checked_errand(typed.errand);
+    if (!errand) return tl::unexpected(errand.error());
+    return Config{AdminConfig{std::move(*errand)}};
+  }
   if (!fork->parsed()) return checked(app, typed.serve);
   typed.fork.serve.fork = typed.fork_point;
   return checked(*fork, typed.fork);

@@ -12,6 +12,7 @@
 
 #include "server/admin/admin_address.h"
 #include "server/bots/skill.h"
+#include "server/commands/admin.h"
 #include "server/commands/fork.h"
 #include "server/commands/inspect.h"
 #include "server/commands/records.h"
@@ -36,8 +37,9 @@ struct ServeConfig {
   TrustedProxies trusted_proxies;  ///< who may say for whom a connection or a request is
   std::optional<WebSettings> web;      ///< where the client speaks first; empty: nowhere
   std::optional<AdminSettings> admin;  ///< the operator's door; empty: there is none
-  std::uint32_t tick_hz = 60;          ///< 1..1000
-  std::uint32_t state_hz = 20;         ///< divides tick_hz
+  std::optional<std::filesystem::path> ban_file;
+  std::uint32_t tick_hz = 60;   ///< 1..1000
+  std::uint32_t state_hz = 20;  ///< divides tick_hz
   std::optional<RecordSettings> record;
   std::optional<std::filesystem::path> records;  ///< the folder of the races' boards; empty: there are none
   bool shadow = false;                           ///< re-run and compare each tick beside the game
@@ -67,13 +69,16 @@ struct InspectConfig {
 struct RecordsConfig {
   RecordsRequest request;
 };
+struct AdminConfig {
+  AdminErrand errand;
+};
 /// Help or the version was asked for.
 struct PrintConfig {
   std::string text;
 };
 
-using Config =
-    std::variant<ServeConfig, CheckConfig, VerifyConfig, InspectConfig, RecordsConfig, PrintConfig>;
+using Config = std::variant<ServeConfig, CheckConfig, VerifyConfig, InspectConfig, RecordsConfig, AdminConfig,
+                            PrintConfig>;
 
 /// Frames fall on ticks. Of a fork it is known once its recording is read.
 core::Expected<void> check_state_hz(std::uint32_t state_hz, std::uint32_t tick_hz);

@@ -30,7 +30,8 @@ Operator::Operator(const Strand& strand, Lobby& lobby, const TrafficMetrics& tra
       timekeeper_(timekeeper),
       server_(std::move(server)),
       log_(std::move(log)),
-      begun_(timekeeper.now()) {
+      begun_(timekeeper.now()),
+      drained_(strand) {
   assert(server_.reload && server_.stop && server_.is_stopping);
 }
 
@@ -52,14 +53,40 @@ void Operator::dispatch(const Command& command, Answered answered) {
       return answered(status());
     case Verb::kRooms:
       return answered(rooms());
+    case Verb::kOpen:
+      return server_.rooms.open(command, std::move(answered));
+    case Verb::kClose:
+      return server_.rooms.close(command, answered);
+    case Verb::kKick:
+      return server_.people.kick(command, std::move(answered));
+    case Verb::kBan:
+      return server_.people.ban(command, answered);
+    case Verb::kUnban:
+      return server_.people.unban(command, answered);
+    case Verb::kBans:
+      return answered(server_.people.bans());
+    case Verb::kMute:
+      return server_.people.mute(command, answered);
+    case Verb::kUnmute:
+      return server_.people.unmute(command, answered);
+    case Verb::kSay:
+      return answered(server_.people.say(command));
+    case Verb::kPause:
+      return server_.rooms.pause(command, std::move(answered));
+    case Verb::kResume:
+      return server_.rooms.resume(command, std::move(answered));
+    case Verb::kStep:
+      return server_.rooms.step(command, std::move(answered));
+    case Verb::kRecord:
+      return server_.rooms.record(command, std::move(answered));
     case Verb::kReload:
-      return answered(reload());
+      return reload(answered);
+    case Verb::kDrain:
+      return drain(command, answered);
     case Verb::kShutdown:
       return shut_down(answered);
-    default:
-      break;
   }
-  answered(refused(admin_code::kNotNow, fmt::format("{}: not yet", to_text(command.verb))));
+  assert(false);  // every verb is above
 }
 
 std::string Operator::status() const {
@@ -88,15 +115,16 @@ std::string Operator::status() const {
 
 std::string Operator::rooms() const {
   const auto all = lobby_.rooms();
-  std::string text = fmt::format("{:<24} {:<16} {:>7} {:>5} {:>10} {:>10} {:>11} {:>8}", "room", "map",
-                                 "players", "bots", "spectators", "tick", "late p99 ms", "work p99");
+  std::string text = fmt::format("{:<24} {:<16} {:>7} {:>5} {:>10} {:>10} {:>11} {:>8}  {}", "room", "map",
+                                 "players", "bots", "spectators", "tick", "late p99 ms", "work p99", "state");
   for (const auto& room : all) {
     const protocol::RoomEntry entry = room->census();
     const auto figures = room->figures();
-    text += fmt::format("\n{:<24} {:<16} {:>7} {:>5} {:>10} {:>10} {:>11.3f} {:>8.3f}",
+    text += fmt::format("\n{:<24} {:<16} {:>7} {:>5} {:>10} {:>10} {:>11.3f} {:>8.3f}  {}{}",
                         core::printable(entry.name), core::printable(entry.map), entry.players, entry.bots,
                         entry.spectators, figures->ticks, as_milliseconds(figures->lateness.quantile(0.99)),
-                        as_milliseconds(figures->work.quantile(0.99)));
+                        as_milliseconds(figures->work.quantile(0.99)),
+                        room->is_paused() ? "paused " : "runs ", room->is_recorded() ? "recorded" : "");
   }
   return done(text, [&](json::ObjectText& object) {
     object.objects("rooms", all, [](json::ObjectText& row, const auto& room) {
@@ -104,6 +132,7 @@ std::string Operator::rooms() const {
       const auto figures = room->figures();
       row.text("name", entry.name).text("map", entry.map).integer("players", entry.players);
       row.integer("bots", entry.bots).integer("spectators", entry.spectators);
+      row.boolean("paused", room->is_paused()).boolean("recorded", room->is_recorded());
       row.integer("ticks", figures->ticks).integer("clock_moves", figures->clock_moves);
       row.number("lateness_p99_ms", as_milliseconds(figures->lateness.quantile(0.99)));
       row.number("work_p99_ms", as_milliseconds(figures->work.quantile(0.99)));
@@ -111,14 +140,29 @@ std::string Operator::rooms() const {
   });
 }
 
-std::string Operator::reload() {
-  const auto reloaded = server_.reload();
-  if (!reloaded) return refused(admin_code::kFailed, "nothing is changed: " + reloaded.error().text());
-  return done("limits, log level and certificate are read again");
+void Operator::reload(const Answered& answered) {
+  server_.reload([answered](const core::Expected<void>& reloaded) {
+    if (!reloaded) return answered(refused(admin_code::kFailed, reloaded.error().text()));
+    answered(done("limits, log level, certificate and bans are read again"));
+  });
+}
+
+void Operator::drain(const Command& command, const Answered& answered) {
+  const auto seconds = static_cast<std::int64_t>(command.seconds.value_or(kDrainSeconds));
+  server_.doorman.drain(wall_now() + std::chrono::seconds(seconds));
+  const std::string text = fmt::format("the server stops in {} s and takes nobody any more", seconds);
+  log_->info("admin: drain: " + text);
+  for (const auto& room : lobby_.rooms()) room->say({std::string(protocol::code::kDraining), text});
+  answered(done(text, [seconds](json::ObjectText& object) { object.integer("seconds", seconds); }));
+  drained_.expires_after(std::chrono::seconds(seconds));
+  drained_.async_wait([this](const boost::system::error_code& error) {
+    if (!error) server_.stop("the server stops", "drained by its operator");
+  });
 }
 
 void Operator::shut_down(const Answered& answered) {
   log_->info("admin: shutdown");
+  drained_.cancel();
   answered(done("the server stops"));
   server_.stop("the server stops", "shutdown by its operator");
 }

@@ -4,6 +4,7 @@
 
 #include <spdlog/logger.h>
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
 
 #include <functional>
@@ -11,8 +12,11 @@
 #include <string>
 #include <string_view>
 
+#include "server/access/doorman.h"
 #include "server/admin/control.h"
+#include "server/moderation.h"
 #include "server/room/lobby.h"
+#include "server/room_control.h"
 #include "server/timing/figures.h"
 #include "server/timing/timekeeper.h"
 #include "shared/core/error.h"
@@ -23,9 +27,14 @@ class Operator final : public Control {
  public:
   using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
 
+  static constexpr std::uint64_t kDrainSeconds = 60;  ///< where nothing is said
+
   /// What it needs of the server; each is called on the server's strand, and returns at once.
   struct Server {
-    std::function<core::Expected<void>()> reload;
+    RoomControl& rooms;
+    Moderation& people;
+    Doorman& doorman;
+    std::function<void(std::function<void(core::Expected<void>)> done)> reload;
     std::function<void(const std::string& text, const std::string& reason)> stop;
     std::function<bool()> is_stopping;
   };
@@ -41,7 +50,8 @@ class Operator final : public Control {
   void dispatch(const Command& command, Answered answered);
   [[nodiscard]] std::string status() const;
   [[nodiscard]] std::string rooms() const;
-  [[nodiscard]] std::string reload();
+  void reload(const Answered& answered);
+  void drain(const Command& command, const Answered& answered);
   void shut_down(const Answered& answered);
 
   Strand strand_;
@@ -51,6 +61,7 @@ class Operator final : public Control {
   Server server_;
   std::shared_ptr<spdlog::logger> log_;
   const Time begun_;
+  boost::asio::steady_timer drained_;
 };
 
 }  // namespace woodlouse::server

@@ -56,9 +56,11 @@ std::uint64_t entropy() {
 /// As many connections as there may be files open, some of which the server needs itself.
 protocol::Limits limits_of(const ServeConfig& config) {
   constexpr std::uint64_t kOwnFiles = 64;
+  constexpr std::uint64_t kAdminFiles =
+      128;  // connections to its door, and recordings of rooms that it opens
   protocol::Limits limits = completed(config.limits, config.tick_hz);
   const std::size_t rooms = config.maps.size() * (config.mode ? 1 : state::kModes.size());
-  const std::uint64_t own = kOwnFiles + 2 * rooms;
+  const std::uint64_t own = kOwnFiles + 2 * rooms + (config.admin ? kAdminFiles : 0);
   const std::uint64_t files = std::max(own + 1, raise_descriptor_limit());
   limits.max_connections =
       static_cast<std::uint32_t>(std::min<std::uint64_t>(limits.max_connections, files - own));
@@ -80,12 +82,21 @@ Server::Server(const ServeConfig& config, Outside outside, std::shared_ptr<spdlo
       limits_(limits_of(config)),
       environment_{lobby_, limits_, traffic_, timekeeper_, kServerName, log_},
       acceptor_(lanes_, environment_),
-      operator_(strand_, lobby_, traffic_, timekeeper_,
-                {[this] { return reload("admin"); },
-                 [this](const std::string& text, const std::string& reason) { stop(text, reason); },
-                 [this] { return stopping_; }},
-                log_),
-      admin_(io_, operator_, timekeeper_, log_) {}
+      opener_(ticks_, lanes_, limits_, companions_, timekeeper_, log_),
+      room_control_(strand_, lobby_, opener_, companions_, limits_, config,
+                    {[this](std::shared_ptr<Room> room) { return open(std::move(room)); },
+                     [this](const std::string& room) { rooms_running_.erase(room); }},
+                    log_),
+      moderation_(strand_, lobby_, acceptor_, *doorman_, ban_desk_, log_),
+      operator_(
+          strand_, lobby_, traffic_, timekeeper_,
+          {room_control_, moderation_, *doorman_, [this](auto done) { reload("admin", std::move(done)); },
+           [this](const std::string& text, const std::string& reason) { stop(text, reason); },
+           [this] { return stopping_; }},
+          log_),
+      admin_(io_, operator_, timekeeper_, log_) {
+  environment_.doorman = doorman_.get();
+}
 
 Server::~Server() {
   // These go first: what they leave behind touches nothing of the others.
@@ -119,6 +130,9 @@ core::Expected<void> Server::open_ports(const ServeConfig& config) {
     if (!web) return tl::unexpected(web.error());
     environment_.web_url = core::joined({"http://", to_text(*web), "/"});
   }
+  if (config.admin || config.ban_file) ban_desk_.emplace(doorman_, config.ban_file);
+  if (ban_desk_)
+    if (const auto bans = ban_desk_->read(); !bans) return tl::unexpected(bans.error());
   if (!config.admin) return {};
   auto admin = admin_.open(*config.admin);
   if (!admin) return tl::unexpected(admin.error());
@@ -168,44 +182,21 @@ void Server::take_signals() {
 }
 
 core::Expected<void> Server::open_room(const ServeConfig& config, const std::string& name, Start start) {
-  RoomSettings settings;
-  settings.name = name;
-  settings.state_hz = config.state_hz;
-  settings.bots = config.bots;
-  settings.bots_skill = config.bots_skill;
-  settings.bots_alone_play = config.bots_alone_play;
-  settings.tick_limit = config.ticks;
-  settings.limits = *limits_.now();
-  settings.adopts_by_name = config.fork && config.fork->adopts_by_name;
-  if (rotation_) settings.rounds_a_game = *config.rotate;
-  std::vector<core::Error> failed;
-  Watchers watchers = companions_.make(name, start, failed);
-  if (!failed.empty()) return tl::unexpected(failed.front());
-  start.match->use(companions_.step_team());
-  log_opened(name, config, start);
-  ++rooms_running_;
-  const bool is_new =
-      lobby_.open(Room::make(ticks_, lanes_, std::move(settings), std::move(start), std::move(watchers),
-                             timekeeper_, log_, rotation_ ? &*rotation_ : nullptr),
-                  [this] { asio::post(strand_, [this] { room_ended(); }); });
+  auto room = opener_.make(config, name, std::move(start), rotation_ ? &*rotation_ : nullptr);
+  if (!room) return tl::unexpected(room.error());
+  const bool is_new = open(std::move(*room));
   assert(is_new);
   static_cast<void>(is_new);
   return {};
 }
 
-void Server::log_opened(const std::string& room, const ServeConfig& config, const Start& start) const {
-  const match::Match& match = *start.match;
-  const std::string threads =
-      match.step_threads() == 1 ? std::string() : fmt::format(", steps by {} threads", match.step_threads());
-  if (start.parent)
-    log_->info(
-        fmt::format("room {}: goes on from {}, tick {}, hash {}, with {} lice, {} ticks/s, {} frames/s{}{}",
-                    room, start.parent->file, match.tick(), core::to_hex(match.hash()),
-                    match.world().lice().size(), config.tick_hz, config.state_hz, threads,
-                    start.on_trust.empty() ? "" : core::joined({"; on trust: ", start.on_trust})));
-  else
-    log_->info(fmt::format("room {}: map {}, {} ticks/s, {} frames/s, seed {}{}", room, start.map_file,
-                           config.tick_hz, config.state_hz, match.settings().seed, threads));
+bool Server::open(std::shared_ptr<Room> room) {
+  const std::string name = room->name();
+  rooms_running_.insert(name);
+  if (lobby_.open(std::move(room), [this, name] { asio::post(strand_, [this, name] { room_ended(name); }); }))
+    return true;
+  if (lobby_.find(name) == nullptr) rooms_running_.erase(name);
+  return false;
 }
 
 void Server::run() {
@@ -227,6 +218,7 @@ void Server::run() {
   }
   threads.clear();
   rotation_.reset();
+  room_control_.end();
   companions_.end();
 }
 
@@ -240,7 +232,7 @@ void Server::on_signal(int signal) {
   const bool lost_terminal = signal == SIGHUP && had_terminal_ && !has_terminal();
   if (signal == SIGUSR1 || (signal == SIGHUP && !lost_terminal)) {
     if (signal == SIGUSR1) reopen();
-    if (signal == SIGHUP) static_cast<void>(reload("SIGHUP"));  // which the log says
+    if (signal == SIGHUP) reload("SIGHUP", [](const core::Expected<void>&) {});  // the log says it
     return await_signal();
   }
   const std::string name = core::joined({"SIG", ::sigabbrev_np(signal)});
@@ -249,13 +241,13 @@ void Server::on_signal(int signal) {
 }
 
 /// What may change while games go on: limits and the log's level.
-core::Expected<void> Server::reload(const std::string& who) {
+void Server::reload(const std::string& who, std::function<void(core::Expected<void>)> done) {
+  const auto refuse = [this, who, done](const core::Error& error, const std::string& what) {
+    log_->error(fmt::format("{}: {}: {}: {}", who, what, error.where, error.what));
+    done(tl::unexpected(core::Error(error.where, what + ": " + error.what, error.hint)));
+  };
   const auto config = outside_.reread();
-  if (!config) {
-    log_->error(
-        fmt::format("{}: nothing is changed: {}: {}", who, config.error().where, config.error().what));
-    return tl::unexpected(config.error());
-  }
+  if (!config) return refuse(config.error(), "nothing is changed");
   log_->set_level(spdlog::level::from_str(config->log_level));
   const protocol::Limits limits = limits_of(*config);
   limits_.replace(limits);
@@ -265,7 +257,11 @@ core::Expected<void> Server::reload(const std::string& who) {
       fmt::format("{}: limits, log level and certificate are read again; limits of a session hold for who "
                   "comes from now on",
                   who));
-  return {};
+  if (!ban_desk_ || !ban_desk_->has_file()) return done({});
+  const bool is_taken = ban_desk_->reread([refuse, done](const core::Expected<void>& reread) {
+    reread ? done({}) : refuse(reread.error(), "the bans are as they were");
+  });
+  if (!is_taken) refuse({"--ban-file", "too many changes wait for the disk"}, "the bans are as they were");
 }
 
 void Server::reopen() {
@@ -278,8 +274,9 @@ void Server::reopen() {
                                rooms));
 }
 
-void Server::room_ended() {
-  if (--rooms_running_ == 0) stop("the game is over", "ticks done");
+void Server::room_ended(const std::string& name) {
+  rooms_running_.erase(name);
+  if (rooms_running_.empty()) stop("the game is over", "ticks done");
 }
 
 void Server::stop(const std::string& text, const std::string& reason) {

@@ -20,14 +20,18 @@
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "server/access/doorman.h"
 #include "server/admin/admin_door.h"
+#include "server/ban_desk.h"
 #include "server/chosen_games.h"
 #include "server/companions.h"
 #include "server/config.h"
 #include "server/game_rotation.h"
+#include "server/moderation.h"
 #include "server/net/acceptor.h"
 #include "server/net/session.h"
 #include "server/operator.h"
@@ -35,6 +39,8 @@
 #include "server/room/lobby.h"
 #include "server/room/room.h"
 #include "server/room/start.h"
+#include "server/room_control.h"
+#include "server/room_opener.h"
 #include "server/timing/figures.h"
 #include "server/timing/live_limits.h"
 #include "server/timing/steady_timekeeper.h"
@@ -95,12 +101,13 @@ class Server {
   /// would cut short: maps, which may take long, are loaded, and no recording is created.
   void take_signals();
   core::Expected<void> open_room(const ServeConfig& config, const std::string& name, Start start);
-  void log_opened(const std::string& room, const ServeConfig& config, const Start& start) const;
+  /// False: there is one of its name, or it is too late. Before the threads run, or on the strand.
+  bool open(std::shared_ptr<Room> room);
   void await_signal();
   void on_signal(int signal);
-  /// who: asks for it, for the log.
-  core::Expected<void> reload(const std::string& who);
-  void room_ended();
+  /// who: asks for it, for the log. done: called once, on some thread.
+  void reload(const std::string& who, std::function<void(core::Expected<void>)> done);
+  void room_ended(const std::string& name);
   void stop(const std::string& text, const std::string& reason);
   void part_stopped();
   void give_up_waiting();
@@ -123,13 +130,18 @@ class Server {
   SteadyTimekeeper timekeeper_;
   Lobby lobby_;
   SessionEnvironment environment_;
+  const std::shared_ptr<Doorman> doorman_ = std::make_shared<Doorman>();
   Acceptor acceptor_;
+  RoomOpener opener_;
+  RoomControl room_control_;
+  std::optional<BanDesk> ban_desk_;
+  Moderation moderation_;
   Operator operator_;
   AdminDoor admin_;
   std::string address_, admin_address_;
   // The strand's:
-  std::size_t rooms_running_ = 0;  ///< that have not reached the tick limit
-  std::size_t parts_running_ = 0;  ///< once stopping: rooms and the acceptor
+  std::set<std::string> rooms_running_;  ///< that have not reached the tick limit
+  std::size_t parts_running_ = 0;        ///< once stopping: rooms and the acceptor
   bool stopping_ = false;
   std::optional<GameRotation> rotation_;
 };

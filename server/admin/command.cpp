@@ -69,10 +69,18 @@ void read_path(FieldReader& reader, std::string& path, Presence presence) {
   path = value->text();
 }
 
+/// Where something must be named, something is left of it once it is cleaned.
+void read_name(FieldReader& reader, const Taken& taken, std::string& name, std::size_t most) {
+  reader.key_text(taken.name, name, most, taken.presence);
+  if (taken.presence == Presence::kRequired && !reader.failed() && name.empty())
+    reader.fail(protocol::code::kBadField,
+                core::joined({taken.name, " is empty, or nothing of it can be seen"}));
+}
+
 void read_taken(FieldReader& reader, const Taken& taken, Command& command) {
   const auto [name, presence] = taken;
-  if (name == "who") return reader.key_text(name, command.who, protocol::kMaxNameBytes, presence);
-  if (name == "room") return reader.key_text(name, command.room, protocol::kMaxRoomBytes, presence);
+  if (name == "who") return read_name(reader, taken, command.who, protocol::kMaxNameBytes);
+  if (name == "room") return read_name(reader, taken, command.room, protocol::kMaxRoomBytes);
   if (name == "name") return reader.key_text(name, command.name, protocol::kMaxRoomBytes, presence);
   if (name == "text") return reader.cleaned_text(name, command.text, {1, protocol::kMaxChatBytes}, presence);
   if (name == "file") return read_path(reader, command.file, presence);

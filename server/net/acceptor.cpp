@@ -152,6 +152,9 @@ std::optional<Acceptor::Guest> Acceptor::admit(tcp::socket& socket, std::size_t 
   ++next_id_;
   const auto limits = environment_.limits.now();
   if (admission != ConnectionLimits::Admission::kWelcome) guest.refusal = too_many(admission, *limits);
+  if (environment_.doorman != nullptr)
+    if (auto banned = environment_.doorman->why_not_connect(remote.address(), wall_now()))
+      guest.refusal = std::move(*banned);
   error = set_options(socket, std::chrono::seconds(limits->vacant_s));
   if (error)
     log(spdlog::level::warn, guest.address,
@@ -287,6 +290,21 @@ void Acceptor::on_closed(SessionId id, const std::string& address) {
 
 void Acceptor::tell_when_empty() {
   if (stopped_ && sessions_.empty() && visits_.empty()) std::exchange(stopped_, nullptr)();
+}
+
+void Acceptor::expel(IsMeant is_meant, protocol::ErrorMessage why, std::function<void(std::size_t)> done) {
+  asio::post(strand_,
+             [this, is_meant = std::move(is_meant), why = std::move(why), done = std::move(done)]() mutable {
+               std::size_t count = 0;
+               for (auto& [id, session] : sessions_) {
+                 if (!is_meant(id, session->address())) continue;
+                 session->expel(why);
+                 ++count;
+               }
+               for (auto& [id, visit] : visits_)
+                 if (is_meant(id, visit.guest.address)) visit.end();
+               done(count);
+             });
 }
 
 void Acceptor::stop(protocol::Bye bye, std::function<void()> stopped) {

@@ -43,6 +43,9 @@ class Acceptor {
   /// Reads certificate and key again, for who comes from now on; where there are none, nothing. If they can't
   /// be used the old ones serve on, and the log says why.
   void reread(const WebSettings& settings);
+  /// Ends those; `done` is called on some thread: how many sessions that were.
+  using IsMeant = std::function<bool(SessionId session, const std::string& address)>;
+  void expel(IsMeant is_meant, protocol::ErrorMessage why, std::function<void(std::size_t)> done);
   /// Closes the ports, says bye to who is left; `stopped` when the last connection is closed.
   void stop(protocol::Bye bye, std::function<void()> stopped);
 

@@ -48,7 +48,7 @@ class Allowance {
   /// The session leaves and waits for none: the errors that say so.
   std::vector<protocol::ErrorMessage> refuse_waiting();
 
-  [[nodiscard]] AddressAccount& address() { return *address_; }
+  [[nodiscard]] AddressAccount& address() const { return *address_; }
 
  private:
   [[nodiscard]] Duration wait(Spending what, Time now);

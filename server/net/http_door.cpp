@@ -227,8 +227,10 @@ WebAnswer StreamHttpDoor<Stream>::judge() {
   }
   const auto authority = parse_authority(host);
   assert(authority.has_value());
-  WebAnswer answered = answer_to(target(), authority->host, environment_.directory,
-                                 {environment_.server_name, web_.lines_port, is_stopping_});
+  WebAnswer answered =
+      answer_to(target(), authority->host, environment_.directory,
+                {environment_.server_name, web_.lines_port,
+                 is_stopping_ || (environment_.doorman != nullptr && environment_.doorman->is_draining())});
   asker_.account->charge(Spending::kAnswerBytes, static_cast<double>(answered.body.size()), now());
   return answered;
 }

@@ -110,6 +110,7 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
   if (const auto refusal = handshake_.why_not(message)) return say(*refusal);
   if (const auto spending = spending_of(message))
     if (const auto refusal = allowance_.spend(*spending, now)) return say(*refusal);
+  if (const auto refusal = why_kept_out(message)) return refusal->fatal ? fail(*refusal) : say(*refusal);
   handshake_.take(message);
   if (const auto* ping = std::get_if<protocol::Ping>(&message)) return say(protocol::Pong{ping->t});
   if (std::holds_alternative<protocol::Pong>(message)) return pulse_.hear(now, true);

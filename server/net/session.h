@@ -27,6 +27,7 @@
 #include <utility>
 
 #include "server/frames/viewer.h"
+#include "server/access/doorman.h"
 #include "server/net/allowance.h"
 #include "server/net/handshake.h"
 #include "server/net/pulse.h"
@@ -55,7 +56,8 @@ struct SessionEnvironment {
   Timekeeper& timekeeper;
   std::string_view server_name;  ///< with its version
   std::shared_ptr<spdlog::logger> log;
-  std::string web_url{};  ///< where a browser may go; empty: nowhere
+  std::string web_url{};             ///< where a browser may go; empty: nowhere
+  const Doorman* doorman = nullptr;  ///< what the operator says; null: everybody may
 };
 
 class Session final : public Subscriber, private Sender::Owner, public std::enable_shared_from_this<Session> {
@@ -77,6 +79,17 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   void start(std::function<void()> closed, Greeting greeting = Greeting::kAtOnce);
   /// Instead of start(): an error and a bye, no hello.
   void start_refused(protocol::ErrorMessage why, std::function<void()> closed);
+
+  // Any thread:
+
+  /// By what its address is counted, and named in the log.
+  [[nodiscard]] const std::string& address() const { return allowance_.address().name(); }
+  /// The operator ends it; its louse does not wait for anybody.
+  void expel(protocol::ErrorMessage why) {
+    boost::asio::post(lane_, [self = shared_from_this(), why = std::move(why)] {
+      if (self->state_ == State::kOpen) self->fail(why);
+    });
+  }
 
   // Subscriber: any thread.
   [[nodiscard]] std::size_t lane() const override { return lane_number_; }
@@ -133,6 +146,14 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   void take_lines(Time now);
   void on_line(const protocol::LineFramer::Line& line, Time now);
   void on_message(protocol::ClientMessage message, Time now);
+  /// What the operator has against it.
+  [[nodiscard]] Doorman::Refusal why_kept_out(const protocol::ClientMessage& message) const {
+    if (environment_.doorman == nullptr) return std::nullopt;
+    if (const auto* join = std::get_if<protocol::Join>(&message))
+      return environment_.doorman->why_not_join(*join, wall_now());
+    if (!std::holds_alternative<protocol::Chat>(message)) return std::nullopt;
+    return environment_.doorman->why_not_speak(id_, address(), wall_now());
+  }
   void join(protocol::Join join, Time now);
   void ask(protocol::ClientMessage question, Time now) {
     if (const auto refusal = allowance_.ask(std::move(question))) return say(*refusal);

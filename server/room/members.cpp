@@ -108,6 +108,7 @@ std::optional<protocol::ErrorMessage> Members::why_not(const Arrival& arrival) {
   if (outlet_->backlog() > Broadcaster::kMaxBacklog)
     return error(code::kRateLimited, "join: too much is happening in room " + settings_.name, 1000);
   if (role == protocol::Role::kSpectator) return std::nullopt;  // nobody else hears of it
+  if (!may_wait()) return error(code::kPaused, "join: too many have joined since the room was paused");
   if (const auto wait = budgets_.spend(Spending::kJoin, arrival.address, arrival.at))
     return error(code::kRateLimited,
                  core::joined({"join: room ", settings_.name, " takes ",
@@ -295,6 +296,9 @@ void Members::on_message(Seat&, SessionOccupant& occupant, const protocol::Resyn
 
 void Members::on_message(Seat& seat, const SessionOccupant&, const protocol::Respawn& respawn, Time arrived) {
   if (refuse_when_busy(seat, Spending::kRespawn, arrived)) return;
+  if (!may_wait())
+    return std::get<SessionOccupant>(seat.occupant)
+        .subscriber->answer(error(code::kPaused, "respawn: too many wait since the room was paused"));
   respawn.at_gate ? game_->respawn_at_gate(seat.louse) : game_->respawn(seat.louse);
   send(events_.respawned(game_->tick(), seat));
 }

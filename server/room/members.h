@@ -37,6 +37,8 @@ class Members {
  public:
   /// Of one address: more than a router's hiccup takes of a household.
   static constexpr std::size_t kMostVacantOfAddress = 8;
+  /// Joins and respawns that wait while the room is paused.
+  static constexpr std::size_t kMostPaused = 4096;
 
   /// lanes: where events and frames are handed out. settings and watchers outlive it, a game until the next
   /// one begins.
@@ -63,6 +65,18 @@ class Members {
   void take(SessionId session, const protocol::ClientMessage& message, Time arrived);
   /// To who is here, and to whoever joins later, behind the welcome.
   void announce(const protocol::Notice& notice);
+  /// To who is here.
+  void say(const protocol::Notice& notice);
+  /// No tick passes till resume(): who joins hears so, too, and what waits for the next tick is bounded.
+  void pause();
+  void resume();
+  /// What waited has been done by a tick.
+  void refill() {
+    if (may_wait_) may_wait_ = kMostPaused;
+  }
+  /// The louse's player may come back no more; where he is here, nothing.
+  void give_up(match::PlayerId louse);
+  [[nodiscard]] std::vector<RosterEntry> roster() const { return seats_.roster(); }
   /// Says bye to every session; they are members no more.
   void dismiss(const protocol::Bye& bye);
   /// settings.limits are others now.
@@ -127,6 +141,8 @@ class Members {
         false,
         {}});
   }
+  /// Whether another change may wait for the next tick; then it counts.
+  [[nodiscard]] bool may_wait() { return !may_wait_ || (*may_wait_ > 0 && (*may_wait_)-- > 0); }
   [[nodiscard]] bool refuse_when_busy(const Seat& seat, Spending what, Time arrived);
   void let_go(SessionId session);
   void send(const NumberedLine& event) { outlet_->event(event.number, event.line); }
@@ -155,6 +171,7 @@ class Members {
   Events events_;
   HouseCrew crew_;
   std::map<SessionId, AddressId> skip_votes_;  ///< of players who are here
+  std::optional<std::size_t> may_wait_;  ///< so many more joins and respawns; none: the room is not paused
 };
 
 }  // namespace woodlouse::server

@@ -67,7 +67,8 @@ Room::Room(asio::io_context& ticks, const Lanes& lanes, RoomSettings settings, S
       game_(std::move(start.match)),
       team_(std::move(start.team)),
       watchers_(std::move(watchers)),
-      members_(lanes, settings_, *game_, watchers_, std::move(start.unclaimed), timekeeper.now(), log_) {
+      members_(lanes, settings_, *game_, watchers_, std::move(start.unclaimed), timekeeper.now(), log_),
+      map_file_(std::move(start.map_file)) {
   assert(game_ != nullptr && (rotation_ == nullptr) == (settings_.rounds_a_game == 0));
 }
 
@@ -79,32 +80,33 @@ void Room::start(std::function<void()> ended) {
     ended_ = std::move(ended);
     state_ = State::kRunning;
     begin_watching();
+    look_for_recording();
     members_.add_house_bots(std::move(team_));
     clock_.emplace(game_->settings().tick_hz, std::chrono::ceil<Beat>(timekeeper_.now()));
     await_tick();
   });
 }
 
-void Room::begin_watching() {
+void Room::attach(TickWatcher& watcher) {
   // What a former game's watchers still say is nothing to those who play this one.
-  const auto announce = [room = weak_from_this(), number = games_](const protocol::Notice& notice) {
+  watcher.attach([room = weak_from_this(), number = games_](const protocol::Notice& notice) {
     const auto self = room.lock();
     if (!self) return;
     asio::post(self->strand_, [self, notice, number] {
       if (self->games_ == number) self->members_.announce(notice);
     });
-  };
-  const auto tell = [room = weak_from_this(), number = games_](const protocol::Event& event) {
+  });
+  watcher.attach_events([room = weak_from_this(), number = games_](const protocol::Event& event) {
     const auto self = room.lock();
     if (!self) return;
     asio::post(self->strand_, [self, event, number] {
       if (self->games_ == number) self->members_.tell(event);
     });
-  };
-  for (const auto& watcher : watchers_) {
-    watcher->attach(announce);
-    watcher->attach_events(tell);
-  }
+  });
+}
+
+void Room::begin_watching() {
+  for (const auto& watcher : watchers_) attach(*watcher);
   for (const auto& watcher : watchers_) watcher->begin(*game_);
 }
 
@@ -117,6 +119,7 @@ void Room::stop(const protocol::Bye& bye, const std::string& reason, std::functi
     const bool was_watched = state_ != State::kWaiting;
     state_ = State::kStopped;
     alarm_->cancel();
+    end_steps(core::fail({}, "the room has closed"));
     members_.dismiss(bye);
     post_figures();  // should the watchers take too long for whoever waits
     const auto finished = [this] {
@@ -167,6 +170,7 @@ void Room::begin_next() {
   game_ = std::move(next_->start.match);
   watchers_ = std::move(next_->watchers);
   std::unique_ptr<bots::Team> team = std::move(next_->start.team);
+  map_file_ = std::move(next_->start.map_file);
   next_.reset();
   is_next_asked_ = false;
   over_ticks_ = 0;
@@ -188,20 +192,6 @@ void Room::end_if_finished() {
   has_ended_ = true;
   post_figures();
   for (const auto& stopped : std::exchange(awaiting_end_, {})) stopped();
-}
-
-void Room::Queue::push(SessionId session, std::function<void()> job) {
-  jobs.emplace_back(session, std::move(job));
-  ++jobs_of[session];
-}
-
-std::function<void()> Room::Queue::pop() {
-  assert(!jobs.empty());
-  auto [session, job] = std::move(jobs.front());
-  jobs.pop_front();
-  const auto count = jobs_of.find(session);
-  if (--count->second == 0) jobs_of.erase(count);
-  return job;
 }
 
 /// Now, or, while a join of that session waits, behind it.
@@ -286,7 +276,11 @@ void Room::on_tick_due() {
     return ended_();
   }
   if (is_game_over() && is_next_ready()) begin_next();
-  if (is_to_sleep()) return fall_asleep();
+  if (steps_left_ != 0) {
+    if (--steps_left_ == 0) return stand_still();
+  } else if (is_to_sleep()) {
+    return fall_asleep();
+  }
   await_tick();
 }
 
@@ -324,6 +318,7 @@ void Room::tick(Time now) {
   const match::StepRecord& step = game_->advance();
   const std::span<const InputMargin> margins = members_.margins(number, now);
   for (const auto& watcher : watchers_) watcher->step(step, margins, *game_);
+  if (late_) begin_late();
   members_.answer(number, now);
   members_.tell(step);
   members_.send_frames();
@@ -331,6 +326,7 @@ void Room::tick(Time now) {
 }
 
 void Room::post_figures() {
+  look_for_recording();
   working_.frames_encoded = members_.frames_encoded();
   if (clock_) working_.clock_moves = clock_->moves();
   RoomFigures all = working_;

@@ -15,6 +15,8 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/strand.hpp>
 
+#include <atomic>
+#include <cassert>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -25,6 +27,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -36,8 +39,10 @@
 #include "server/timing/figures.h"
 #include "server/timing/tick_clock.h"
 #include "server/timing/timekeeper.h"
+#include "shared/core/error.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
+#include "shared/replay/format.h"
 
 namespace woodlouse::server {
 
@@ -73,6 +78,29 @@ class Room : public std::enable_shared_from_this<Room> {
   /// What sessions hold. It does not keep the room.
   [[nodiscard]] std::shared_ptr<Door> door();
 
+  // What an operator asks (room_orders.cpp). Any thread; answered once, on the room's strand.
+
+  /// At which tick it was done, or why not.
+  using Ordered = std::function<void(core::Expected<std::uint64_t> tick)>;
+  void ask_roster(std::function<void(std::vector<RosterEntry>)> answered);
+  /// To who is here now.
+  void say(const protocol::Notice& notice);
+  /// A player who is away may come back no more.
+  void give_up(match::PlayerId louse);
+  /// No tick passes from now on, whoever is here, till resume(). Nothing is made up for then.
+  void pause(Ordered answered);
+  void resume(Ordered answered);
+  /// A paused room goes on for so many ticks, in its pace, and stands still again; then it is answered.
+  void step(std::uint64_t ticks, Ordered answered);
+  /// What a recording of the game would begin with, and which of the room's games that is.
+  void ask_header(std::string_view build,
+                  std::function<void(replay::Header header, std::uint64_t game)> answered);
+  /// The recorder, of that header, watches from now on.
+  void record(std::unique_ptr<TickWatcher> recorder, std::uint64_t game, Ordered answered);
+  void end_recording(const std::string& reason, Ordered answered);
+  [[nodiscard]] bool is_paused() const { return state_ == State::kPaused; }
+  [[nodiscard]] bool is_recorded() const { return is_recorded_; }
+
   [[nodiscard]] const std::string& name() const { return settings_.name; }
   /// How many there are, as of now.
   [[nodiscard]] protocol::RoomEntry census() const { return members_.census(); }
@@ -86,8 +114,18 @@ class Room : public std::enable_shared_from_this<Room> {
   struct Queue {
     std::deque<std::pair<SessionId, std::function<void()>>> jobs;
     std::map<SessionId, std::size_t> jobs_of;
-    void push(SessionId session, std::function<void()> job);
-    std::function<void()> pop();
+    void push(SessionId session, std::function<void()> job) {
+      jobs.emplace_back(session, std::move(job));
+      ++jobs_of[session];
+    }
+    std::function<void()> pop() {
+      assert(!jobs.empty());
+      auto [session, job] = std::move(jobs.front());
+      jobs.pop_front();
+      const auto count = jobs_of.find(session);
+      if (--count->second == 0) jobs_of.erase(count);
+      return job;
+    }
   };
 
   Room(boost::asio::io_context& ticks, const Lanes& lanes, RoomSettings settings, Start start,
@@ -103,6 +141,7 @@ class Room : public std::enable_shared_from_this<Room> {
   void in_order(SessionId session, Job job);
   void serve_the_door();
 
+  void attach(TickWatcher& watcher);
   void begin_watching();
   void await_tick();
   void on_tick_due();
@@ -115,6 +154,13 @@ class Room : public std::enable_shared_from_this<Room> {
   void begin_next();
   void finish(const Watchers& watchers, const std::string& reason, std::function<void()> finished);
   void end_if_finished();
+  void stand_still();
+  void go_on();
+  void end_steps(core::Expected<std::uint64_t> tick);
+  void look_for_recording();
+  void begin_late();
+  template <typename Order>
+  void order(Ordered answered, Order carry_out);
   void post_figures();
 
   RoomSettings settings_;
@@ -131,11 +177,12 @@ class Room : public std::enable_shared_from_this<Room> {
   Queue at_the_door_;
   std::optional<TickClock> clock_;
   std::function<void()> ended_;
-  enum class State { kWaiting, kRunning, kAsleep, kStopped } state_ = State::kWaiting;
-  std::uint64_t deserted_ticks_ = 0;  ///< in a row
-  std::uint64_t games_ = 1;           ///< begun, this one too
-  std::uint64_t former_ticks_ = 0;    ///< of all games but this one
-  std::uint64_t over_ticks_ = 0;      ///< since this one was over, and the next one was there
+  enum class State { kWaiting, kRunning, kAsleep, kPaused, kStopped };
+  std::atomic<State> state_ = State::kWaiting;  ///< any thread may look
+  std::uint64_t deserted_ticks_ = 0;            ///< in a row
+  std::uint64_t games_ = 1;                     ///< begun, this one too
+  std::uint64_t former_ticks_ = 0;              ///< of all games but this one
+  std::uint64_t over_ticks_ = 0;                ///< since this one was over, and the next one was there
   bool is_next_asked_ = false;
   std::optional<NextGame> next_;
   struct FormerGame {
@@ -145,6 +192,11 @@ class Room : public std::enable_shared_from_this<Room> {
   std::list<FormerGame> former_;  ///< whose watchers have not finished yet
   bool has_finished_ = false;     ///< stopped, and so have the watchers of this one
   RoomFigures working_;
+  std::string map_file_;          ///< of the game, for its recordings
+  std::uint64_t steps_left_ = 0;  ///< until it stands still again; 0: it goes on
+  Ordered stepped_;               ///< who waits for that
+  std::atomic<bool> is_recorded_ = false;
+  std::unique_ptr<TickWatcher> late_;  ///< begins once nothing is queued in the game: behind the next step
   std::vector<std::function<void()>> awaiting_end_;  ///< who asked for the stop
   bool has_ended_ = false;
 

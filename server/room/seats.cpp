@@ -148,6 +148,19 @@ std::vector<protocol::PlayerEntry> Seats::entries() const {
   return entries;
 }
 
+std::vector<RosterEntry> Seats::roster() const {
+  using Kind = RosterEntry::Kind;
+  std::vector<RosterEntry> roster;
+  for (const auto& [place, seat] : seats_) {
+    const auto* session = std::get_if<SessionOccupant>(&seat.occupant);
+    const Kind kind = session != nullptr                                   ? Kind::kSession
+                      : std::holds_alternative<BotOccupant>(seat.occupant) ? Kind::kHouse
+                                                                           : Kind::kAway;
+    roster.push_back({kind, session != nullptr ? session->session : 0, seat.louse, seat.name, seat.role});
+  }
+  return roster;
+}
+
 std::string Seats::free_name(std::string_view name, std::uint64_t number) const {
   constexpr std::uint64_t kTried = 9;  // of many of one name each would look through all of them
   const auto numbered = [name](std::uint64_t n) {

@@ -16,9 +16,9 @@
 #include <variant>
 #include <vector>
 
+#include "server/access/resume_token.h"
 #include "server/frames/layouts.h"
 #include "server/room/house_bots.h"
-#include "server/room/resume_token.h"
 #include "server/room/subscriber.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
@@ -46,6 +46,16 @@ struct BotOccupant {
 /// Its player's connection has ended, and it may come back until that tick.
 struct Vacant {
   std::uint64_t until = 0;
+};
+
+/// Of a seat, what an operator is told.
+struct RosterEntry {
+  enum class Kind : std::uint8_t { kSession, kHouse, kAway };  ///< kAway: nobody sits there now
+  Kind kind = Kind::kSession;
+  SessionId session = 0;      ///< 0: none
+  match::PlayerId louse = 0;  ///< 0: a spectator
+  std::string name;
+  protocol::Role role = protocol::Role::kPlayer;
 };
 
 struct Seat {
@@ -113,6 +123,8 @@ class Seats {
   /// Who has a louse: unclaimed seats first, by louse, then the house's bots, then sessions by number, then
   /// vacant ones by louse.
   [[nodiscard]] std::vector<protocol::PlayerEntry> entries() const;
+  /// Everybody, in the order of entries().
+  [[nodiscard]] std::vector<RosterEntry> roster() const;
   /// The name, or, where another one has it, that with a number behind: of `number` at the latest.
   [[nodiscard]] std::string free_name(std::string_view name, std::uint64_t number) const;
 

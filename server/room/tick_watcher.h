@@ -51,7 +51,8 @@ class TickWatcher {
                     const match::Match& /*game*/) {}
   /// After everything else of the tick is done: who is in the room was answered and shown it.
   virtual void rest(const match::Match& /*game*/) {}
-  /// The room stands still, as nobody is there. Nothing follows but wake() or finish().
+  /// The room stands still, as nobody is there, or its operator has paused it. Nothing follows but chat(),
+  /// wake() or finish().
   virtual void fall_asleep(const match::Match& /*game*/) {}
   /// The next step follows.
   virtual void wake(const match::Match& /*game*/) {}
@@ -60,6 +61,8 @@ class TickWatcher {
   /// Last of all, once; `done` is called when its work is done, on some thread. It outlives that call.
   virtual void finish(const std::string& reason, std::function<void()> done) = 0;
 
+  /// It writes what happens, as long as it can.
+  [[nodiscard]] virtual bool is_recording() const { return false; }
   /// Adds its own figures to the room's.
   virtual void add_figures(RoomFigures& /*figures*/) const {}
 };

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "server/room/resume_token.h"
+#include "server/access/resume_token.h"
 #include "shared/map/height_survey.h"
 #include "shared/map/map_world.h"
 #include "shared/map/modes_reader.h"

@@ -64,6 +64,8 @@ class Recorder final : public TickWatcher {
   /// left behind.
   void finish(const std::string& reason, std::function<void()> done) override;
 
+  [[nodiscard]] bool is_recording() const override { return !writer_->has_failed(); }
+
   /// What outlives it: for whoever waits for the end.
   [[nodiscard]] const std::shared_ptr<RecordingWriter>& writer() const { return writer_; }
   [[nodiscard]] const std::shared_ptr<JobThread>& thread() const { return thread_; }

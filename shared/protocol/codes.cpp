@@ -35,6 +35,15 @@ constexpr std::array kCodes = {
               "nothing read and nothing written for `limits.idle_s`, or nobody came back for "
               "`limits.vacant_s` and `resume_s`"},
     CodeEntry{code::kSlow, "error, bye", Ends::kYes, "the client reads too slowly, even for keys alone"},
+    CodeEntry{code::kBanned, "error, bye", Ends::kYes,
+              "the operator has banned the address or the name; the text says until when"},
+    CodeEntry{code::kKicked, "error, bye", Ends::kYes,
+              "the operator or a moderator has ended the connection"},
+    CodeEntry{code::kMuted, "error", Ends::kNo,
+              "the operator or a moderator has muted the player: chat is dropped"},
+    CodeEntry{
+        code::kBadToken, "error", Ends::kNo,
+        "the server has passwords: `join.token` is none of them, or is not to be said over this connection"},
     CodeEntry{code::kStaleSeq, "error", Ends::kNo, "input dropped: `seq` is not above the last one"},
     CodeEntry{code::kQueueFull, "error", Ends::kNo,
               "input dropped: too many of this player's inputs wait, or came later for the same step"},
@@ -51,7 +60,14 @@ constexpr std::array kCodes = {
               "frames come at half the rate: the client reads slowly"},
     CodeEntry{code::kKeysOnly, "notice", Ends::kNo, "only keys come: the client reads very slowly"},
     CodeEntry{code::kRateRestored, "notice", Ends::kNo, "frames come at the full rate again"},
-    CodeEntry{code::kDraining, "notice", Ends::kNo, "the server will stop soon"},
+    CodeEntry{code::kDraining, "error, notice", Ends::kNo,
+              "the server will stop soon, the text says when; nobody joins any more but who comes back"},
+    CodeEntry{
+        code::kPaused, "error, notice", Ends::kNo,
+        "the operator has paused the room: no tick passes. As an error: too many have joined or asked for "
+        "something meanwhile"},
+    CodeEntry{code::kResumed, "notice", Ends::kNo, "the room goes on"},
+    CodeEntry{code::kOperator, "notice", Ends::kNo, "the operator or a moderator says the text to all"},
     CodeEntry{code::kRecordingEnded, "notice", Ends::kNo,
               "the game goes on, but is no longer recorded: the disk is full or too slow, or its share is "
               "used up. Whoever joins later hears it behind the welcome"},

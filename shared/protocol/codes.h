@@ -30,6 +30,11 @@ inline constexpr std::string_view kFlood = "flood";
 inline constexpr std::string_view kHandshakeTimeout = "handshake_timeout";
 inline constexpr std::string_view kIdle = "idle";
 inline constexpr std::string_view kSlow = "slow";
+// Why the operator, or a password, stands in the way.
+inline constexpr std::string_view kBanned = "banned";
+inline constexpr std::string_view kKicked = "kicked";
+inline constexpr std::string_view kMuted = "muted";
+inline constexpr std::string_view kBadToken = "bad_token";
 // Why an input was dropped.
 inline constexpr std::string_view kStaleSeq = "stale_seq";
 inline constexpr std::string_view kQueueFull = "queue_full";
@@ -47,6 +52,9 @@ inline constexpr std::string_view kRateLowered = "rate_lowered";
 inline constexpr std::string_view kKeysOnly = "keys_only";
 inline constexpr std::string_view kRateRestored = "rate_restored";
 inline constexpr std::string_view kDraining = "draining";
+inline constexpr std::string_view kPaused = "paused";
+inline constexpr std::string_view kResumed = "resumed";
+inline constexpr std::string_view kOperator = "operator";
 inline constexpr std::string_view kRecordingEnded = "recording_ended";
 }  // namespace code
 

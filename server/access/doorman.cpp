@@ -1,0 +1,99 @@
+#include "server/access/doorman.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "shared/core/joined.h"
+#include "shared/protocol/codes.h"
+
+namespace woodlouse::server {
+
+protocol::ErrorMessage banned_error(const Ban& ban) {
+  return {std::string(protocol::code::kBanned),
+          core::joined({"the operator has banned ", ban.range ? "your address" : "this name", " ",
+                        until_text(ban.until)}),
+          true,
+          {}};
+}
+
+Doorman::Refusal Doorman::why_not_connect(const boost::asio::ip::address& address, WallTime now) const {
+  const std::lock_guard lock(mutex_);
+  const Ban* ban = bans_.of(address, now);
+  return ban == nullptr ? std::nullopt : Refusal(banned_error(*ban));
+}
+
+Doorman::Refusal Doorman::why_not_join(const protocol::Join& join, WallTime now) const {
+  const std::lock_guard lock(mutex_);
+  if (const Ban* ban = bans_.of(std::string_view(join.name), now)) return banned_error(*ban);
+  // Who comes back to his louse is here already.
+  if (!drains_until_ || !join.resume.empty()) return std::nullopt;
+  const auto left = std::max(WallTime::duration{}, *drains_until_ - now).count();
+  return protocol::ErrorMessage{
+      std::string(protocol::code::kDraining),
+      core::joined({"join: the server stops in ", std::to_string(left), " s and takes nobody any more"}),
+      false,
+      {}};
+}
+
+Doorman::Refusal Doorman::why_not_speak(SessionNumber session, std::string_view address, WallTime now) const {
+  const std::lock_guard lock(mutex_);
+  if (mutes_.empty()) return std::nullopt;
+  const auto range = AddressRange::parse(address);
+  for (const Mute& mute : mutes_) {
+    if (mute.until && *mute.until <= now) continue;
+    const bool is_meant = mute.range ? range && mute.range->contains(*range) : mute.session == session;
+    if (!is_meant) continue;
+    return protocol::ErrorMessage{
+        std::string(protocol::code::kMuted),
+        core::joined({"chat: you have been muted ",
+                      mute.until ? until_text(mute.until) : std::string("as long as this connection lasts")}),
+        false,
+        {}};
+  }
+  return std::nullopt;
+}
+
+bool Doorman::is_draining() const {
+  const std::lock_guard lock(mutex_);
+  return drains_until_.has_value();
+}
+
+void Doorman::use(Bans bans) {
+  const std::lock_guard lock(mutex_);
+  std::swap(bans_, bans);
+}
+
+Bans Doorman::bans() const {
+  const std::lock_guard lock(mutex_);
+  return bans_;
+}
+
+void Doorman::mute(const Mute& mute, WallTime now) {
+  assert((mute.session == 0) == mute.range.has_value());
+  const std::lock_guard lock(mutex_);
+  std::erase_if(mutes_, [&](const Mute& there) {
+    const bool is_same = there.session == mute.session && there.range == mute.range;
+    return is_same || (there.until && *there.until <= now);
+  });
+  if (mutes_.size() >= kMostMutes) mutes_.erase(mutes_.begin());
+  mutes_.push_back(mute);
+}
+
+std::size_t Doorman::unmute(SessionNumber session) {
+  const std::lock_guard lock(mutex_);
+  return std::erase_if(mutes_,
+                       [session](const Mute& mute) { return !mute.range && mute.session == session; });
+}
+
+std::size_t Doorman::unmute(const AddressRange& range) {
+  const std::lock_guard lock(mutex_);
+  return std::erase_if(mutes_,
+                       [&range](const Mute& mute) { return mute.range && range.contains(*mute.range); });
+}
+
+void Doorman::drain(WallTime until) {
+  const std::lock_guard lock(mutex_);
+  drains_until_ = until;
+}
+
+}  // namespace woodlouse::server

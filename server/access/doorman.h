@@ -1,0 +1,69 @@
+// Whom the operator lets in, and whom he lets speak: bans, mutes, and a server that is about to stop.
+// Sessions and ports ask it; what it says is the error that they are told.
+#pragma once
+
+#include <boost/asio/ip/address.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "server/access/bans.h"
+#include "shared/protocol/messages.h"
+
+namespace woodlouse::server {
+
+/// Any thread, every function: a lock is held for a look-up.
+class Doorman {
+ public:
+  using Refusal = std::optional<protocol::ErrorMessage>;
+  using SessionNumber = std::uint64_t;
+
+  /// Further mutes take the place of the oldest.
+  static constexpr std::size_t kMostMutes = 1024;
+
+  // What is asked of it. Nothing: he may.
+
+  /// A fatal one.
+  [[nodiscard]] Refusal why_not_connect(const boost::asio::ip::address& address, WallTime now) const;
+  /// A ban's is fatal.
+  [[nodiscard]] Refusal why_not_join(const protocol::Join& join, WallTime now) const;
+  /// address: as sessions are counted by (AddressRange::parse() takes it).
+  [[nodiscard]] Refusal why_not_speak(SessionNumber session, std::string_view address, WallTime now) const;
+  [[nodiscard]] bool is_draining() const;
+
+  // What the operator says:
+
+  void use(Bans bans);
+  [[nodiscard]] Bans bans() const;
+
+  struct Mute {
+    SessionNumber session = 0;          ///< 0: of the addresses
+    std::optional<AddressRange> range;  ///< none: of the session
+    std::optional<WallTime> until;      ///< none: as long as the session
+  };
+  /// In place of one of the same session or addresses.
+  void mute(const Mute& mute, WallTime now);
+  /// How many there were.
+  std::size_t unmute(SessionNumber session);
+  std::size_t unmute(const AddressRange& range);
+
+  /// Nobody joins any more who was not here; till then the server goes on.
+  void drain(WallTime until);
+
+ private:
+  mutable std::mutex mutex_;
+  Bans bans_;
+  std::vector<Mute> mutes_;
+  std::optional<WallTime> drains_until_;
+};
+
+/// A ban's error.
+[[nodiscard]] protocol::ErrorMessage banned_error(const Ban& ban);
+
+}  // namespace woodlouse::server

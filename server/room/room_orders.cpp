@@ -1,0 +1,189 @@
+// What an operator asks of a room.
+#include <spdlog/fmt/fmt.h>
+
+#include <boost/asio/post.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "server/room/room.h"
+#include "shared/protocol/codes.h"
+#include "shared/replay/line_writer.h"
+
+namespace woodlouse::server {
+
+namespace asio = boost::asio;
+
+/// On the strand, of a room that has begun and not stopped.
+template <typename Order>
+void Room::order(Ordered answered, Order carry_out) {
+  assert(answered);
+  asio::post(strand_, [self = shared_from_this(), this, answered = std::move(answered),
+                       carry_out = std::move(carry_out)]() mutable {
+    if (state_ == State::kWaiting || state_ == State::kStopped)
+      return answered(core::fail({}, "the room has stopped"));
+    carry_out(std::move(answered));
+  });
+}
+
+void Room::ask_roster(std::function<void(std::vector<RosterEntry>)> answered) {
+  assert(answered);
+  asio::post(strand_, [self = shared_from_this(), this, answered = std::move(answered)] {
+    answered(members_.roster());
+  });
+}
+
+void Room::say(const protocol::Notice& notice) {
+  asio::post(strand_, [self = shared_from_this(), this, notice] { members_.say(notice); });
+}
+
+void Room::give_up(match::PlayerId louse) {
+  asio::post(strand_, [self = shared_from_this(), this, louse] { members_.give_up(louse); });
+}
+
+void Room::pause(Ordered answered) {
+  order(std::move(answered), [this](const Ordered& done) {
+    if (state_ == State::kPaused) return done(core::fail({}, "is paused already"));
+    if (steps_left_ == 0) members_.pause();
+    log_->info(fmt::format("room {}: paused at tick {}", settings_.name, game_->tick()));
+    steps_left_ = 0;
+    end_steps(core::fail({}, "was paused before all steps were done"));
+    stand_still();
+    done(game_->tick());
+  });
+}
+
+void Room::resume(Ordered answered) {
+  order(std::move(answered), [this](const Ordered& done) {
+    const bool steps = std::exchange(steps_left_, 0) != 0;
+    if (state_ != State::kPaused && !steps) return done(core::fail({}, "is not paused"));
+    log_->info(fmt::format("room {}: goes on with tick {}", settings_.name, game_->tick()));
+    end_steps(core::fail({}, "was resumed before all steps were done"));
+    members_.resume();
+    if (!steps) go_on();
+    done(game_->tick());
+  });
+}
+
+void Room::step(std::uint64_t ticks, Ordered answered) {
+  assert(ticks >= 1);
+  order(std::move(answered), [this, ticks](Ordered done) {
+    if (state_ != State::kPaused)
+      return done(core::fail({}, steps_left_ != 0 ? "is still doing the steps before" : "is not paused"));
+    members_.refill();
+    steps_left_ = ticks;
+    stepped_ = std::move(done);
+    go_on();
+  });
+}
+
+/// Nobody is told: not for each of the steps of one who looks at a game tick by tick.
+void Room::stand_still() {
+  if (state_ == State::kRunning)
+    for (const auto& watcher : watchers_) watcher->fall_asleep(*game_);
+  state_ = State::kPaused;
+  alarm_->cancel();
+  post_figures();
+  end_steps(game_->tick());
+}
+
+void Room::go_on() {
+  assert(state_ == State::kPaused && clock_);
+  state_ = State::kRunning;
+  deserted_ticks_ = 0;
+  for (const auto& watcher : watchers_) watcher->wake(*game_);
+  clock_->restart(std::chrono::ceil<std::chrono::milliseconds>(timekeeper_.now()));
+  await_tick();
+}
+
+void Room::end_steps(core::Expected<std::uint64_t> tick) {
+  if (stepped_) std::exchange(stepped_, nullptr)(std::move(tick));
+}
+
+void Room::ask_header(std::string_view build,
+                      std::function<void(replay::Header header, std::uint64_t game)> answered) {
+  assert(answered);
+  asio::post(strand_,
+             [self = shared_from_this(), this, build = std::string(build), answered = std::move(answered)] {
+               answered(replay::make_header(*game_, build, map_file_), games_);
+             });
+}
+
+void Room::record(std::unique_ptr<TickWatcher> recorder, std::uint64_t game, Ordered answered) {
+  assert(recorder != nullptr);
+  order(std::move(answered), [this, made = std::move(recorder), game](const Ordered& done) mutable {
+    look_for_recording();
+    if (is_recorded_) return done(core::fail({}, "is recorded already"));
+    if (game != games_) return done(core::fail({}, "has begun another game meanwhile"));
+    late_ = std::move(made);
+    if (game_->state().roster.empty()) {
+      begin_late();
+      if (state_ != State::kRunning) watchers_.back()->fall_asleep(*game_);
+    }
+    look_for_recording();
+    done(game_->tick());
+  });
+}
+
+void Room::end_recording(const std::string& reason, Ordered answered) {
+  order(std::move(answered), [this, reason](const Ordered& done) {
+    if (std::exchange(late_, nullptr)) {
+      look_for_recording();
+      return done(game_->tick());
+    }
+    const auto found = std::find_if(watchers_.begin(), watchers_.end(),
+                                    [](const auto& watcher) { return watcher->is_recording(); });
+    if (found == watchers_.end()) return done(core::fail({}, "is not recorded"));
+    Watchers ended;
+    ended.push_back(std::move(*found));
+    watchers_.erase(found);
+    look_for_recording();
+    const auto former = former_.insert(former_.end(), {nullptr, std::move(ended)});
+    finish(former->watchers, reason, [this, former] {
+      for (const auto& watcher : former->watchers) watcher->add_figures(working_);
+      former_.erase(former);
+      end_if_finished();
+    });
+    done(game_->tick());
+  });
+}
+
+void Room::begin_late() {
+  assert(late_ != nullptr);
+  attach(*late_);
+  late_->begin(*game_);
+  watchers_.push_back(std::move(late_));
+}
+
+void Room::look_for_recording() {
+  is_recorded_ = late_ != nullptr || std::any_of(watchers_.begin(), watchers_.end(),
+                                                 [](const auto& watcher) { return watcher->is_recording(); });
+}
+
+// ---- its members ---------------------------------------------------------------------------------------
+
+void Members::say(const protocol::Notice& notice) {
+  seats_.for_each<SessionOccupant>(
+      [&](const Seat&, const SessionOccupant& occupant) { occupant.subscriber->answer(notice); });
+}
+
+void Members::pause() {
+  may_wait_ = kMostPaused;
+  announce({std::string(protocol::code::kPaused), "the operator has paused this room: it stands still"});
+}
+
+void Members::resume() {
+  may_wait_.reset();
+  std::erase_if(notices_,
+                [](const protocol::Notice& notice) { return notice.code == protocol::code::kPaused; });
+  say({std::string(protocol::code::kResumed), "the room goes on"});
+}
+
+void Members::give_up(match::PlayerId louse) {
+  bool is_away = false;
+  seats_.for_each<Vacant>([&](const Seat& seat, const Vacant&) { is_away |= seat.louse == louse; });
+  if (is_away) end(seats_.take_vacant(louse));
+}
+
+}  // namespace woodlouse::server

@@ -1,0 +1,51 @@
+#include "server/room_opener.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cassert>
+#include <utility>
+#include <vector>
+
+#include "shared/core/joined.h"
+#include "shared/core/stable_hash.h"
+
+namespace woodlouse::server {
+
+core::Expected<std::shared_ptr<Room>> RoomOpener::make(const ServeConfig& config, const std::string& name,
+                                                       Start start, Rotation* rotation) {
+  assert(!name.empty() && start.match != nullptr);
+  RoomSettings settings;
+  settings.name = name;
+  settings.state_hz = config.state_hz;
+  settings.bots = config.bots;
+  settings.bots_skill = config.bots_skill;
+  settings.bots_alone_play = config.bots_alone_play;
+  settings.tick_limit = config.ticks;
+  settings.limits = *limits_.now();
+  settings.adopts_by_name = config.fork && config.fork->adopts_by_name;
+  if (rotation != nullptr) settings.rounds_a_game = *config.rotate;
+  std::vector<core::Error> failed;
+  Watchers watchers = companions_.make(name, start, failed);
+  if (!failed.empty()) return tl::unexpected(failed.front());
+  start.match->use(companions_.step_team());
+  log_opened(name, config, start);
+  return Room::make(ticks_, lanes_, std::move(settings), std::move(start), std::move(watchers), timekeeper_,
+                    log_, rotation);
+}
+
+void RoomOpener::log_opened(const std::string& room, const ServeConfig& config, const Start& start) const {
+  const match::Match& match = *start.match;
+  const std::string threads =
+      match.step_threads() == 1 ? std::string() : fmt::format(", steps by {} threads", match.step_threads());
+  if (start.parent)
+    log_->info(
+        fmt::format("room {}: goes on from {}, tick {}, hash {}, with {} lice, {} ticks/s, {} frames/s{}{}",
+                    room, start.parent->file, match.tick(), core::to_hex(match.hash()),
+                    match.world().lice().size(), config.tick_hz, config.state_hz, threads,
+                    start.on_trust.empty() ? "" : core::joined({"; on trust: ", start.on_trust})));
+  else
+    log_->info(fmt::format("room {}: map {}, {} ticks/s, {} frames/s, seed {}{}", room, start.map_file,
+                           config.tick_hz, config.state_hz, match.settings().seed, threads));
+}
+
+}  // namespace woodlouse::server
