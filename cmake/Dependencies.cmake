@@ -19,6 +19,12 @@ endif()
 find_package(Boost 1.81 REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(OpenSSL 3.0 REQUIRED)
+# Of prometheus-cpp the core alone; its package would have its web server's and its gateway's libraries, too.
+find_path(PROMETHEUS_INCLUDE_DIR prometheus/text_serializer.h REQUIRED)
+find_library(PROMETHEUS_LIBRARY prometheus-cpp-core REQUIRED)
+add_library(woodlouse_prometheus INTERFACE)
+target_include_directories(woodlouse_prometheus SYSTEM INTERFACE ${PROMETHEUS_INCLUDE_DIR})
+target_link_libraries(woodlouse_prometheus INTERFACE ${PROMETHEUS_LIBRARY})
 # What tests and measures need, players don't.
 if(NOT WOODLOUSE_ONLY STREQUAL "play")
   find_package(Eigen3 3.4 REQUIRED NO_MODULE)

@@ -48,6 +48,8 @@ class Companions {
   /// How many recordings begin new files.
   std::size_t ask_for_next_files() { return recordings_ ? recordings_->ask_for_next_files() : 0; }
 
+  /// None, where games are not recorded.
+  [[nodiscard]] const std::optional<Recordings>& recordings() const { return recordings_; }
   /// Shares the steps of big rooms; null: each on one thread.
   [[nodiscard]] const std::shared_ptr<core::Team>& step_team() const { return step_team_; }
 

@@ -66,6 +66,7 @@ class DescriptorSink final : public spdlog::sinks::base_sink<std::mutex> {
     return opened;
   }
   void reopen() { is_moved_ = true; }
+  [[nodiscard]] std::uint64_t unwritten() const { return unwritten_; }
 
  private:
   void sink_it_(const spdlog::details::log_msg& message) override {
@@ -83,7 +84,10 @@ class DescriptorSink final : public spdlog::sinks::base_sink<std::mutex> {
         ::poll(&out, 1, -1);
         continue;
       }
-      if (count < 0) return;  // closed, or full: nobody is left to be told
+      if (count < 0) {  // closed, or full: nobody is left to be told, but who asks for figures
+        ++unwritten_;
+        return;
+      }
       left.remove_prefix(static_cast<std::size_t>(count));
     }
   }
@@ -92,6 +96,7 @@ class DescriptorSink final : public spdlog::sinks::base_sink<std::mutex> {
   const std::string file_;  ///< empty: standard error
   int descriptor_ = STDERR_FILENO;
   std::atomic<bool> is_moved_{false};
+  std::atomic<std::uint64_t> unwritten_{0};
 };
 
 /// Hands on to another sink, and tells in a line of its own how many lines were lost before the next.
@@ -151,6 +156,12 @@ std::unique_ptr<spdlog::formatter> formatter_of(LogFormat format) {
 
 Log::Log(LogFormat format) : Log(format, std::make_shared<DescriptorSink>()) {}
 
+std::uint64_t Log::lost_lines() const {
+  assert(thread_ != nullptr && sink_ != nullptr);
+  const auto* own = dynamic_cast<const DescriptorSink*>(sink_.get());
+  return thread_->overrun_counter() + (own == nullptr ? 0 : own->unwritten());
+}
+
 core::Expected<std::unique_ptr<Log>> Log::open(LogFormat format, const std::filesystem::path& file) {
   const int descriptor = DescriptorSink::open(file.string());
   if (descriptor < 0) return core::fail("--log-file " + file.string(), std::strerror(errno));
@@ -161,10 +172,11 @@ core::Expected<std::unique_ptr<Log>> Log::open(LogFormat format, const std::file
 }
 
 Log::Log(LogFormat format, spdlog::sink_ptr sink)
-    : thread_(std::make_shared<spdlog::details::thread_pool>(kMostWaiting, 1)),
-      logger_(std::make_shared<spdlog::async_logger>(
-          "woodlouse-server", std::make_shared<CountingSink>(std::move(sink), thread_), thread_,
-          spdlog::async_overflow_policy::overrun_oldest)) {
+    : sink_(std::move(sink)),
+      thread_(std::make_shared<spdlog::details::thread_pool>(kMostWaiting, 1)),
+      logger_(std::make_shared<spdlog::async_logger>("woodlouse-server",
+                                                     std::make_shared<CountingSink>(sink_, thread_), thread_,
+                                                     spdlog::async_overflow_policy::overrun_oldest)) {
   logger_->set_formatter(formatter_of(format));
   logger_->flush_on(spdlog::level::info);
 }

@@ -50,6 +50,9 @@ class Log {
   /// Standard error stays. Any thread.
   void reopen() const { reopen_(); }
 
+  /// Lines that went nowhere: nobody read them in time, or they could not be written. Any thread.
+  [[nodiscard]] std::uint64_t lost_lines() const;
+
   /// Thread safe; REQUIRES that the log lives. What is logged is formatted first,
   /// log->info(fmt::format(...)), by fmt's library: the logger's own templates compile fmt again in each file
   /// that logs, five seconds each.
@@ -57,6 +60,7 @@ class Log {
 
  private:
   std::function<void()> reopen_ = [] {};
+  spdlog::sink_ptr sink_;
   std::shared_ptr<spdlog::details::thread_pool> thread_;
   std::shared_ptr<spdlog::logger> logger_;
 };

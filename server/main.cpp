@@ -81,7 +81,8 @@ int run(const ServeConfig& config, const std::function<core::Expected<ServeConfi
   if (!opened) return report(opened.error(), kFailed);
   const Log& log = **opened;
   log.logger()->set_level(spdlog::level::from_str(config.log_level));
-  auto server = Server::create(config, {reread, [&log] { log.reopen(); }}, log.logger());
+  auto server = Server::create(
+      config, {reread, [&log] { log.reopen(); }, [&log] { return log.lost_lines(); }}, log.logger());
   if (!server) return report(server.error(), kFailed);
   kept.emplace(taken_signals());
   std::cout << "listening " << (*server)->address() << std::endl;

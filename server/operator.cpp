@@ -23,11 +23,12 @@ double as_milliseconds(Duration duration) {
 }  // namespace
 
 Operator::Operator(const Strand& strand, Lobby& lobby, const TrafficMetrics& traffic, Timekeeper& timekeeper,
-                   Server server, std::shared_ptr<spdlog::logger> log)
+                   const Metrics& metrics, Server server, std::shared_ptr<spdlog::logger> log)
     : strand_(strand),
       lobby_(lobby),
       traffic_(traffic),
       timekeeper_(timekeeper),
+      metrics_(metrics),
       server_(std::move(server)),
       log_(std::move(log)),
       begun_(timekeeper.now()),
@@ -43,6 +44,11 @@ void Operator::carry_out(Command command, Answered answered) {
 
 WebAnswer Operator::page(std::string_view path) const {
   if (path == "/healthz") return refusal(200, "ok");
+  if (path == "/readyz") {
+    if (server_.doorman.is_draining()) return refusal(503, "the server stops");
+    return lobby_.is_too_late(timekeeper_.now()) ? refusal(503, "ticks are overdue") : refusal(200, "ready");
+  }
+  if (path == "/metrics") return {200, Metrics::kContentType, metrics_.text()};
   return refusal(404, "there is no such page");
 }
 
@@ -100,17 +106,17 @@ std::string Operator::status() const {
   const auto uptime = std::chrono::duration_cast<std::chrono::seconds>(timekeeper_.now() - begun_).count();
   const std::uint64_t frames = traffic_.frames_sent, bytes = traffic_.bytes_sent,
                       lines = traffic_.lines_received;
-  return done(
-      fmt::format("{}, up {} s: {} rooms, {} players, {} bots, {} spectators\n"
-                  "sent {} frames, {} bytes; received {} lines",
-                  kServerName, uptime, list.rooms.size(), players, bots, spectators, frames, bytes, lines),
-      [&](json::ObjectText& object) {
-        object.text("server", kServerName).integer("uptime_s", uptime);
-        object.integer("rooms", list.rooms.size()).integer("players", players);
-        object.integer("bots", bots).integer("spectators", spectators);
-        object.integer("frames_sent", frames).integer("bytes_sent", bytes);
-        object.integer("lines_received", lines);
-      });
+  return done(fmt::format("{}, up {} s: {} rooms, {} players, {} bots, {} spectators\n"
+                          "sent {} frames, {} bytes; received {} lines\n{}",
+                          kServerName, uptime, list.rooms.size(), players, bots, spectators, frames, bytes,
+                          lines, metrics_.status()),
+              [&](json::ObjectText& object) {
+                object.text("server", kServerName).integer("uptime_s", uptime);
+                object.integer("rooms", list.rooms.size()).integer("players", players);
+                object.integer("bots", bots).integer("spectators", spectators);
+                object.integer("frames_sent", frames).integer("bytes_sent", bytes);
+                object.integer("lines_received", lines);
+              });
 }
 
 std::string Operator::rooms() const {

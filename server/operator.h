@@ -14,6 +14,7 @@
 
 #include "server/access/doorman.h"
 #include "server/admin/control.h"
+#include "server/metrics/metrics.h"
 #include "server/moderation.h"
 #include "server/room/lobby.h"
 #include "server/room_control.h"
@@ -41,7 +42,7 @@ class Operator final : public Control {
 
   /// All outlive it.
   Operator(const Strand& strand, Lobby& lobby, const TrafficMetrics& traffic, Timekeeper& timekeeper,
-           Server server, std::shared_ptr<spdlog::logger> log);
+           const Metrics& metrics, Server server, std::shared_ptr<spdlog::logger> log);
 
   void carry_out(Command command, Answered answered) override;
   [[nodiscard]] WebAnswer page(std::string_view path) const override;
@@ -58,6 +59,7 @@ class Operator final : public Control {
   Lobby& lobby_;
   const TrafficMetrics& traffic_;
   Timekeeper& timekeeper_;
+  const Metrics& metrics_;
   Server server_;
   std::shared_ptr<spdlog::logger> log_;
   const Time begun_;

@@ -88,8 +88,10 @@ Server::Server(const ServeConfig& config, Outside outside, std::shared_ptr<spdlo
                      [this](const std::string& room) { rooms_running_.erase(room); }},
                     log_),
       moderation_(strand_, lobby_, acceptor_, *doorman_, ban_desk_, log_),
+      metrics_({lobby_, traffic_, limits_, timekeeper_, companions_.recordings(), outside_.lost_log_lines,
+                kVersion}),
       operator_(
-          strand_, lobby_, traffic_, timekeeper_,
+          strand_, lobby_, traffic_, timekeeper_, metrics_,
           {room_control_, moderation_, *doorman_, [this](auto done) { reload("admin", std::move(done)); },
            [this](const std::string& text, const std::string& reason) { stop(text, reason); },
            [this] { return stopping_; }},

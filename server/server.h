@@ -31,6 +31,7 @@
 #include "server/companions.h"
 #include "server/config.h"
 #include "server/game_rotation.h"
+#include "server/metrics/metrics.h"
 #include "server/moderation.h"
 #include "server/net/acceptor.h"
 #include "server/net/session.h"
@@ -54,6 +55,7 @@ class Server {
   struct Outside {
     std::function<core::Expected<ServeConfig>()> reread;  ///< HUP: the configuration once more
     std::function<void()> reopen_log;                     ///< USR1
+    std::function<std::uint64_t()> lost_log_lines;        ///< for /metrics; any thread
   };
 
   static constexpr std::size_t kIoThreads = 2;
@@ -136,6 +138,7 @@ class Server {
   RoomControl room_control_;
   std::optional<BanDesk> ban_desk_;
   Moderation moderation_;
+  const Metrics metrics_;
   Operator operator_;
   AdminDoor admin_;
   std::string address_, admin_address_;

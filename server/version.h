@@ -3,6 +3,7 @@
 
 namespace woodlouse::server {
 
+inline constexpr const char* kVersion = WOODLOUSE_VERSION;
 inline constexpr const char* kServerName = "woodlouse-server " WOODLOUSE_VERSION;
 
 }  // namespace woodlouse::server

@@ -38,14 +38,28 @@ constexpr Duration kHeaderPatience = std::chrono::seconds(3);
 /// As what the connections of a trusted proxy count of which it has not said whose they are.
 std::string unknown_of(const std::string& proxy) { return "proxy " + proxy; }
 
+std::optional<RefusedConnection> refused(ConnectionLimits::Admission admission) {
+  switch (admission) {
+    case ConnectionLimits::Admission::kAddressFull:
+      return RefusedConnection::kAddressFull;
+    case ConnectionLimits::Admission::kServerFull:
+      return RefusedConnection::kServerFull;
+    case ConnectionLimits::Admission::kDrop:
+      return RefusedConnection::kDropped;
+    case ConnectionLimits::Admission::kWelcome:
+      break;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Acceptor::Acceptor(const Lanes& lanes, const SessionEnvironment& environment)
     : lanes_(lanes),
       environment_(environment),
       strand_(asio::make_strand(lanes.io())),
-      lines_(lanes, strand_, environment.log, "--listen"),
-      web_(lanes, strand_, environment.log, "--web"),
+      lines_(lanes, strand_, environment.log, "--listen", environment.traffic),
+      web_(lanes, strand_, environment.log, "--web", environment.traffic),
       addresses_(environment.limits) {}
 
 core::Expected<tcp::endpoint> Acceptor::open(const ListenAddress& address, TrustedProxies trusted) {
@@ -148,6 +162,8 @@ std::optional<Acceptor::Guest> Acceptor::admit(tcp::socket& socket, std::size_t 
   }
   const auto admission = guest.proxy.empty() ? addresses_.admit(guest.address, now)
                                              : addresses_.admit_unknown(guest.address, now);
+  TrafficMetrics::add_one(environment_.traffic.connections);
+  if (const auto why = refused(admission)) environment_.traffic.refuse(*why);
   if (admission == ConnectionLimits::Admission::kDrop) return std::nullopt;
   ++next_id_;
   const auto limits = environment_.limits.now();
@@ -185,6 +201,7 @@ void Acceptor::on_first_byte(SessionId id, Comes what, tcp::socket socket) {
 void Acceptor::shake_hands(SessionId id, tcp::socket socket) {
   Visit& visit = visits_.at(id);
   if (tls_ == nullptr) {
+    environment_.traffic.refuse(RefusedConnection::kNoTls);
     log(spdlog::level::debug, visit.guest.address, "TLS is not spoken here, without --tls-cert: closed");
     return end_visit(id);
   }
@@ -248,7 +265,9 @@ HttpDoor::Asker Acceptor::take_http(Visit& visit) {
 
 void Acceptor::on_upgraded(SessionId id, std::unique_ptr<Wire> wire) {
   if (is_stopping_) return end_visit(id);
-  open_session(std::move(wire), take_visit(id), Session::Greeting::kAtOnce);
+  Guest guest = take_visit(id);
+  guest.is_web = true;
+  open_session(std::move(wire), guest, Session::Greeting::kAtOnce);
 }
 
 Acceptor::Guest Acceptor::take_visit(SessionId id) {
@@ -267,10 +286,8 @@ void Acceptor::open_session(std::unique_ptr<Wire> wire, Guest guest, Session::Gr
                                                  addresses_.account(guest.address), environment_);
   const bool is_new = sessions_.emplace(guest.id, session).second;
   assert(is_new && !is_stopping_);
-  static_cast<void>(is_new);
-  auto closed = [this, id = guest.id, address = guest.address] {
-    asio::post(strand_, [this, id, address] { on_closed(id, address); });
-  };
+  count_sessions(guest, is_new);
+  auto closed = [this, guest] { asio::post(strand_, [this, guest] { on_closed(guest); }); };
   if (guest.refusal) return session->start_refused(*guest.refusal, std::move(closed));
   session->start(std::move(closed), greeting);
 }
@@ -282,10 +299,20 @@ void Acceptor::end_visit(SessionId id) {
   tell_when_empty();
 }
 
-void Acceptor::on_closed(SessionId id, const std::string& address) {
-  addresses_.release(address, environment_.timekeeper.now());
-  sessions_.erase(id);
+void Acceptor::on_closed(const Guest& guest) {
+  addresses_.release(guest.address, environment_.timekeeper.now());
+  sessions_.erase(guest.id);
+  count_sessions(guest, false);
   tell_when_empty();
+}
+
+/// One more, or one less, for who counts them.
+void Acceptor::count_sessions(const Guest& guest, bool is_new) {
+  TrafficMetrics& traffic = environment_.traffic;
+  traffic.sessions.store(sessions_.size(), std::memory_order_relaxed);
+  if (!guest.is_web) return;
+  assert(is_new || traffic.web_sessions > 0);
+  is_new ? ++traffic.web_sessions : --traffic.web_sessions;
 }
 
 void Acceptor::tell_when_empty() {

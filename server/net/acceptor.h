@@ -59,6 +59,7 @@ class Acceptor {
     /// key() of a trusted proxy that has not said for whom this is, or may say so anew with each request;
     /// else empty. Till it has said so, `address` is a key of its own for those that are not known.
     std::string proxy{};
+    bool is_web = false;  ///< his session's wire is a WebSocket
   };
   /// One of whom it is not known yet whether a session comes of him.
   struct Visit {
@@ -93,7 +94,8 @@ class Acceptor {
   Guest take_visit(SessionId id);
   void open_session(std::unique_ptr<Wire> wire, Guest guest, Session::Greeting greeting);
   void end_visit(SessionId id);
-  void on_closed(SessionId id, const std::string& address);
+  void on_closed(const Guest& guest);
+  void count_sessions(const Guest& guest, bool is_new);
   void tell_when_empty();
   void log(spdlog::level::level_enum level, const std::string& address, const std::string& what);
 

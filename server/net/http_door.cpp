@@ -230,7 +230,8 @@ WebAnswer StreamHttpDoor<Stream>::judge() {
   WebAnswer answered =
       answer_to(target(), authority->host, environment_.directory,
                 {environment_.server_name, web_.lines_port,
-                 is_stopping_ || (environment_.doorman != nullptr && environment_.doorman->is_draining())});
+                 is_stopping_ || (environment_.doorman != nullptr && environment_.doorman->is_draining()),
+                 environment_.directory.is_too_late(now())});
   asker_.account->charge(Spending::kAnswerBytes, static_cast<double>(answered.body.size()), now());
   return answered;
 }
@@ -248,6 +249,7 @@ std::string StreamHttpDoor<Stream>::why_no_upgrade() {
 template <typename Stream>
 void StreamHttpDoor<Stream>::upgrade() {
   alarm_->cancel();
+  environment_.traffic.answer(101);
   auto upgraded = [ends = std::exchange(ends_, {})](std::unique_ptr<Wire> wire) {
     if (wire == nullptr) return ends.closed();
     ends.upgraded(std::move(wire));
@@ -259,6 +261,7 @@ void StreamHttpDoor<Stream>::upgrade() {
 template <typename Stream>
 void StreamHttpDoor<Stream>::answer(WebAnswer answer, bool is_last) {
   assert(!is_answering_ && answer.status >= 200);
+  environment_.traffic.answer(answer.status);
   is_answering_ = true;
   is_last_ = is_last;
   response_ = {};

@@ -34,8 +34,14 @@ core::Error cannot_listen(const std::string& option, const ListenAddress& addres
 
 }  // namespace
 
-Port::Port(const Lanes& lanes, const Strand& strand, std::shared_ptr<spdlog::logger> log, std::string option)
-    : lanes_(lanes), log_(std::move(log)), option_(std::move(option)), acceptor_(strand), pause_(strand) {
+Port::Port(const Lanes& lanes, const Strand& strand, std::shared_ptr<spdlog::logger> log, std::string option,
+           TrafficMetrics& traffic)
+    : lanes_(lanes),
+      log_(std::move(log)),
+      option_(std::move(option)),
+      traffic_(traffic),
+      acceptor_(strand),
+      pause_(strand) {
   assert(log_ != nullptr && !option_.empty());
 }
 
@@ -73,6 +79,7 @@ void Port::accept() {
 void Port::on_accept(const error_code& error, tcp::socket socket, std::size_t lane) {
   if (!acceptor_.is_open()) return;
   if (error) {
+    traffic_.refuse(RefusedConnection::kNotAccepted);
     // Out of descriptors or memory, or the client has gone already: nothing that stops the server.
     if (!std::exchange(starved_, true))
       log_->error(fmt::format("cannot accept a connection: {}", error.message()));

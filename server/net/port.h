@@ -16,6 +16,7 @@
 
 #include "server/net/listen_address.h"
 #include "server/room/lanes.h"
+#include "server/timing/figures.h"
 #include "shared/core/error.h"
 
 namespace woodlouse::server {
@@ -26,8 +27,9 @@ class Port {
   /// On the strand. The socket's executor is the lane of that number.
   using Taken = std::function<void(boost::asio::ip::tcp::socket socket, std::size_t lane)>;
 
-  /// lanes outlives it. option: which one asked for it, for errors.
-  Port(const Lanes& lanes, const Strand& strand, std::shared_ptr<spdlog::logger> log, std::string option);
+  /// lanes and traffic outlive it. option: which one asked for it, for errors.
+  Port(const Lanes& lanes, const Strand& strand, std::shared_ptr<spdlog::logger> log, std::string option,
+       TrafficMetrics& traffic);
 
   /// Listens; where that is, with the port that was really taken. Before the threads run.
   core::Expected<boost::asio::ip::tcp::endpoint> open(const ListenAddress& address);
@@ -46,6 +48,7 @@ class Port {
   const Lanes& lanes_;
   std::shared_ptr<spdlog::logger> log_;
   std::string option_;
+  TrafficMetrics& traffic_;
   boost::asio::ip::tcp::acceptor acceptor_;
   boost::asio::steady_timer pause_;
   Taken taken_;

@@ -94,16 +94,15 @@ void Session::on_line(const protocol::LineFramer::Line& line, Time now) {
   greet();
   pulse_.hear(now, false);
   environment_.traffic.lines_received.fetch_add(1, std::memory_order_relaxed);
-  if (const auto refusal = allowance_.take_line(line.text.size() + 1, now))
-    return refusal->fatal ? fail(*refusal) : say(*refusal);
+  if (const auto refusal = allowance_.take_line(line.text.size() + 1, now)) return refuse(*refusal);
   if (line.oversize)
-    return fail(code::kLineTooLong, "a line is longer than " + std::to_string(limits_->line) + " bytes");
+    return refuse({std::string(code::kLineTooLong),
+                   "a line is longer than " + std::to_string(limits_->line) + " bytes", true, std::nullopt});
   auto decoded = protocol::decode_client(line.text);
   if (decoded) return on_message(std::move(*decoded), now);
   protocol::ErrorMessage error = handshake_.judge(decoded.error());
   error.text += where_http_is(line.text, environment_.web_url);
-  if (error.fatal) return fail(error);
-  say(error);
+  refuse(error);
 }
 
 void Session::on_message(protocol::ClientMessage message, Time now) {
@@ -264,6 +263,7 @@ void Session::say_bye(const std::optional<protocol::ErrorMessage>& error, const 
   linger_until_ = state_ == State::kOpen ? now() + linger : std::min(linger_until_, now() + linger);
   watch(linger_until_);
   if (state_ != State::kOpen) return;
+  environment_.traffic.session_ends.add(bye.code);
   leave_room();
   std::string text = error ? protocol::encode(*error) : std::string{};
   text += protocol::encode(bye);
@@ -276,6 +276,7 @@ void Session::say_bye(const std::optional<protocol::ErrorMessage>& error, const 
 void Session::close() {
   if (state_ == State::kClosed) return;
   leave_room();
+  if (state_ == State::kOpen) TrafficMetrics::add_one(environment_.traffic.sessions_lost);
   state_ = State::kClosed;
   sender_.stop();
   watch_->cancel();

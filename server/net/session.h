@@ -203,6 +203,8 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
     return viewer_->frame(frame);
   }
   void say(const protocol::ServerMessage& message) {
+    if (const auto* error = std::get_if<protocol::ErrorMessage>(&message))
+      environment_.traffic.refused_lines.add(error->code);
     push(answers_.line([&](std::string& text) { protocol::append(text, message); }));
   }
   void push(Line line);
@@ -213,6 +215,12 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   void on_broken() override { close(); }
   void tell_pace(SendRate::Change change);
 
+  /// A line.
+  void refuse(const protocol::ErrorMessage& error) {
+    if (!error.fatal) return say(error);
+    environment_.traffic.refused_lines.add(error.code);
+    fail(error);
+  }
   void fail(std::string_view code, std::string text) {
     fail(protocol::ErrorMessage{std::string(code), std::move(text), true, {}});
   }

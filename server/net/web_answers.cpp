@@ -63,7 +63,10 @@ WebAnswer answer_to(std::string_view target, std::string_view host, const Direct
   if (path == "/") return front_page(host, directory, facts);
   if (path == "/rooms") return rooms_array(directory);
   if (path == "/healthz") return refusal(200, "ok");
-  if (path == "/readyz") return facts.is_stopping ? refusal(503, "the server stops") : refusal(200, "ready");
+  if (path == "/readyz") {
+    if (facts.is_stopping) return refusal(503, "the server stops");
+    return facts.are_ticks_overdue ? refusal(503, "ticks are overdue") : refusal(200, "ready");
+  }
   return refusal(404, "there is no such page: / says what there is");
 }
 

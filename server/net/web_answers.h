@@ -21,6 +21,7 @@ struct WebFacts {
   std::string_view server_name;  ///< with its version
   std::uint16_t lines_port = 0;  ///< where the server speaks first
   bool is_stopping = false;
+  bool are_ticks_overdue = false;  ///< a room's, by more than passes by itself
 };
 
 /// target: as it was asked, with its query. host: by which name or address, without a port.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "server/room/door.h"
+#include "server/timing/clock.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::server {
@@ -23,6 +24,9 @@ class Directory {
   [[nodiscard]] virtual std::shared_ptr<Door> find(std::string_view name) const = 0;
   [[nodiscard]] virtual std::vector<std::string> names() const = 0;
   [[nodiscard]] virtual protocol::Rooms list() const = 0;
+  /// Whether the next tick of one of them has been due for longer than passes by itself
+  /// (timing/next_tick.h).
+  [[nodiscard]] virtual bool is_too_late(Time now) const = 0;
 };
 
 }  // namespace woodlouse::server

@@ -74,6 +74,12 @@ protocol::Rooms Lobby::list() const {
   return list;
 }
 
+bool Lobby::is_too_late(Time now) const {
+  const std::lock_guard lock(mutex_);
+  return std::any_of(rooms_.begin(), rooms_.end(),
+                     [now](const auto& room) { return room->next_tick().is_too_late(now); });
+}
+
 std::vector<std::shared_ptr<Room>> Lobby::rooms() const {
   const std::lock_guard lock(mutex_);
   return rooms_;

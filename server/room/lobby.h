@@ -33,6 +33,7 @@ class Lobby final : public Directory {
   [[nodiscard]] std::shared_ptr<Door> find(std::string_view name) const override;
   [[nodiscard]] std::vector<std::string> names() const override;
   [[nodiscard]] protocol::Rooms list() const override;
+  [[nodiscard]] bool is_too_late(Time now) const override;
   /// In the order they were opened.
   [[nodiscard]] std::vector<std::shared_ptr<Room>> rooms() const;
 

@@ -68,7 +68,8 @@ Room::Room(asio::io_context& ticks, const Lanes& lanes, RoomSettings settings, S
       team_(std::move(start.team)),
       watchers_(std::move(watchers)),
       members_(lanes, settings_, *game_, watchers_, std::move(start.unclaimed), timekeeper.now(), log_),
-      map_file_(std::move(start.map_file)) {
+      map_file_(std::move(start.map_file)),
+      next_tick_(game_->settings().tick_hz) {
   assert(game_ != nullptr && (rotation_ == nullptr) == (settings_.rounds_a_game == 0));
 }
 
@@ -118,6 +119,7 @@ void Room::stop(const protocol::Bye& bye, const std::string& reason, std::functi
     if (!is_first) return;
     const bool was_watched = state_ != State::kWaiting;
     state_ = State::kStopped;
+    next_tick_.expect_none();
     alarm_->cancel();
     end_steps(core::fail({}, "the room has closed"));
     members_.dismiss(bye);
@@ -251,6 +253,7 @@ void Room::leave(SessionId session, Parting parting) {
 }
 
 void Room::await_tick() {
+  next_tick_.expect(clock_->deadline());
   // Weakly: the room owns the alarm.
   alarm_->set(clock_->deadline(), [room = weak_from_this()](bool cancelled) {
     const auto self = room.lock();
@@ -273,6 +276,7 @@ void Room::on_tick_due() {
   if (working_.ticks % game_->settings().tick_hz == 0) post_figures();
   if (settings_.tick_limit && former_ticks_ + game_->tick() >= *settings_.tick_limit) {
     state_ = State::kStopped;
+    next_tick_.expect_none();
     return ended_();
   }
   if (is_game_over() && is_next_ready()) begin_next();
@@ -294,6 +298,7 @@ bool Room::is_to_sleep() {
 void Room::fall_asleep() {
   assert(state_ == State::kRunning);
   state_ = State::kAsleep;
+  next_tick_.expect_none();
   ++working_.sleeps;
   post_figures();
   log_->info(fmt::format("room {}: nobody is here: it stands still at tick {} until somebody joins",
@@ -330,15 +335,10 @@ void Room::post_figures() {
   working_.frames_encoded = members_.frames_encoded();
   if (clock_) working_.clock_moves = clock_->moves();
   RoomFigures all = working_;
+  for (const FormerGame& former : former_)
+    for (const auto& watcher : former.watchers) watcher->add_figures(all);
   for (const auto& watcher : watchers_) watcher->add_figures(all);
-  auto snapshot = std::make_shared<const RoomFigures>(std::move(all));
-  const std::lock_guard lock(figures_mutex_);
-  figures_ = std::move(snapshot);
-}
-
-std::shared_ptr<const RoomFigures> Room::figures() const {
-  const std::lock_guard lock(figures_mutex_);
-  return figures_;
+  figures_.post(std::move(all));
 }
 
 }  // namespace woodlouse::server

@@ -13,6 +13,7 @@
 
 #include <spdlog/logger.h>
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/strand.hpp>
 
 #include <atomic>
@@ -24,7 +25,6 @@
 #include <list>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,6 +37,8 @@
 #include "server/room/start.h"
 #include "server/timing/clock.h"
 #include "server/timing/figures.h"
+#include "server/timing/next_tick.h"
+#include "server/timing/posted_figures.h"
 #include "server/timing/tick_clock.h"
 #include "server/timing/timekeeper.h"
 #include "shared/core/error.h"
@@ -105,7 +107,17 @@ class Room : public std::enable_shared_from_this<Room> {
   /// How many there are, as of now.
   [[nodiscard]] protocol::RoomEntry census() const { return members_.census(); }
   /// As of the last whole second of its ticks; as they ended, once it has stopped. Never null.
-  [[nodiscard]] std::shared_ptr<const RoomFigures> figures() const;
+  [[nodiscard]] std::shared_ptr<const RoomFigures> figures() const { return figures_.now(); }
+  /// What those who work beside the game find out while the room stands still is in them soon.
+  void refresh_figures() {
+    if (is_refresh_asked_.exchange(true)) return;
+    boost::asio::post(strand_, [self = shared_from_this(), this] {
+      is_refresh_asked_ = false;
+      post_figures();
+    });
+  }
+  /// None while nobody is there.
+  [[nodiscard]] const NextTick& next_tick() const { return next_tick_; }
 
  private:
   class RoomDoor;
@@ -200,8 +212,10 @@ class Room : public std::enable_shared_from_this<Room> {
   std::vector<std::function<void()>> awaiting_end_;  ///< who asked for the stop
   bool has_ended_ = false;
 
-  mutable std::mutex figures_mutex_;  ///< held to swap the pointer
-  std::shared_ptr<const RoomFigures> figures_ = std::make_shared<const RoomFigures>();
+  // Any thread's:
+  PostedFigures figures_;
+  NextTick next_tick_;
+  std::atomic<bool> is_refresh_asked_{false};
 };
 
 }  // namespace woodlouse::server

@@ -83,6 +83,7 @@ void Room::stand_still() {
   if (state_ == State::kRunning)
     for (const auto& watcher : watchers_) watcher->fall_asleep(*game_);
   state_ = State::kPaused;
+  next_tick_.expect_none();
   alarm_->cancel();
   post_figures();
   end_steps(game_->tick());

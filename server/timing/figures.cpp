@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 
 namespace woodlouse::server {
@@ -30,8 +31,19 @@ std::uint64_t DurationHistogram::upper_limit(std::size_t bucket) {
 void DurationHistogram::add(Duration value) {
   const auto us = std::chrono::duration_cast<std::chrono::microseconds>(value).count();
   ++counts_[bucket(us > 0 ? static_cast<std::uint64_t>(us) : 0)];
+  const auto bound = std::lower_bound(kBounds.begin(), kBounds.end(), value);
+  ++ranges_[static_cast<std::size_t>(bound - kBounds.begin())];
   ++count_;
   max_ = std::max(max_, value);
+  sum_ += std::max(value, Duration{});
+}
+
+std::uint64_t DurationHistogram::count_within(std::size_t bound) const {
+  assert(bound < kBounds.size());
+  std::uint64_t count = 0;
+  for (std::size_t k = 0; k <= bound; ++k) count += ranges_[k];
+  assert(count <= count_);
+  return count;
 }
 
 Duration DurationHistogram::quantile(double q) const {
@@ -43,6 +55,14 @@ Duration DurationHistogram::quantile(double q) const {
     if (seen >= wanted) return std::min<Duration>(std::chrono::microseconds(upper_limit(i)), max_);
   }
   return max_;
+}
+
+void TrafficMetrics::answer(std::uint32_t status) {
+  add_one(web_requests);
+  if (status < 400) return;
+  const auto known = std::find(kRefusingStatuses.begin(), kRefusingStatuses.end(), status);
+  assert(known != kRefusingStatuses.end());
+  add_one(web_refused[static_cast<std::size_t>(known - kRefusingStatuses.begin())]);
 }
 
 std::string summary(const std::string& room, const RoomFigures& m) {

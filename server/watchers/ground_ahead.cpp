@@ -32,6 +32,7 @@ GroundAhead::GroundAhead(std::string room, const terrain::TiledGround& ground,
       worker_(worker),
       log_(std::move(log)),
       shared_(std::make_shared<Shared>(ground)),
+      before_(figures()),
       push_(physics.thrust_max + physics.gravity) {}
 
 void GroundAhead::rest(const match::Match& game) {
@@ -97,6 +98,16 @@ GroundFigures GroundAhead::figures() const {
   const terrain::TileStore::Counters counters = tiles.counters();
   return {counters.live, counters.built, counters.prepared, counters.thrown_out,
           tiles.source().read_failures()};
+}
+
+void GroundAhead::add_figures(RoomFigures& figures) const {
+  GroundFigures& all = figures.ground ? *figures.ground : figures.ground.emplace();
+  const GroundFigures now = this->figures();
+  all.live = now.live;
+  all.built += now.built - before_.built;
+  all.ahead += now.ahead - before_.ahead;
+  all.thrown_out += now.thrown_out - before_.thrown_out;
+  all.read_failures += now.read_failures - before_.read_failures;
 }
 
 }  // namespace woodlouse::server

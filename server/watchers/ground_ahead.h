@@ -43,10 +43,11 @@ class GroundAhead final : public TickWatcher {
   void begin(const match::Match&) override {}
   void rest(const match::Match& game) override;
   void finish(const std::string&, std::function<void()> done) override { done(); }
-  void add_figures(RoomFigures& figures) const override { figures.ground = this->figures(); }
+  void add_figures(RoomFigures& figures) const override;
 
   /// After a tick.
   void look(std::span<const state::Louse> lice);
+  /// Of the map, since it was loaded.
   [[nodiscard]] GroundFigures figures() const;
 
  private:
@@ -70,7 +71,8 @@ class GroundAhead final : public TickWatcher {
   std::shared_ptr<spdlog::logger> log_;
   bool told_ = false;  ///< of a file that can't be read
   std::shared_ptr<Shared> shared_;
-  double push_;  ///< the largest acceleration that is looked ahead for [m/s^2]
+  const GroundFigures before_;  ///< of games before on the same map
+  double push_;                 ///< the largest acceleration that is looked ahead for [m/s^2]
   std::size_t turn_ = 0;
   std::vector<std::size_t> wanted_;  ///< tiles of the next batch
 };

@@ -90,6 +90,11 @@ void JobThread::close() {
   shared_->changed.notify_all();
 }
 
+std::size_t JobThread::waiting() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->jobs.size();
+}
+
 bool JobThread::wait_until(Time latest) const {
   std::unique_lock lock(shared_->mutex);
   return shared_->changed.wait_until(lock, latest, [this] { return shared_->has_ended; });

@@ -30,6 +30,7 @@ class JobThread {
   void post_last(Job job);
   /// None comes any more; those that wait are done, then the thread ends.
   void close();
+  [[nodiscard]] std::size_t waiting() const;
   /// Whether the thread has ended by then: it holds nothing of its jobs any more.
   [[nodiscard]] bool wait_until(Time latest) const;
 

@@ -68,7 +68,7 @@ void Recorder::chat(std::uint64_t tick, match::PlayerId player, const std::strin
 
 void Recorder::step(const match::StepRecord& record, std::span<const InputMargin> margins,
                     const match::Match& game) {
-  if (writer_->has_failed()) return;
+  if (writer_->has_failed()) return writer_->lose_tick();
   std::shared_ptr<const match::MatchState> keyframe;
   if (game.tick() % keyframe_ticks_ == 0) keyframe = std::make_shared<const match::MatchState>(game.state());
   const bool next_file = keyframe != nullptr && is_next_file_due();
@@ -105,6 +105,12 @@ void Recorder::finish(const std::string& reason, std::function<void()> done) {
     if (pause) writer->pause(*pause);
     writer->finish(reason);
   });
+}
+
+void Recorder::add_figures(RoomFigures& figures) const {
+  RecordingFigures& all = figures.recording ? *figures.recording : figures.recording.emplace();
+  all.queued += thread_->waiting();
+  writer_->add_figures(all);
 }
 
 void Recorder::enqueue(JobThread::Job job) {

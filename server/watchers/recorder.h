@@ -63,6 +63,7 @@ class Recorder final : public TickWatcher {
   /// `done` is called on the recording's thread when everything is in the file; never, once the writer is
   /// left behind.
   void finish(const std::string& reason, std::function<void()> done) override;
+  void add_figures(RoomFigures& figures) const override;
 
   [[nodiscard]] bool is_recording() const override { return !writer_->has_failed(); }
 

@@ -65,6 +65,13 @@ void RecordingWriter::leave_behind(const std::string& why) {
   done = std::exchange(done_, nullptr);
 }
 
+void RecordingWriter::add_figures(RecordingFigures& all) const {
+  all.written_bytes += written_bytes_;
+  all.lost_bytes += lost_bytes_;
+  all.lost_ticks += lost_ticks_;
+  all.failed |= failed_;
+}
+
 std::string RecordingWriter::lost() const {
   const std::lock_guard lock(outside_);
   return why_lost_.empty() ? std::string() : name_ + ": " + why_lost_;
@@ -86,6 +93,7 @@ void RecordingWriter::tell_finished() {
 /// What can't be written any more is closed here: that, too, may wait.
 bool RecordingWriter::is_writing() {
   if (failed_ && out_ != nullptr) {
+    lost_bytes_ += std::exchange(bytes_, {}).size();
     out_.reset();
     if (files_) files_->closed(name_);
   }
@@ -110,7 +118,7 @@ void RecordingWriter::chat(std::uint64_t tick, match::PlayerId player, const std
 }
 
 void RecordingWriter::step(const match::StepRecord& step, const std::vector<InputMargin>& margins) {
-  if (!is_writing()) return;
+  if (!is_writing()) return lose_tick();
   for (const InputMargin& margin : margins)
     lines_.note_margin(margin.player, margin.seq, margin.microseconds);
   lines_.append_step(bytes_, step);
@@ -163,15 +171,13 @@ void RecordingWriter::write_out() {
       return give_up(why);
     }
   }
-  judge(out_->write(bytes_));
-  bytes_.clear();
+  put();
 }
 
 /// Not by way of write_out(): the last lines are written past any bound, so that the file has its end.
 void RecordingWriter::close(const std::string& reason) {
   lines_.append_end(bytes_, reason);
-  judge(out_->write(bytes_));
-  bytes_.clear();
+  put();
   if (!is_writing()) return;
   judge(out_->close());
   out_.reset();
@@ -204,6 +210,13 @@ void RecordingWriter::begin_next_file(const match::MatchState& at) {
   out_ = std::move(next->sink);
   lines_ = replay::ReplayWriter(replay::encoding_of(name_));
   begin(at);
+}
+
+void RecordingWriter::put() {
+  const auto outcome = out_->write(bytes_);
+  (outcome ? written_bytes_ : lost_bytes_) += bytes_.size();
+  bytes_.clear();
+  judge(outcome);
 }
 
 void RecordingWriter::judge(const core::Expected<void>& outcome) {

@@ -40,6 +40,10 @@ class RecordingWriter {
   /// The game is no longer recorded: told once, in the log and to the room. Nothing, where it has finished.
   void give_up(const std::string& why);
   [[nodiscard]] bool has_failed() const { return failed_; }
+  /// A tick has passed after it failed.
+  void lose_tick() { ++lost_ticks_; }
+  /// All but what waits.
+  void add_figures(RecordingFigures& all) const;
   /// A file is to follow at the next keyframe.
   void ask_for_next_file() { is_asked_ = true; }
   [[nodiscard]] bool take_request() { return is_asked_.exchange(false); }
@@ -67,6 +71,7 @@ class RecordingWriter {
   void write_out();
   void close(const std::string& reason);
   void begin_next_file(const match::MatchState& at);
+  void put();
   void judge(const core::Expected<void>& outcome);
   void say(spdlog::level::level_enum level, const std::string& text);
   void tell_finished();
@@ -75,6 +80,9 @@ class RecordingWriter {
   const std::shared_ptr<RecordingFiles> files_;
   std::atomic<bool> failed_{false};
   std::atomic<bool> is_asked_{false};
+  std::atomic<std::uint64_t> written_bytes_{0};
+  std::atomic<std::uint64_t> lost_bytes_{0};
+  std::atomic<std::uint64_t> lost_ticks_{0};
 
   /// Held while somebody is told, who never waits, and to end that.
   mutable std::mutex outside_;

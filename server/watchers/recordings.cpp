@@ -18,7 +18,10 @@ core::Expected<std::unique_ptr<Recorder>> Recordings::open(const std::string& ro
   std::erase_if(entries_, [now = Clock::now()](const Entry& entry) {
     return entry.thread->wait_until(now) && entry.writer->lost().empty();
   });
-  if (recorder) entries_.push_back({(*recorder)->writer(), (*recorder)->thread()});
+  if (recorder)
+    entries_.push_back({(*recorder)->writer(), (*recorder)->thread()});
+  else
+    ++not_opened_;
   return recorder;
 }
 

@@ -3,6 +3,7 @@
 
 #include <spdlog/logger.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -44,6 +45,11 @@ class Recordings {
   /// written. A recording that has no end then is left behind, and the log says which.
   void end(Time latest);
 
+  /// Games that no recording could be begun for.
+  [[nodiscard]] std::uint64_t not_opened() const { return not_opened_; }
+  /// Old files that --record-keep has cost.
+  [[nodiscard]] std::uint64_t removed() const { return files_->removed(); }
+
   /// "FILE: why", of each that ended before its time. After end().
   [[nodiscard]] std::vector<std::string> lost() const;
 
@@ -57,6 +63,7 @@ class Recordings {
   const std::optional<Duration> every_;
   const std::shared_ptr<RecordingFiles> files_;
   const std::shared_ptr<spdlog::logger> log_;
+  std::atomic<std::uint64_t> not_opened_{0};
   mutable std::mutex mutex_;
   std::vector<Entry> entries_;  ///< that go on, or ended before their time
 };

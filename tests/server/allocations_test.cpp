@@ -82,6 +82,7 @@ class OneRoom final : public Directory {
   [[nodiscard]] std::shared_ptr<Door> find(std::string_view) const override { return door_; }
   [[nodiscard]] std::vector<std::string> names() const override { return {door_->name()}; }
   [[nodiscard]] protocol::Rooms list() const override { return {}; }
+  [[nodiscard]] bool is_too_late(Time) const override { return false; }
 
  private:
   std::shared_ptr<Door> door_;

@@ -62,6 +62,7 @@ TEST_CASE("who logs never waits for who reads, and what was lost is counted") {
     sink->stands.get_future().wait();
     for (std::size_t k = 0; k < Log::kMostWaiting + kMore; ++k)
       log.logger()->info("line " + std::to_string(k));
+    CHECK(log.lost_lines() >= kMore - 1);
     sink->go_on.set_value();
   }
   REQUIRE(sink->lines.size() > Log::kMostWaiting);
@@ -73,6 +74,15 @@ TEST_CASE("who logs never waits for who reads, and what was lost is counted") {
   const auto lost = static_cast<std::size_t>(std::stoul(*told));
   CHECK(lost >= kMore - 1);
   CHECK(lost + sink->lines.size() == Log::kMostWaiting + kMore + 2);  // the first, and the word of the lost
+}
+
+TEST_CASE("a line that can't be written is one that is lost") {
+  const auto log = Log::open(LogFormat::kText, "/dev/full");
+  REQUIRE(log);
+  for (int k = 0; k < 3; ++k) (*log)->logger()->info("nowhere to go");
+  for (int k = 0; k < 2000 && (*log)->lost_lines() < 3; ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  CHECK((*log)->lost_lines() == 3);
 }
 
 TEST_CASE("a log that nobody reads keeps no server from ending") {

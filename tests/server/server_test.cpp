@@ -87,7 +87,7 @@ TEST_CASE("a lane that hangs does not hold up the end: it is told, and the serve
   ServeConfig config;
   config.maps = {WOODLOUSE_SOURCE_DIR "/maps/volcano.json"};
   config.listen = {"127.0.0.1", 0};
-  auto server = Server::create(config, {[&config] { return config; }, [] {}},
+  auto server = Server::create(config, {[&config] { return config; }, [] {}, [] { return std::uint64_t{0}; }},
                                std::make_shared<spdlog::logger>("test", log));
   REQUIRE(server);
   std::jthread runs([&] { (*server)->run(); });

@@ -76,6 +76,9 @@ class FakeDirectory final : public Directory {
     for (const auto& door : doors_) list.rooms.push_back(door->census());
     return list;
   }
+  [[nodiscard]] bool is_too_late(Time) const override { return are_ticks_overdue; }
+
+  bool are_ticks_overdue = false;
 
  private:
   std::vector<std::shared_ptr<FakeDoor>> doors_;

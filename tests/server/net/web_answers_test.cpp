@@ -12,9 +12,10 @@ namespace woodlouse::server::web_answers_test {
 
 namespace {
 
-WebAnswer asked(const std::string& target, const std::string& room = "volcano", bool is_stopping = false) {
+WebAnswer asked(const std::string& target, const std::string& room = "volcano", bool is_stopping = false,
+                bool are_ticks_overdue = false) {
   const FakeDirectory directory({std::make_shared<FakeDoor>(room)});
-  return answer_to(target, "10.0.0.1", directory, {"woodlouse <1.2>", 7777, is_stopping});
+  return answer_to(target, "10.0.0.1", directory, {"woodlouse <1.2>", 7777, is_stopping, are_ticks_overdue});
 }
 
 bool has(const WebAnswer& answer, std::string_view text) {
@@ -47,6 +48,8 @@ TEST_CASE("who looks after a server is told whether it lives, and whether it is 
   CHECK(asked("/healthz", "volcano", true).status == 200);
   CHECK(asked("/readyz?now").status == 200);
   CHECK(asked("/readyz", "volcano", true).status == 503);
+  CHECK(asked("/readyz", "volcano", false, true).status == 503);
+  CHECK(asked("/healthz", "volcano", false, true).status == 200);
 }
 
 TEST_CASE("of a page that is not there nothing comes back") {
