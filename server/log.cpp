@@ -20,6 +20,7 @@
 #include <thread>
 #include <utility>
 
+#include "server/logging/events.h"
 #include "server/timing/clock.h"
 #include "shared/core/printable.h"
 #include "shared/core/utf8.h"
@@ -41,10 +42,31 @@ class ShownMessage final : public spdlog::custom_flag_formatter {
   }
 };
 
+/// %& in a pattern: the event that the message bears, between two texts; nothing where it bears none.
+class ShownEvent final : public spdlog::custom_flag_formatter {
+ public:
+  ShownEvent(std::string before, std::string after) : before_(std::move(before)), after_(std::move(after)) {}
+  void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override {
+    const std::string_view event = event_of(message);
+    if (event.empty()) return;
+    for (const std::string_view text : {std::string_view(before_), event, std::string_view(after_)})
+      out.append(text.data(), text.data() + text.size());
+  }
+  [[nodiscard]] std::unique_ptr<custom_flag_formatter> clone() const override {
+    return spdlog::details::make_unique<ShownEvent>(before_, after_);
+  }
+
+ private:
+  const std::string before_, after_;
+};
+
 template <std::string (*text_of)(std::string_view)>
-std::unique_ptr<spdlog::formatter> formatter(const char* pattern, spdlog::pattern_time_type time) {
+std::unique_ptr<spdlog::formatter> formatter(const char* pattern, spdlog::pattern_time_type time,
+                                             const char* before, const char* after) {
   auto result = std::make_unique<spdlog::pattern_formatter>(time);
-  result->add_flag<ShownMessage<text_of>>('*').set_pattern(pattern);
+  result->template add_flag<ShownMessage<text_of>>('*');
+  result->template add_flag<ShownEvent>('&', before, after);
+  result->set_pattern(pattern);
   return result;
 }
 
@@ -110,7 +132,11 @@ class CountingSink final : public spdlog::sinks::sink {
     const std::size_t lost = thread ? thread->overrun_counter() : told_;
     if (lost != told_) {
       const std::string text = std::to_string(lost - told_) + " lines of the log are lost: nobody read it";
-      sink_->log({message.time, {}, message.logger_name, spdlog::level::warn, {text.data(), text.size()}});
+      sink_->log({message.time,
+                  borne_by(LogEvent::kLogLinesLost),
+                  message.logger_name,
+                  entry_of(LogEvent::kLogLinesLost).level,
+                  {text.data(), text.size()}});
       told_ = lost;
     }
     sink_->log(message);
@@ -149,9 +175,9 @@ std::string json_escaped(std::string_view text) {
 
 std::unique_ptr<spdlog::formatter> formatter_of(LogFormat format) {
   if (format == LogFormat::kText)
-    return formatter<core::printable>("%H:%M:%S.%e %l %*", spdlog::pattern_time_type::local);
-  return formatter<json_escaped>(R"({"time":"%Y-%m-%dT%H:%M:%S.%fZ","level":"%l","message":"%*"})",
-                                 spdlog::pattern_time_type::utc);
+    return formatter<core::printable>("%H:%M:%S.%e %l %&%*", spdlog::pattern_time_type::local, "", ": ");
+  return formatter<json_escaped>(R"({"time":"%Y-%m-%dT%H:%M:%S.%fZ","level":"%l",%&"message":"%*"})",
+                                 spdlog::pattern_time_type::utc, R"("event":")", R"(",)");
 }
 
 Log::Log(LogFormat format) : Log(format, std::make_shared<DescriptorSink>()) {}

@@ -53,9 +53,9 @@ class Log {
   /// Lines that went nowhere: nobody read them in time, or they could not be written. Any thread.
   [[nodiscard]] std::uint64_t lost_lines() const;
 
-  /// Thread safe; REQUIRES that the log lives. What is logged is formatted first,
-  /// log->info(fmt::format(...)), by fmt's library: the logger's own templates compile fmt again in each file
-  /// that logs, five seconds each.
+  /// Thread safe; REQUIRES that the log lives. What is logged is an event
+  /// (logging/events.h), formatted first, log_event(*log, event, fmt::format(...)), by fmt's library: the
+  /// logger's own templates compile fmt again in each file that logs, five seconds each.
   [[nodiscard]] const std::shared_ptr<spdlog::logger>& logger() const { return logger_; }
 
  private:

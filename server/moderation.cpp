@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "server/admin/answer.h"
+#include "server/logging/events.h"
 #include "server/room_control.h"
 #include "shared/core/printable.h"
 #include "shared/protocol/codes.h"
@@ -102,7 +103,7 @@ void Moderation::kick(const Command& command, Answered answered) {
                   fmt::format("\"{}\" is one of the house's own bots: --bots says how many there are",
                               core::printable(who))));
     if (found.empty()) return answered(nobody(who));
-    log_->info(fmt::format("admin: kicked \"{}\"", who));
+    log_event(*log_, LogEvent::kKicked, fmt::format("admin: kicked \"{}\"", who));
     std::string text;
     for (const Found& one : found)
       text += fmt::format("{}kicked \"{}\" from {}", text.empty() ? "" : "\n",
@@ -123,7 +124,8 @@ void Moderation::ban(const Command& command, const Answered& answered) {
       [ban = *ban](Bans& bans) { return bans.add(ban); },
       [this, ban = *ban, answered](const core::Expected<void>& changed) {
         if (!changed) {
-          log_->error(fmt::format("admin: {} is NOT banned: {}", ban.who(), changed.error().text()));
+          log_event(*log_, LogEvent::kBanFailed,
+                    fmt::format("admin: {} is NOT banned: {}", ban.who(), changed.error().text()));
           return answered(refused(admin_code::kFailed, changed.error().text()));
         }
         asio::post(strand_, [this, ban, answered] { apply(ban, answered); });
@@ -133,7 +135,8 @@ void Moderation::ban(const Command& command, const Answered& answered) {
 
 /// Who is here and should not be goes.
 void Moderation::apply(const Ban& ban, const Answered& answered) {
-  log_->info(fmt::format("admin: {} is banned {}", ban.who(), until_text(ban.until)));
+  log_event(*log_, LogEvent::kBanned,
+            fmt::format("admin: {} is banned {}", ban.who(), until_text(ban.until)));
   const std::string text =
       fmt::format("{} is banned {}{}", core::printable(ban.who()), until_text(ban.until),
                   desk_->has_file() ? "" : ", or as long as this server: it has no --ban-file");
@@ -169,7 +172,7 @@ void Moderation::unban(const Command& command, const Answered& answered) {
       },
       [this, ban = *ban, answered](const core::Expected<void>& changed) {
         if (!changed) return answered(refused(admin_code::kFailed, changed.error().text()));
-        log_->info(fmt::format("admin: {} is banned no more", ban.who()));
+        log_event(*log_, LogEvent::kUnbanned, fmt::format("admin: {} is banned no more", ban.who()));
         answered(done(fmt::format("{} is banned no more", core::printable(ban.who()))));
       });
   if (!is_taken) answered(refused(admin_code::kNotNow, "too many changes wait for the disk"));
@@ -197,7 +200,8 @@ void Moderation::mute(const Command& command, const Answered& answered) {
   if (const auto range = AddressRange::parse(command.who)) {
     if (!until) until = now + kMuteOfAddress;
     doorman_.mute({0, range, until}, now);
-    log_->info(fmt::format("admin: {} is muted {}", range->text(), until_text(until)));
+    log_event(*log_, LogEvent::kMuted,
+              fmt::format("admin: {} is muted {}", range->text(), until_text(until)));
     return answered(done(fmt::format("{} is muted {}", range->text(), until_text(until))));
   }
   find(called(command.who), command.room,
@@ -205,7 +209,7 @@ void Moderation::mute(const Command& command, const Answered& answered) {
          std::erase_if(found, [](const Found& one) { return one.entry.kind != Kind::kSession; });
          if (found.empty()) return answered(nobody(who));
          for (const Found& one : found) doorman_.mute({one.entry.session, std::nullopt, until}, now);
-         log_->info(fmt::format("admin: \"{}\" is muted", who));
+         log_event(*log_, LogEvent::kMuted, fmt::format("admin: \"{}\" is muted", who));
          answered(done(fmt::format("\"{}\" is muted {}", core::printable(who),
                                    until ? until_text(until) : "as long as the connection lasts"),
                        [&found](json::ObjectText& object) { object.integer("count", found.size()); }));

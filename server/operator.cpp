@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "server/admin/answer.h"
+#include "server/logging/events.h"
 #include "server/version.h"
 #include "shared/core/printable.h"
 #include "shared/protocol/codes.h"
@@ -157,7 +158,7 @@ void Operator::drain(const Command& command, const Answered& answered) {
   const auto seconds = static_cast<std::int64_t>(command.seconds.value_or(kDrainSeconds));
   server_.doorman.drain(wall_now() + std::chrono::seconds(seconds));
   const std::string text = fmt::format("the server stops in {} s and takes nobody any more", seconds);
-  log_->info("admin: drain: " + text);
+  log_event(*log_, LogEvent::kDraining, "admin: drain: " + text);
   for (const auto& room : lobby_.rooms()) room->say({std::string(protocol::code::kDraining), text});
   answered(done(text, [seconds](json::ObjectText& object) { object.integer("seconds", seconds); }));
   drained_.expires_after(std::chrono::seconds(seconds));
@@ -167,7 +168,7 @@ void Operator::drain(const Command& command, const Answered& answered) {
 }
 
 void Operator::shut_down(const Answered& answered) {
-  log_->info("admin: shutdown");
+  log_event(*log_, LogEvent::kOperator, "admin: shutdown");
   drained_.cancel();
   answered(done("the server stops"));
   server_.stop("the server stops", "shutdown by its operator");

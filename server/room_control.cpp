@@ -11,6 +11,7 @@
 
 #include "server/admin/answer.h"
 #include "server/chosen_games.h"
+#include "server/logging/events.h"
 #include "server/version.h"
 #include "shared/core/printable.h"
 #include "shared/protocol/codes.h"
@@ -141,7 +142,7 @@ void RoomControl::open_made(const Made& rooms, const Answered& answered) {
                               fmt::format("{}{}room {} was not opened: one of its name came first, or the "
                                           "server stops",
                                           text, text.empty() ? "" : "\n", core::printable(name))));
-    log_->info(fmt::format("admin: opened room {}", name));
+    log_event(*log_, LogEvent::kOperator, fmt::format("admin: opened room {}", name));
     text += fmt::format("{}room {} is open", text.empty() ? "" : "\n", core::printable(name));
     names.push_back(name);
   }
@@ -157,7 +158,7 @@ void RoomControl::close(const Command& command, const Answered& answered) {
   const bool is_closing = lobby_.close(name, bye, "closed by its operator", [this, name, answered] {
     asio::post(strand_, [this, name, answered] {
       counts_.closed(name);
-      log_->info(fmt::format("admin: closed room {}", name));
+      log_event(*log_, LogEvent::kRoomClosed, fmt::format("admin: closed room {}", name));
       answered(done(fmt::format("room {} is closed", core::printable(name))));
     });
   });

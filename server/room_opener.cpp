@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/logging/events.h"
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
 
@@ -38,14 +39,16 @@ void RoomOpener::log_opened(const std::string& room, const ServeConfig& config, 
   const std::string threads =
       match.step_threads() == 1 ? std::string() : fmt::format(", steps by {} threads", match.step_threads());
   if (start.parent)
-    log_->info(
+    log_event(
+        *log_, LogEvent::kRoomOpened,
         fmt::format("room {}: goes on from {}, tick {}, hash {}, with {} lice, {} ticks/s, {} frames/s{}{}",
                     room, start.parent->file, match.tick(), core::to_hex(match.hash()),
                     match.world().lice().size(), config.tick_hz, config.state_hz, threads,
                     start.on_trust.empty() ? "" : core::joined({"; on trust: ", start.on_trust})));
   else
-    log_->info(fmt::format("room {}: map {}, {} ticks/s, {} frames/s, seed {}{}", room, start.map_file,
-                           config.tick_hz, config.state_hz, match.settings().seed, threads));
+    log_event(*log_, LogEvent::kRoomOpened,
+              fmt::format("room {}: map {}, {} ticks/s, {} frames/s, seed {}{}", room, start.map_file,
+                          config.tick_hz, config.state_hz, match.settings().seed, threads));
 }
 
 }  // namespace woodlouse::server

@@ -17,6 +17,7 @@
 
 #include "server/commands/fork.h"
 #include "server/limit_options.h"
+#include "server/logging/events.h"
 #include "server/signals.h"
 #include "server/version.h"
 #include "shared/core/joined.h"
@@ -158,15 +159,17 @@ core::Expected<void> Server::open_rooms(const ServeConfig& config) {
 core::Expected<void> Server::open_rotation(const ServeConfig& config, std::vector<ChosenGame> games,
                                            std::uint64_t seed) {
   Start first = start_of(games.front(), config, seed);
-  log_->info(fmt::format("room {}: {} games in turns, of {} rounds each", kRotationRoom, games.size(),
-                         *config.rotate));
+  log_event(*log_, LogEvent::kRotationOpened,
+            fmt::format("room {}: {} games in turns, of {} rounds each", kRotationRoom, games.size(),
+                        *config.rotate));
   // What can't be written any more costs the record, not the game.
   rotation_.emplace(std::move(games), seed, [this, config](const ChosenGame& game, std::uint64_t its_seed) {
     std::vector<core::Error> failed;
     NextGame next{start_of(game, config, its_seed), {}};
     next.watchers = companions_.make(kRotationRoom, next.start, failed);
     for (const core::Error& error : failed)
-      log_->error(fmt::format("room {}: NOT WRITTEN: {}: {}", kRotationRoom, error.where, error.what));
+      log_event(*log_, LogEvent::kGameNotWritten,
+                fmt::format("room {}: NOT WRITTEN: {}: {}", kRotationRoom, error.where, error.what));
     next.start.match->use(companions_.step_team());
     return next;
   });
@@ -238,14 +241,15 @@ void Server::on_signal(int signal) {
     return await_signal();
   }
   const std::string name = core::joined({"SIG", ::sigabbrev_np(signal)});
-  log_->info(fmt::format("{}: stopping", name));
+  log_event(*log_, LogEvent::kStopping, fmt::format("{}: stopping", name));
   stop("the server stops", name);
 }
 
 /// What may change while games go on: limits and the log's level.
 void Server::reload(const std::string& who, std::function<void(core::Expected<void>)> done) {
   const auto refuse = [this, who, done](const core::Error& error, const std::string& what) {
-    log_->error(fmt::format("{}: {}: {}: {}", who, what, error.where, error.what));
+    log_event(*log_, LogEvent::kReloadFailed,
+              fmt::format("{}: {}: {}: {}", who, what, error.where, error.what));
     done(tl::unexpected(core::Error(error.where, what + ": " + error.what, error.hint)));
   };
   const auto config = outside_.reread();
@@ -255,7 +259,8 @@ void Server::reload(const std::string& who, std::function<void(core::Expected<vo
   limits_.replace(limits);
   for (const auto& room : lobby_.rooms()) room->use(limits);
   if (config->web) acceptor_.reread(*config->web);
-  log_->warn(
+  log_event(
+      *log_, LogEvent::kReloaded,
       fmt::format("{}: limits, log level and certificate are read again; limits of a session hold for who "
                   "comes from now on",
                   who));
@@ -269,11 +274,11 @@ void Server::reload(const std::string& who, std::function<void(core::Expected<vo
 void Server::reopen() {
   outside_.reopen_log();
   const std::size_t rooms = companions_.ask_for_next_files();
-  log_->info(rooms == 0
-                 ? std::string("SIGUSR1: no room is recorded: no recording begins")
-                 : fmt::format("SIGUSR1: the recordings of {} rooms go on in new files from their next "
-                               "keyframe on",
-                               rooms));
+  log_event(*log_, LogEvent::kReopened,
+            rooms == 0 ? std::string("SIGUSR1: no room is recorded: no recording begins")
+                       : fmt::format("SIGUSR1: the recordings of {} rooms go on in new files from their next "
+                                     "keyframe on",
+                                     rooms));
 }
 
 void Server::room_ended(const std::string& name) {
@@ -301,8 +306,9 @@ void Server::part_stopped() {
 }
 
 void Server::give_up_waiting() {
-  log_->warn(fmt::format("{} of rooms and port did not stop within {} ms", parts_running_,
-                         std::chrono::duration_cast<std::chrono::milliseconds>(kStopWithin).count()));
+  log_event(*log_, LogEvent::kStopIncomplete,
+            fmt::format("{} of rooms and port did not stop within {} ms", parts_running_,
+                        std::chrono::duration_cast<std::chrono::milliseconds>(kStopWithin).count()));
   stop_contexts();
 }
 

@@ -15,6 +15,7 @@
 #include <system_error>
 #include <utility>
 
+#include "server/logging/events.h"
 #include "shared/core/joined.h"
 
 namespace woodlouse::server {
@@ -144,7 +145,8 @@ void AdminPort::accept() {
     if (!acceptor_.is_open()) return;
     if (error) {
       if (!std::exchange(is_starved_, true))
-        log_->error(fmt::format("cannot accept a connection to the admin door: {}", error.message()));
+        log_event(*log_, LogEvent::kAcceptFailed,
+                  fmt::format("cannot accept a connection to the admin door: {}", error.message()));
       return pause();
     }
     is_starved_ = false;

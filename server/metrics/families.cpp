@@ -19,7 +19,7 @@ constexpr std::array<FamilyEntry, kFamilyCount> kFamilies{{
     {"woodlouse_room_clock_moves_total", kCounter, "room",
      "Times the clock moved because ticks came too late."},
     {"woodlouse_room_asleep", kGauge, "room",
-     "Whether the room stands still, as nobody is there: then no tick passes."},
+     "Whether the room stands still, as nobody is there or an operator has paused it."},
     {"woodlouse_room_sleeps_total", kCounter, "room", "Times it began to stand still."},
     {"woodlouse_room_members", kGauge, "room, role", "Who is in the room now."},
     {"woodlouse_room_frames_encoded_total", kCounter, "room", "Frames encoded, of every layout."},

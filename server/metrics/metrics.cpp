@@ -77,7 +77,7 @@ std::string status_of(const Room& room) {
       core::printable(room.name()), census.players, census.bots, census.spectators, figures->ticks,
       as_milliseconds(figures->lateness.quantile(0.99)), as_milliseconds(figures->work.quantile(0.99)),
       figures->clock_moves);
-  if (!room.next_tick().is_expected()) line += "; stands still";
+  if (figures->asleep) line += "; stands still";
   if (const auto& recording = figures->recording)
     line += recording->failed ? fmt::format("; RECORDING FAILED: {} ticks are in none", recording->lost_ticks)
                               : fmt::format("; recorded {} bytes, {} jobs wait", recording->written_bytes,
@@ -106,14 +106,13 @@ void Metrics::add_rooms(Scrape& scrape) const {
   ShownNames names;
   for (const std::shared_ptr<Room>& room : sources_.lobby.rooms()) {
     const std::string name = names.show(room->name());
-    const bool is_asleep = !room->next_tick().is_expected();
-    if (is_asleep) room->refresh_figures();
     const std::shared_ptr<const RoomFigures> figures = room->figures();
+    if (figures->asleep) room->refresh_figures();
     add_game(scrape, name, *figures);
     add_watchers(scrape, name, *figures);
     scrape.add(Family::kRoomTickOverdue, as_seconds(room->next_tick().overdue(sources_.timekeeper.now())),
                name);
-    scrape.add(Family::kRoomAsleep, is_asleep ? 1.0 : 0.0, name);
+    scrape.add(Family::kRoomAsleep, figures->asleep ? 1.0 : 0.0, name);
     const protocol::RoomEntry census = room->census();
     scrape.add(Family::kRoomMembers, std::uint64_t{census.players}, name, "player");
     scrape.add(Family::kRoomMembers, std::uint64_t{census.bots}, name, "bot");

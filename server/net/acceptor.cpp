@@ -83,7 +83,8 @@ void Acceptor::reread(const WebSettings& settings) {
   if (!settings.tls) return;
   auto tls = load_tls(*settings.tls);
   if (!tls)
-    return environment_.log->error(
+    return log_event(
+        *environment_.log, LogEvent::kCertificateRefused,
         fmt::format("the old certificate serves on: {}: {}", tls.error().where, tls.error().what));
   asio::post(strand_, [this, fresh = std::move(*tls)]() mutable { tls_ = std::move(fresh); });
 }
@@ -173,9 +174,10 @@ std::optional<Acceptor::Guest> Acceptor::admit(tcp::socket& socket, std::size_t 
       guest.refusal = std::move(*banned);
   error = set_options(socket, std::chrono::seconds(limits->vacant_s));
   if (error)
-    log(spdlog::level::warn, guest.address,
+    log(LogEvent::kSocketOptionsFailed, guest.address,
         fmt::format("socket options of {}: {}", to_text(remote), error.message()));
-  environment_.log->debug(fmt::format("session {:016x}: from {}", guest.id, to_text(remote)));
+  log_event(*environment_.log, LogEvent::kConnected,
+            fmt::format("session {:016x}: from {}", guest.id, to_text(remote)));
   return guest;
 }
 
@@ -202,7 +204,7 @@ void Acceptor::shake_hands(SessionId id, tcp::socket socket) {
   Visit& visit = visits_.at(id);
   if (tls_ == nullptr) {
     environment_.traffic.refuse(RefusedConnection::kNoTls);
-    log(spdlog::level::debug, visit.guest.address, "TLS is not spoken here, without --tls-cert: closed");
+    log(LogEvent::kTlsRefused, visit.guest.address, "TLS is not spoken here, without --tls-cert: closed");
     return end_visit(id);
   }
   const auto doorway = make_tls_doorway(std::move(socket), *tls_, environment_.timekeeper);
@@ -347,13 +349,13 @@ void Acceptor::stop(protocol::Bye bye, std::function<void()> stopped) {
 }
 
 /// As a session does, within what its address may cause.
-void Acceptor::log(spdlog::level::level_enum level, const std::string& address, const std::string& what) {
-  if (!environment_.log->should_log(level)) return;
+void Acceptor::log(LogEvent event, const std::string& address, const std::string& what) {
+  if (!is_logged(*environment_.log, event)) return;
   const auto left_out = addresses_.account(address)->take_log_line(environment_.timekeeper.now());
   if (!left_out) return;
   const std::string others =
       *left_out == 0 ? "" : fmt::format(" ({} lines of this address left out)", *left_out);
-  environment_.log->log(level, fmt::format("{}: {}{}", address, what, others));
+  log_event(*environment_.log, event, fmt::format("{}: {}{}", address, what, others));
 }
 
 }  // namespace woodlouse::server

@@ -2,7 +2,6 @@
 // server speaks first, on the other, the web's, the client does (doorway.h).
 #pragma once
 
-#include <spdlog/common.h>
 #include <boost/asio/ip/tcp.hpp>
 
 #include <cstddef>
@@ -12,6 +11,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "server/logging/events.h"
 #include "server/net/connection_limits.h"
 #include "server/net/doorway.h"
 #include "server/net/http_door.h"
@@ -97,7 +97,7 @@ class Acceptor {
   void on_closed(const Guest& guest);
   void count_sessions(const Guest& guest, bool is_new);
   void tell_when_empty();
-  void log(spdlog::level::level_enum level, const std::string& address, const std::string& what);
+  void log(LogEvent event, const std::string& address, const std::string& what);
 
   const Lanes& lanes_;
   const SessionEnvironment& environment_;

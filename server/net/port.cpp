@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "server/logging/events.h"
 #include "server/timing/clock.h"
 #include "shared/core/joined.h"
 
@@ -82,7 +83,8 @@ void Port::on_accept(const error_code& error, tcp::socket socket, std::size_t la
     traffic_.refuse(RefusedConnection::kNotAccepted);
     // Out of descriptors or memory, or the client has gone already: nothing that stops the server.
     if (!std::exchange(starved_, true))
-      log_->error(fmt::format("cannot accept a connection: {}", error.message()));
+      log_event(*log_, LogEvent::kAcceptFailed,
+                fmt::format("cannot accept a connection: {}", error.message()));
     return pause();
   }
   starved_ = false;
@@ -100,7 +102,9 @@ void Port::pause() {
 void Port::close() {
   error_code error;
   acceptor_.close(error);
-  if (error) log_->warn(fmt::format("closing the port of {}: {}", option_, error.message()));
+  if (error)
+    log_event(*log_, LogEvent::kCloseFailed,
+              fmt::format("closing the port of {}: {}", option_, error.message()));
   pause_.cancel();
 }
 

@@ -223,7 +223,7 @@ void Session::welcome(protocol::Welcome welcome, std::uint32_t divisor) {
     self->say(welcome);
     self->watch_next(self->now());
     self->log(
-        spdlog::level::info,
+        welcome.resumed ? LogEvent::kCameBack : LogEvent::kJoined,
         fmt::format("{} room {} as {} \"{}\"", welcome.resumed ? "came back to" : "joined", welcome.room,
                     welcome.id == 0 ? "a spectator" : fmt::format("louse {}", welcome.id), welcome.name));
   });
@@ -244,7 +244,7 @@ void Session::refuse_join(protocol::ErrorMessage error) {
 
 void Session::fail(const protocol::ErrorMessage& error) {
   if (!std::exchange(is_end_told_, true))
-    log(spdlog::level::info, fmt::format("ended: {}: {}", error.code, error.text));
+    log(LogEvent::kSessionEnded, fmt::format("ended: {}: {}", error.code, error.text));
   if (error.code != code::kSlow) parting_ = Parting::kLeft;
   protocol::ErrorMessage fatal = error;
   fatal.fatal = true;
@@ -280,7 +280,7 @@ void Session::close() {
   state_ = State::kClosed;
   sender_.stop();
   watch_->cancel();
-  if (const error_code error = wire_->close()) log(spdlog::level::warn, "close: " + error.message());
+  if (const error_code error = wire_->close()) log(LogEvent::kCloseFailed, "close: " + error.message());
   std::exchange(closed_, nullptr)();
 }
 
@@ -335,14 +335,14 @@ void Session::check_pulse(Time now) {
     }
 }
 
-void Session::log(spdlog::level::level_enum level, const std::string& what) {
-  if (!environment_.log->should_log(level)) return;
+void Session::log(LogEvent event, const std::string& what) {
+  if (!is_logged(*environment_.log, event)) return;
   const auto left_out = allowance_.address().take_log_line(now());
   if (!left_out) return;
   const std::string others =
       *left_out == 0 ? "" : fmt::format(" ({} lines of this address left out)", *left_out);
-  environment_.log->log(
-      level, fmt::format("session {:016x} of {}: {}{}", id_, allowance_.address().name(), what, others));
+  log_event(*environment_.log, event,
+            fmt::format("session {:016x} of {}: {}{}", id_, allowance_.address().name(), what, others));
 }
 
 }  // namespace woodlouse::server

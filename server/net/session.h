@@ -28,6 +28,7 @@
 
 #include "server/frames/viewer.h"
 #include "server/access/doorman.h"
+#include "server/logging/events.h"
 #include "server/net/allowance.h"
 #include "server/net/handshake.h"
 #include "server/net/pulse.h"
@@ -231,7 +232,9 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   void leave_room() {
     if (!door_) return;
     std::exchange(door_, nullptr)->leave(id_, parting_);
-    if (!is_end_told_) log(spdlog::level::info, parting_ == Parting::kLeft ? "left" : "connection ended");
+    if (is_end_told_) return;
+    parting_ == Parting::kLeft ? log(LogEvent::kLeft, "left")
+                               : log(LogEvent::kConnectionEnded, "connection ended");
   }
   void close();
 
@@ -244,7 +247,7 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   void watch_next(Time now);
   void on_watch();
   void check_pulse(Time now);
-  void log(spdlog::level::level_enum level, const std::string& what);
+  void log(LogEvent event, const std::string& what);
 
   SessionId id_;
   std::unique_ptr<Wire> wire_;

@@ -39,7 +39,7 @@ bool Board::offer(LiveRun run) {
   });
   if (is_in) return true;
   book_->expect(false);
-  book_->say(spdlog::level::warn,
+  book_->say(LogEvent::kRunLeftOut,
              fmt::format("room {}: \"{}\"'s run of {:.2f} ticks is left out: {} others wait to be re-run",
                          shared->room, core::printable(shared->name),
                          static_cast<double>(shared->driven.time) / rules::kMomentsPerTick, kMaxQueued));

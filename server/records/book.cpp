@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "server/logging/events.h"
 #include "server/records/ghost_line.h"
 #include "shared/core/joined.h"
 #include "shared/core/printable.h"
@@ -47,12 +48,13 @@ Board::Book::Book(std::shared_ptr<const map::Map> map, std::uint32_t tick_hz, Bo
       of_file_(std::move(opened.board.rows)),
       has_strange_lines_(!opened.board.faults.empty()) {
   if (opened.board.torn != 0)
-    log_->warn(
-        fmt::format("{}: the last line was cut off, {} bytes of it are gone: a server was killed while "
-                    "it wrote them",
-                    name_, opened.board.torn));
+    log_event(*log_, LogEvent::kBoardTorn,
+              fmt::format("{}: the last line was cut off, {} bytes of it are gone: a server was killed while "
+                          "it wrote them",
+                          name_, opened.board.torn));
   for (const core::Error& fault : opened.board.faults)
-    log_->error(fmt::format("{}: {}: passed over", fault.where, fault.what));
+    log_event(*log_, LogEvent::kBoardLinePassedOver,
+              fmt::format("{}: {}: passed over", fault.where, fault.what));
   show();
 }
 
@@ -63,9 +65,9 @@ std::shared_ptr<const Board::Book::Shown> Board::Book::shown() const {
   return shown_;
 }
 
-void Board::Book::say(spdlog::level::level_enum level, const std::string& text) {
+void Board::Book::say(LogEvent event, const std::string& text) {
   const std::lock_guard lock(outside_);
-  if (log_) log_->log(level, text);
+  if (log_) log_event(*log_, event, text);
 }
 
 void Board::Book::leave_behind() {
@@ -100,7 +102,7 @@ void Board::Book::begin() {
       continue;
     }
     has_strange_lines_ = true;
-    say(spdlog::level::err,
+    say(LogEvent::kRecordRefused,
         fmt::format("RECORD REFUSED: {}:{}: {}: {}; it stands in the file and on no board", name_, row.line,
                     run_name(ghost.run.name, ghost.run.time), why));
   }
@@ -119,8 +121,9 @@ void Board::Book::take(const LiveRun& run) {
   if (!why.empty()) {
     const bool began_before =
         !again.times.gates.empty() && again.times.gates[0] < driven.counted_from * rules::kMomentsPerTick;
-    if (began_before) return say(spdlog::level::info, whose + " is no record: it began before its round did");
-    return say(spdlog::level::err,
+    if (began_before)
+      return say(LogEvent::kRunNoRecord, whose + " is no record: it began before its round did");
+    return say(LogEvent::kRecordRefused,
                core::joined({"RECORD REFUSED: ", whose, ": ", why, ": the game and its re-run differ"}));
   }
   protocol::RecordRun row;
@@ -179,14 +182,14 @@ void Board::Book::write_anew() {
 void Board::Book::note(const core::Expected<void>& outcome) {
   if (outcome) {
     if (std::exchange(is_failing_, false))
-      say(spdlog::level::warn, fmt::format("{}: written again, nothing is lost", name_));
+      say(LogEvent::kRecordsWrittenAgain, fmt::format("{}: written again, nothing is lost", name_));
     return;
   }
   const Time now = Clock::now();
   const bool is_new = !std::exchange(is_failing_, true);
   if (!is_new && now < told_at_ + kTellEvery) return;
   told_at_ = now;
-  say(spdlog::level::err,
+  say(LogEvent::kRecordsNotWritten,
       fmt::format(
           "RECORDS NOT WRITTEN: {}: {}; {} runs stand on the board and in no file, they are tried again "
           "with the next one and at the end",

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "server/logging/events.h"
 #include "server/records/board.h"
 
 namespace woodlouse::server {
@@ -37,7 +38,7 @@ class Board::Book {
     }
   };
   [[nodiscard]] std::shared_ptr<const Shown> shown() const;
-  void say(spdlog::level::level_enum level, const std::string& text);
+  void say(LogEvent event, const std::string& text);
   /// One more run comes, or does not after all.
   void expect(bool comes) { comes ? ++expected_ : --expected_; }
   /// Neither log nor rooms are touched again.

@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "server/logging/events.h"
 #include "shared/core/printable.h"
 
 namespace woodlouse::server {
@@ -43,10 +44,11 @@ void GhostRecorder::tell_too_long(const std::string& name) {
   const Time now = Clock::now();
   if (told_at_ != Time{} && now < told_at_ + kTooLongEvery) return;
   told_at_ = now;
-  log_->info(fmt::format(
-      "room {}: \"{}\"'s run is no record: since its spawn there were more than {} s or {} inputs, or all "
-      "lice's are too many",
-      room_, core::printable(name), state::kMostGhostSeconds, state::kMostGhostInputs));
+  log_event(*log_, LogEvent::kRunNoRecord,
+            fmt::format("room {}: \"{}\"'s run is no record: since its spawn there were more than {} s or {} "
+                        "inputs, or all "
+                        "lice's are too many",
+                        room_, core::printable(name), state::kMostGhostSeconds, state::kMostGhostInputs));
 }
 
 Line GhostRecorder::answer(const protocol::ClientMessage& question) const {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <variant>
 
+#include "server/logging/events.h"
 #include "shared/core/joined.h"
 #include "shared/protocol/codec.h"
 #include "shared/protocol/codes.h"
@@ -68,8 +69,9 @@ void Members::give_louse(Seat& seat) {
     seat.louse = taken->louse;
     seat.next_seq = taken->next_seq;
     if (is_session)
-      log_->info(fmt::format("room {}: \"{}\" takes over louse {} of the recording", settings_.name,
-                             seat.name, seat.louse));
+      log_event(*log_, LogEvent::kLouseTakenOver,
+                fmt::format("room {}: \"{}\" takes over louse {} of the recording", settings_.name, seat.name,
+                            seat.louse));
     return;
   }
   seat.name = seats_.free_name(seat.name, static_cast<std::uint64_t>(events_.next()));

@@ -177,8 +177,9 @@ void Room::begin_next() {
   is_next_asked_ = false;
   over_ticks_ = 0;
   ++games_;
-  log_->info(fmt::format("room {}: game {} begins: {} of map {}", settings_.name, games_,
-                         state::to_text(game_->settings().mode), game_->map().definition.name));
+  say(LogEvent::kGameBegan,
+      fmt::format("game {} begins: {} of map {}", games_, state::to_text(game_->settings().mode),
+                  game_->map().definition.name));
   begin_watching();
   members_.begin(*game_, std::move(team));
   finish(former->watchers, "the room plays another game", [this, former] {
@@ -227,13 +228,6 @@ void Room::admit(Arrival arrival) {
   if (state_ == State::kAsleep) wake();
 }
 
-void Room::use(const protocol::Limits& limits) {
-  asio::post(strand_, [self = shared_from_this(), this, limits] {
-    settings_.limits = limits;
-    members_.renew_budgets(timekeeper_.now());
-  });
-}
-
 void Room::submit(SessionId session, protocol::ClientMessage message, Time arrived) {
   asio::post(strand_, [self = shared_from_this(), this, session, message = std::move(message), arrived] {
     in_order(session, [this, session, message, arrived] { members_.take(session, message, arrived); });
@@ -267,9 +261,9 @@ void Room::on_tick_due() {
   const Duration late = clock_->begin(now);
   working_.lateness.add(late);
   if (clock_->moves() != moves)
-    log_->warn(fmt::format("room {}: tick {} came {} ms late; the clock moved, nothing is made up for",
-                           settings_.name, game_->tick(),
-                           std::chrono::duration_cast<std::chrono::milliseconds>(late).count()));
+    say(LogEvent::kClockMoved,
+        fmt::format("tick {} came {} ms late; the clock moved, nothing is made up for", game_->tick(),
+                    std::chrono::duration_cast<std::chrono::milliseconds>(late).count()));
   tick(now);
   working_.work.add(timekeeper_.now() - now);
   ++working_.ticks;
@@ -301,8 +295,8 @@ void Room::fall_asleep() {
   next_tick_.expect_none();
   ++working_.sleeps;
   post_figures();
-  log_->info(fmt::format("room {}: nobody is here: it stands still at tick {} until somebody joins",
-                         settings_.name, game_->tick()));
+  say(LogEvent::kRoomAsleep,
+      fmt::format("nobody is here: it stands still at tick {} until somebody joins", game_->tick()));
   for (const auto& watcher : watchers_) watcher->fall_asleep(*game_);
 }
 
@@ -310,7 +304,8 @@ void Room::wake() {
   assert(state_ == State::kAsleep);
   state_ = State::kRunning;
   deserted_ticks_ = 0;
-  log_->info(fmt::format("room {}: goes on with tick {}", settings_.name, game_->tick()));
+  post_figures();
+  say(LogEvent::kRoomAwake, fmt::format("goes on with tick {}", game_->tick()));
   for (const auto& watcher : watchers_) watcher->wake(*game_);
   clock_->restart(std::chrono::floor<Beat>(timekeeper_.now()));  // who has joined waits for none
   await_tick();
@@ -332,6 +327,7 @@ void Room::tick(Time now) {
 
 void Room::post_figures() {
   look_for_recording();
+  working_.asleep = state_ == State::kAsleep || state_ == State::kPaused;
   working_.frames_encoded = members_.frames_encoded();
   if (clock_) working_.clock_moves = clock_->moves();
   RoomFigures all = working_;

@@ -31,6 +31,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/logging/events.h"
 #include "server/room/door.h"
 #include "server/room/members.h"
 #include "server/room/rotation.h"
@@ -42,6 +43,7 @@
 #include "server/timing/tick_clock.h"
 #include "server/timing/timekeeper.h"
 #include "shared/core/error.h"
+#include "shared/core/joined.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
 #include "shared/replay/format.h"
@@ -76,7 +78,12 @@ class Room : public std::enable_shared_from_this<Room> {
   /// room's strand. A room that has stopped takes nobody more; whoever stops it again only hears of its end.
   void stop(const protocol::Bye& bye, const std::string& reason, std::function<void()> stopped);
   /// From now on these hold; who is here stays.
-  void use(const protocol::Limits& limits);
+  void use(const protocol::Limits& limits) {
+    boost::asio::post(strand_, [self = shared_from_this(), this, limits] {
+      settings_.limits = limits;
+      members_.renew_budgets(timekeeper_.now());
+    });
+  }
   /// What sessions hold. It does not keep the room.
   [[nodiscard]] std::shared_ptr<Door> door();
 
@@ -116,7 +123,7 @@ class Room : public std::enable_shared_from_this<Room> {
       post_figures();
     });
   }
-  /// None while nobody is there.
+  /// None is due while the room stands still.
   [[nodiscard]] const NextTick& next_tick() const { return next_tick_; }
 
  private:
@@ -174,6 +181,9 @@ class Room : public std::enable_shared_from_this<Room> {
   template <typename Order>
   void order(Ordered answered, Order carry_out);
   void post_figures();
+  void say(LogEvent event, std::string_view text) const {
+    log_event(*log_, event, core::joined({"room ", settings_.name, ": ", text}));
+  }
 
   RoomSettings settings_;
   std::shared_ptr<spdlog::logger> log_;

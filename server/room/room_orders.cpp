@@ -46,7 +46,7 @@ void Room::pause(Ordered answered) {
   order(std::move(answered), [this](const Ordered& done) {
     if (state_ == State::kPaused) return done(core::fail({}, "is paused already"));
     if (steps_left_ == 0) members_.pause();
-    log_->info(fmt::format("room {}: paused at tick {}", settings_.name, game_->tick()));
+    say(LogEvent::kRoomPaused, fmt::format("paused at tick {}", game_->tick()));
     steps_left_ = 0;
     end_steps(core::fail({}, "was paused before all steps were done"));
     stand_still();
@@ -58,7 +58,7 @@ void Room::resume(Ordered answered) {
   order(std::move(answered), [this](const Ordered& done) {
     const bool steps = std::exchange(steps_left_, 0) != 0;
     if (state_ != State::kPaused && !steps) return done(core::fail({}, "is not paused"));
-    log_->info(fmt::format("room {}: goes on with tick {}", settings_.name, game_->tick()));
+    say(LogEvent::kRoomResumed, fmt::format("goes on with tick {}", game_->tick()));
     end_steps(core::fail({}, "was resumed before all steps were done"));
     members_.resume();
     if (!steps) go_on();
@@ -93,6 +93,7 @@ void Room::go_on() {
   assert(state_ == State::kPaused && clock_);
   state_ = State::kRunning;
   deserted_ticks_ = 0;
+  post_figures();
   for (const auto& watcher : watchers_) watcher->wake(*game_);
   clock_->restart(std::chrono::ceil<std::chrono::milliseconds>(timekeeper_.now()));
   await_tick();

@@ -89,6 +89,7 @@ struct RoomFigures {
   DurationHistogram work;      ///< a tick's work, from its start
   std::uint64_t clock_moves = 0;
   std::uint64_t sleeps = 0;             ///< how often it stood still, as nobody was there
+  bool asleep = false;                  ///< it does now
   std::uint64_t frames_encoded = 0;     ///< keys and deltas, once per (room, format, fields, tick)
   std::optional<GroundFigures> ground;  ///< of a big map
   std::optional<ShadowFigures> shadow;

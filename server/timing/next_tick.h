@@ -27,7 +27,6 @@ class NextTick {
   /// The room stands still.
   void expect_none() { expect(Time::max()); }
 
-  [[nodiscard]] bool is_expected() const { return due_.load(std::memory_order_relaxed) != Time::max(); }
   /// For how long it has been due, or has been worked on since; zero where none is.
   [[nodiscard]] Duration overdue(Time now) const {
     return std::max(Duration{}, now - std::min(now, due_.load(std::memory_order_relaxed)));

@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "server/logging/events.h"
 #include "shared/terrain/terrain.h"
 
 namespace woodlouse::server {
@@ -44,12 +45,15 @@ void GroundAhead::tell_of_failures() {
   const std::uint64_t failures = figures().read_failures;
   if (failures == 0) return;
   told_ = true;
-  log_->error(fmt::format(
-      "room {}: the map's file can't be read any more ({} reads failed; {}). Where it could not, ground "
-      "without data "
-      "stands in: the game goes on, its recording may not verify. Check the disk, and that nobody changed "
-      "the file",
-      room_, failures, map_file_));
+  log_event(
+      *log_, LogEvent::kMapUnreadable,
+      fmt::format(
+          "room {}: the map's file can't be read any more ({} reads failed; {}). Where it could not, ground "
+          "without data "
+          "stands in: the game goes on, its recording may not verify. Check the disk, and that nobody "
+          "changed "
+          "the file",
+          room_, failures, map_file_));
 }
 
 GroundAhead::~GroundAhead() { shared_->stopping = true; }

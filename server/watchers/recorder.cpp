@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/logging/events.h"
 #include "shared/replay/writer.h"
 
 namespace woodlouse::server {
@@ -30,7 +31,8 @@ core::Expected<std::unique_ptr<Recorder>> Recorder::open(std::shared_ptr<Recordi
         "cannot write the recording " + out.error().where, out.error().what,
         out.error().hint.empty() ? "does its folder exist, and may you write there?" : out.error().hint);
   if (out->is_numbered)
-    log->warn(
+    log_event(
+        *log, LogEvent::kRecordingRenamed,
         fmt::format("{} is there already: recording to {}", files->file(room).string(), out->path.string()));
   const replay::Header first = header;
   return std::unique_ptr<Recorder>(

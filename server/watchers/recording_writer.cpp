@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "server/logging/events.h"
 #include "shared/protocol/codes.h"
 
 namespace woodlouse::server {
@@ -47,8 +48,10 @@ void RecordingWriter::give_up(const std::string& why) {
   if (has_finished_ || failed_.exchange(true)) return;
   why_lost_ = why;
   if (log_)
-    log_->error(fmt::format(
-        "RECORDING ENDED: cannot write {}: {}; the game goes on, what follows is not recorded", name_, why));
+    log_event(
+        *log_, LogEvent::kRecordingEnded,
+        fmt::format("RECORDING ENDED: cannot write {}: {}; the game goes on, what follows is not recorded",
+                    name_, why));
   if (announce_)
     announce_({std::string(protocol::code::kRecordingEnded), "the game is no longer recorded: " + why});
 }
@@ -58,7 +61,9 @@ void RecordingWriter::leave_behind(const std::string& why) {
   const std::lock_guard lock(outside_);
   if (has_begun_ && !has_finished_ && !failed_.exchange(true)) {
     why_lost_ = why;
-    if (log_) log_->error(fmt::format("RECORDING UNFINISHED: {}: {}", name_, why));
+    if (log_)
+      log_event(*log_, LogEvent::kRecordingUnfinished,
+                fmt::format("RECORDING UNFINISHED: {}: {}", name_, why));
   }
   log_.reset();
   announce_ = nullptr;
@@ -77,9 +82,9 @@ std::string RecordingWriter::lost() const {
   return why_lost_.empty() ? std::string() : name_ + ": " + why_lost_;
 }
 
-void RecordingWriter::say(spdlog::level::level_enum level, const std::string& text) {
+void RecordingWriter::say(LogEvent event, const std::string& text) {
   const std::lock_guard lock(outside_);
-  if (log_) log_->log(level, text);
+  if (log_) log_event(*log_, event, text);
 }
 
 /// Called and let go of under the lock: whoever has left this behind may end what is told.
@@ -111,7 +116,7 @@ void RecordingWriter::chat(std::uint64_t tick, match::PlayerId player, const std
   if (!is_writing()) return;
   const bool fits = lines_.append_chat(bytes_, tick, player, name, text);
   if (!fits && std::exchange(left_out_at_, tick) != tick)
-    say(spdlog::level::warn,
+    say(LogEvent::kChatLeftOut,
         fmt::format("{}: more was said at tick {} than a recording holds, the rest of it is left out", name_,
                     tick));
   write_when_much();
@@ -161,7 +166,7 @@ void RecordingWriter::write_out() {
   if (files_ && !bytes_.empty()) {
     const RecordingFiles::Removed removed = files_->make_room(name_, bytes_.size());
     if (removed.files > 0)
-      say(spdlog::level::info,
+      say(LogEvent::kRecordingsRemoved,
           fmt::format("removed {} of the oldest recordings, {} bytes, up to {}: all are to have {} bytes; "
                       "{} removed so far",
                       removed.files, removed.bytes, removed.last, *files_->keep(), files_->removed()));
@@ -188,11 +193,11 @@ void RecordingWriter::close(const std::string& reason) {
 void RecordingWriter::begin_next_file(const match::MatchState& at) {
   std::error_code error;
   if (!files_ || !std::filesystem::is_regular_file(name_, error))
-    return say(spdlog::level::warn,
+    return say(LogEvent::kRecordingNoFile,
                fmt::format("{}: is no file that another could follow: it goes on", name_));
   auto next = files_->create(room_);
   if (!next)
-    return say(spdlog::level::err,
+    return say(LogEvent::kRecordingNotFollowed,
                fmt::format("no recording can follow {}, which goes on: {}", name_, next.error().text()));
   const std::string name = next->path.string();
   close("continued in " + name);
@@ -201,7 +206,8 @@ void RecordingWriter::begin_next_file(const match::MatchState& at) {
     std::filesystem::remove(name, error);  // nothing is in it
     return;
   }
-  say(spdlog::level::info, fmt::format("{}: continued in {} from tick {} on", name_, name, at.tick));
+  say(LogEvent::kRecordingContinued,
+      fmt::format("{}: continued in {} from tick {} on", name_, name, at.tick));
   header_.parent = replay::Parent{name_, at.tick, at.hash};
   {
     const std::lock_guard lock(outside_);

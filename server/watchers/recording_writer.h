@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "server/logging/events.h"
 #include "server/room/tick_watcher.h"
 #include "server/watchers/recording_files.h"
 #include "shared/core/byte_sink.h"
@@ -73,7 +74,7 @@ class RecordingWriter {
   void begin_next_file(const match::MatchState& at);
   void put();
   void judge(const core::Expected<void>& outcome);
-  void say(spdlog::level::level_enum level, const std::string& text);
+  void say(LogEvent event, const std::string& text);
   void tell_finished();
 
   const std::string room_;

@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "server/logging/events.h"
 #include "shared/core/joined.h"
 #include "shared/core/sink_file.h"
 #include "shared/replay/writer.h"
@@ -74,13 +75,16 @@ void Shadow::tell(const match::StepRecord& record, const match::MatchState& game
   };
   const std::string game_file = kept(dump_side("game", record, game));
   const std::string shadow_file = kept(dump_side("shadow", own, shadow));
-  log_->error(fmt::format(
-      "SHADOW DIFFERS: room {}: tick {}: {}; {}. The game's is what is called recorded, its shadow's the "
-      "re-run. Both "
-      "are kept: {} and {}; ask woodlouse-server verify which of them this machine gives again. The game "
-      "goes on; "
-      "further differences are only counted",
-      room_, game.tick, what, detail.empty() ? "the states are the same" : detail, game_file, shadow_file));
+  log_event(
+      *log_, LogEvent::kShadowDiffers,
+      fmt::format(
+          "SHADOW DIFFERS: room {}: tick {}: {}; {}. The game's is what is called recorded, its shadow's the "
+          "re-run. Both "
+          "are kept: {} and {}; ask woodlouse-server verify which of them this machine gives again. The game "
+          "goes on; "
+          "further differences are only counted",
+          room_, game.tick, what, detail.empty() ? "the states are the same" : detail, game_file,
+          shadow_file));
 }
 
 /// A recording of that one step: the state before it, on which both agreed, and the one after.
@@ -115,8 +119,9 @@ void Shadow::add_figures(RoomFigures& figures) const {
 
 void Shadow::end(const std::string& why) {
   if (ended_.exchange(true)) return;
-  log_->error(fmt::format("SHADOW ENDED: room {}: {}; the game goes on, its ticks are no longer compared",
-                          room_, why));
+  log_event(*log_, LogEvent::kShadowEnded,
+            fmt::format("SHADOW ENDED: room {}: {}; the game goes on, its ticks are no longer compared",
+                        room_, why));
 }
 
 }  // namespace woodlouse::server

@@ -25,16 +25,17 @@ ARROWS = {
 LIBRARY = set(ARROWS)
 SHARED = LIBRARY - {"physics/lanes"}  # reached through physics/batch.h
 ARROWS |= {
+    "server/logging": SHARED,
     "server/timing": SHARED,
     "server/frames": SHARED,
     "server/bots": SHARED,
-    "server/room": SHARED | {"server/access", "server/bots", "server/frames", "server/timing"},
-    "server/watchers": SHARED | {"server/room", "server/timing"},
-    "server/records": SHARED | {"server/frames", "server/room", "server/timing", "server/watchers"},
+    "server/room": SHARED | {"server/access", "server/bots", "server/frames", "server/logging", "server/timing"},
+    "server/watchers": SHARED | {"server/logging", "server/room", "server/timing"},
+    "server/records": SHARED | {"server/frames", "server/logging", "server/room", "server/timing", "server/watchers"},
     "server/proxies": SHARED | {"server/timing"},
-    "server/net": SHARED | {"server/access", "server/frames", "server/proxies", "server/room", "server/timing"},
+    "server/net": SHARED | {"server/access", "server/frames", "server/logging", "server/proxies", "server/room", "server/timing"},
     "server/access": SHARED | {"server/timing"},
-    "server/admin": SHARED | {"server/access", "server/net", "server/timing"},
+    "server/admin": SHARED | {"server/access", "server/logging", "server/net", "server/timing"},
     "server/metrics": SHARED | {"server/room", "server/timing", "server/watchers"},
     "server/commands": SHARED | {"server/admin", "server/net", "server/records", "server/room"},
     "client/drawing": SHARED,

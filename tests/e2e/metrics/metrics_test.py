@@ -159,6 +159,27 @@ class Metrics(unittest.TestCase):
             version = re.search(r"\d+\.\d+\.\d+", run("--version")[1])[0]
             self.assertIn(version, next(s for s in scrape.series if s[0] == "woodlouse_build_info"))
 
+    def test_every_line_of_the_log_is_a_documented_event_at_its_level(self):
+        events = dict(re.findall(r"^\| `(\w+)` \| (debug|info|warning|error) \|", DOCUMENT.read_text(), re.M))
+        for log_format in ("text", "json"):
+            with Watched("--log-format", log_format, "--log-level", "debug") as server:
+                with server.player('"\n info left: ') as mara:
+                    mara.send({"type": "leave"})
+                    mara.until_end()
+                with server.client() as other:
+                    other.send_bytes(b"x" * 70000)
+                    other.expect("bye")
+                server.wait_for_log("ended: line_too_long")
+                lines = server.log().splitlines()
+            if log_format == "json":
+                told = [(entry["event"], entry["level"]) for entry in map(json.loads, lines)]
+            else:
+                found = [re.match(r"\d\d:\d\d:\d\d\.\d{3} (\w+) (\w+): ", line) for line in lines]
+                self.assertNotIn(None, found, lines)
+                told = [(line[2], line[1]) for line in found]
+            self.assertEqual([level for _, level in told], [events.get(event) for event, _ in told], lines)
+            self.assertEqual({event for event, _ in told}, {"room_opened", "connected", "joined", "left", "session_ended"})
+
     def test_it_is_ready_for_who_asks_at_the_operators_door(self):
         with Watched() as server:
             self.assertEqual(server.ask("/readyz"), (200, "text/plain; charset=utf-8", "ready\n"))

@@ -114,7 +114,7 @@ class CommandLine(unittest.TestCase):
             server.stop()
             entries = [json.loads(line) for line in server.log().splitlines()]
             self.assertTrue(any('q"uote' in entry["message"] for entry in entries))
-            self.assertTrue(all({"time", "level", "message"} == set(entry) for entry in entries))
+            self.assertTrue(all({"time", "level", "event", "message"} == set(entry) for entry in entries))
 
 
 if __name__ == "__main__":

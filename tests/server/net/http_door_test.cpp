@@ -7,6 +7,7 @@
 #include <boost/asio/write.hpp>
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <memory>
@@ -175,6 +176,17 @@ TEST_CASE("what is no request for a page here is told so, and is the last") {
   CHECK(count(answer, "Connection: close") == 1);
   browser.far.shutdown(tcp::socket::shutdown_send);
   browser.until_closed();
+}
+
+TEST_CASE("who looks after the server is told that ticks are overdue, and what was refused is counted") {
+  Browser browser;
+  browser.directory.are_ticks_overdue = true;
+  const std::string answer = browser.ask("GET /readyz HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  CHECK(answer.starts_with("HTTP/1.1 503 "));
+  CHECK(answer.ends_with("\r\n\r\nticks are overdue\n"));
+  CHECK(browser.traffic.web_requests == 1);
+  const auto status = std::find(kRefusingStatuses.begin(), kRefusingStatuses.end(), 503u);
+  CHECK(browser.traffic.web_refused.at(static_cast<std::size_t>(status - kRefusingStatuses.begin())) == 1);
 }
 
 TEST_CASE("HEAD is told how long the page is, and gets none of it") {

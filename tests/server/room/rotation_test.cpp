@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -75,6 +76,22 @@ TEST_CASE("most of the players vote, and everybody is in the next game") {
   house.say(2, protocol::Skip{});
   house.tick(3);
   CHECK(turns.asked == 1);
+}
+
+TEST_CASE("what was counted beside a game is never taken back, however long that takes to finish") {
+  SeenGames seen;
+  HandmadeRotation turns(seen);
+  Turning house(seen, turns);
+  house.join(1, named("ann"));
+  house.say(1, protocol::Skip{});
+  house.next_game();
+  REQUIRE(seen.unfinished.size() == 1);
+  house.tick(61);
+  REQUIRE(house.room->figures()->shadow);
+  CHECK(house.room->figures()->shadow->ticks == 2);  // one of each game
+  std::exchange(seen.unfinished, {}).front()();
+  house.tick(61);
+  CHECK(house.room->figures()->shadow->ticks == 2);
 }
 
 TEST_CASE("a player's own count of inputs goes on in the next game, where he has a louse at rest") {

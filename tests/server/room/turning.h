@@ -43,6 +43,9 @@ class GameWitness final : public TickWatcher {
     seen_.unfinished.push_back(std::move(done));
     announce_({"recording_ended", "late words of " + game_});
   }
+  void add_figures(RoomFigures& figures) const override {
+    ++(figures.shadow ? *figures.shadow : figures.shadow.emplace()).ticks;
+  }
 
  private:
   SeenGames& seen_;
