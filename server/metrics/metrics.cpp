@@ -68,8 +68,15 @@ void add_watchers(Scrape& scrape, std::string_view name, const RoomFigures& figu
   }
 }
 
-std::string status_of(const Room& room) {
-  const std::shared_ptr<const RoomFigures> figures = room.figures();
+/// Of a room that stands still they are those of the last time that somebody asked, or of the one before.
+std::shared_ptr<const RoomFigures> fresh_figures(Room& room) {
+  auto figures = room.figures();
+  if (figures->asleep) room.refresh_figures();
+  return figures;
+}
+
+std::string status_of(Room& room) {
+  const std::shared_ptr<const RoomFigures> figures = fresh_figures(room);
   const protocol::RoomEntry census = room.census();
   std::string line = fmt::format(
       "{}: players {}, bots {}, spectators {}; ticks {}, lateness p99 {:.3f} ms, work p99 {:.3f} ms, clock "
@@ -106,8 +113,7 @@ void Metrics::add_rooms(Scrape& scrape) const {
   ShownNames names;
   for (const std::shared_ptr<Room>& room : sources_.lobby.rooms()) {
     const std::string name = names.show(room->name());
-    const std::shared_ptr<const RoomFigures> figures = room->figures();
-    if (figures->asleep) room->refresh_figures();
+    const std::shared_ptr<const RoomFigures> figures = fresh_figures(*room);
     add_game(scrape, name, *figures);
     add_watchers(scrape, name, *figures);
     scrape.add(Family::kRoomTickOverdue, as_seconds(room->next_tick().overdue(sources_.timekeeper.now())),

@@ -164,14 +164,20 @@ std::optional<Acceptor::Guest> Acceptor::admit(tcp::socket& socket, std::size_t 
   const auto admission = guest.proxy.empty() ? addresses_.admit(guest.address, now)
                                              : addresses_.admit_unknown(guest.address, now);
   TrafficMetrics::add_one(environment_.traffic.connections);
-  if (const auto why = refused(admission)) environment_.traffic.refuse(*why);
-  if (admission == ConnectionLimits::Admission::kDrop) return std::nullopt;
+  auto why = refused(admission);
+  if (admission == ConnectionLimits::Admission::kDrop) {
+    environment_.traffic.refuse(*why);
+    return std::nullopt;
+  }
   ++next_id_;
   const auto limits = environment_.limits.now();
   if (admission != ConnectionLimits::Admission::kWelcome) guest.refusal = too_many(admission, *limits);
   if (environment_.doorman != nullptr)
-    if (auto banned = environment_.doorman->why_not_connect(remote.address(), wall_now()))
+    if (auto banned = environment_.doorman->why_not_connect(remote.address(), wall_now())) {
       guest.refusal = std::move(*banned);
+      why = RefusedConnection::kBanned;
+    }
+  if (why) environment_.traffic.refuse(*why);
   error = set_options(socket, std::chrono::seconds(limits->vacant_s));
   if (error)
     log(LogEvent::kSocketOptionsFailed, guest.address,

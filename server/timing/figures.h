@@ -101,11 +101,12 @@ enum class RefusedConnection : std::uint8_t {
   kAddressFull,  ///< its address has as many as it may have; it was told
   kServerFull,   ///< so has the server; it was told
   kDropped,      ///< past both by so many that it was not even told
+  kBanned,       ///< its address is; it was told
   kNotAccepted,  ///< the system gave none: no descriptor, no memory
   kNoTls,        ///< it spoke TLS where none is spoken
 };
-inline constexpr std::array<std::string_view, 5> kRefusedConnections{"address_full", "server_full", "dropped",
-                                                                     "not_accepted", "no_tls"};
+inline constexpr std::array<std::string_view, 6> kRefusedConnections{
+    "address_full", "server_full", "dropped", "banned", "not_accepted", "no_tls"};
 
 /// What is answered to who asks by HTTP for what he does not get.
 inline constexpr std::array<std::uint32_t, 10> kRefusingStatuses{400, 403, 404, 405, 413,

@@ -9,11 +9,12 @@ import socket
 import struct
 import sys
 import tempfile
+import time
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "server"))
 from scrape import DOCUMENT, Watched, documented
-from wire import PATIENCE, run
+from wire import PATIENCE, map_file, run
 
 
 def until_end(wire):
@@ -85,6 +86,32 @@ class Metrics(unittest.TestCase):
             after = server.wait_for(lambda s: s["woodlouse_session_ends_total", "lost"] == 1)
             self.assertEqual(after["woodlouse_refused_lines_total", "stale_seq"], 2)
             self.assertGreater(after["woodlouse_sent_frames_total"], 0)
+
+    def test_a_room_that_closes_takes_its_series_along_and_one_that_is_paused_is_not_overdue(self):
+        with Watched() as server:
+            server.command({"type": "open", "file": map_file("hills"), "name": "second"})
+            with server.player("eve", room="second"):
+                server.wait_for(lambda s: s["woodlouse_room_ticks_total", "second"] >= 60)
+                server.command({"type": "pause", "room": "second"})
+                server.wait_for(lambda s: s["woodlouse_room_asleep", "second"] == 1)
+                time.sleep(1)
+                self.assertEqual(server.scrape()["woodlouse_room_tick_overdue_seconds", "second"], 0)
+                self.assertEqual(server.ask("/readyz")[0], 200)
+                server.command({"type": "resume", "room": "second"})
+                server.wait_for(lambda s: s["woodlouse_room_asleep", "second"] == 0)
+                server.command({"type": "close", "room": "second"})
+                closed = server.wait_for(lambda s: ("woodlouse_room_asleep", "second") not in s.series)
+            self.assertEqual({key for key in closed.series if "second" in key}, set())
+            self.assertEqual(closed["woodlouse_room_asleep", "volcano"], 0)
+            server.wait_for(lambda s: s["woodlouse_sessions"] == 0)
+
+    def test_who_is_banned_is_counted_as_such(self):
+        with Watched() as server:
+            server.command({"type": "ban", "who": "127.0.0.9", "seconds": 60})
+            with server.client(source="127.0.0.9") as banned:
+                banned.until_end()
+            refused = server.scrape().by_label("woodlouse_connections_refused_total")
+            self.assertEqual({reason: count for reason, count in refused.items() if count}, {"banned": 1})
 
     def test_counters_only_grow_and_the_histograms_count_every_tick(self):
         with Watched("--bots", "2", "--bots-alone", "play") as server:

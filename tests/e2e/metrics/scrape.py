@@ -1,6 +1,7 @@
 """A server whose metrics are read, and what is read."""
 
 import http.client
+import json
 import os
 import pathlib
 import re
@@ -78,6 +79,16 @@ class Watched(Server):
     def __exit__(self, *what):
         super().__exit__(*what)
         self.folder.cleanup()
+
+    def command(self, command):
+        """What the operator's door answers to that line."""
+        with socket.socket(socket.AF_UNIX, socket.SOCK_STREAM) as wire:
+            wire.settimeout(PATIENCE)
+            wire.connect(self.door)
+            wire.sendall(json.dumps(command).encode() + b"\n")
+            answer = json.loads(wire.makefile().readline())
+        assert answer["type"] == "done", answer
+        return answer
 
     def ask(self, path, connection=None):
         """(status, type, body)"""
