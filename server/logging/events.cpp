@@ -42,6 +42,8 @@ constexpr std::array<LogEventEntry, kLogEventCount> kEvents{{
     {"connection_ended", level::info, "a session's connection ended without a word"},
     {"session_ended", level::info, "the server ended a session; code and text as it was told"},
     {"tls_refused", level::debug, "somebody spoke TLS where there is no certificate"},
+    {"proxy_header_refused", level::warn,
+     "what a trusted proxy began with is no header of the PROXY protocol's version 2: closed"},
     {"accept_failed", level::err, "the system gives no connection: no descriptor, no memory; told once"},
     {"socket_options_failed", level::warn, "a connection is served without them"},
     {"close_failed", level::warn, "the system says that closing failed"},

@@ -51,6 +51,7 @@ enum class LogEvent : std::uint8_t {
   kConnectionEnded,
   kSessionEnded,
   kTlsRefused,
+  kProxyHeaderRefused,
   kAcceptFailed,
   kSocketOptionsFailed,
   kCloseFailed,
@@ -75,7 +76,7 @@ enum class LogEvent : std::uint8_t {
   kRecordsNotWritten,
   kRecordsWrittenAgain,
 };
-inline constexpr std::size_t kLogEventCount = 53;
+inline constexpr std::size_t kLogEventCount = 54;
 
 struct LogEventEntry {
   std::string_view name;  ///< a literal

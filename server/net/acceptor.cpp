@@ -9,6 +9,7 @@
 #include <chrono>
 #include <utility>
 
+#include "server/net/admission.h"
 #include "server/net/tcp_wire.h"
 #include "server/net/tls_doorway.h"
 #include "server/net/tls_wire.h"
@@ -21,36 +22,11 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
 
-protocol::ErrorMessage too_many(ConnectionLimits::Admission admission, const protocol::Limits& limits) {
-  const bool is_address = admission == ConnectionLimits::Admission::kAddressFull;
-  return {std::string(protocol::code::kTooManyConnections),
-          is_address ? "your address has " + std::to_string(limits.per_address) +
-                           " connections already; close one first"
-                     : "the server has " + std::to_string(limits.max_connections) +
-                           " connections, the last of them for addresses that have none; try again later",
-          true,
-          {}};
-}
-
 /// Where the server speaks first, who has said nothing by then does not begin with a header.
 constexpr Duration kHeaderPatience = std::chrono::seconds(3);
 
 /// As what the connections of a trusted proxy count of which it has not said whose they are.
-std::string unknown_of(const std::string& proxy) { return "proxy " + proxy; }
-
-std::optional<RefusedConnection> refused(ConnectionLimits::Admission admission) {
-  switch (admission) {
-    case ConnectionLimits::Admission::kAddressFull:
-      return RefusedConnection::kAddressFull;
-    case ConnectionLimits::Admission::kServerFull:
-      return RefusedConnection::kServerFull;
-    case ConnectionLimits::Admission::kDrop:
-      return RefusedConnection::kDropped;
-    case ConnectionLimits::Admission::kWelcome:
-      break;
-  }
-  return std::nullopt;
-}
+std::string unknown_of(const asio::ip::address& proxy) { return "proxy " + ConnectionLimits::key(proxy); }
 
 }  // namespace
 
@@ -103,7 +79,7 @@ void Acceptor::start() {
 void Acceptor::let_in(tcp::socket socket, std::size_t lane, Duration patience, Onwards onwards) {
   auto guest = admit(socket, lane);
   if (!guest) return;
-  if (guest->proxy.empty()) return (this->*onwards)(std::move(socket), std::move(*guest));
+  if (!guest->proxy) return (this->*onwards)(std::move(socket), std::move(*guest));
   const SessionId id = guest->id;
   const auto doorway = std::make_shared<ProxyDoorway>(std::move(socket), environment_.timekeeper, patience);
   visits_.emplace(id, Visit{std::move(*guest), [doorway] { doorway->end(); }});
@@ -116,20 +92,21 @@ void Acceptor::let_in(tcp::socket socket, std::size_t lane, Duration patience, O
 
 void Acceptor::on_proxy_header(SessionId id, const ProxyHeader& header, tcp::socket socket, Onwards onwards) {
   Guest& guest = visits_.at(id).guest;
-  assert(!guest.proxy.empty());
+  assert(guest.proxy.has_value());
   if (header.verdict == ProxyHeader::Verdict::kRefused)
-    log(spdlog::level::warn, guest.address, "a PROXY header that can't be used: " + header.why + ": closed");
+    log(LogEvent::kProxyHeaderRefused, guest.address,
+        "a PROXY header that can't be used: " + header.why + ": closed");
   if (is_stopping_ || header.verdict == ProxyHeader::Verdict::kRefused) return end_visit(id);
   if (header.verdict == ProxyHeader::Verdict::kWhole) {
-    settle(guest, header.source ? ConnectionLimits::key(*header.source) : guest.proxy);
+    settle(guest, header.source.value_or(*guest.proxy));
     const bool is_another_proxy = header.source && trusted_.contains(*header.source);
-    guest.proxy = is_another_proxy ? ConnectionLimits::key(*header.source) : "";
+    guest.proxy = is_another_proxy ? header.source : std::nullopt;
   }
   (this->*onwards)(std::move(socket), take_visit(id));
 }
 
-void Acceptor::settle(Guest& guest, const std::string& address) {
-  assert(!address.empty());
+void Acceptor::settle(Guest& guest, const asio::ip::address& of) {
+  const std::string address = ConnectionLimits::key(of);
   if (address == guest.address) return;
   const Time now = environment_.timekeeper.now();
   addresses_.release(guest.address, now);
@@ -141,10 +118,9 @@ void Acceptor::settle(Guest& guest, const std::string& address) {
   } else {
     guest.address = address;
   }
-  guest.refusal = std::nullopt;
-  if (admission != ConnectionLimits::Admission::kWelcome)
-    guest.refusal = too_many(admission, *environment_.limits.now());
-  environment_.log->debug(fmt::format("session {:016x}: for {}", guest.id, address));
+  guest.refusal = why_turned_away(environment_, admission, of);
+  log_event(*environment_.log, LogEvent::kConnected,
+            fmt::format("session {:016x}: for {}", guest.id, address));
 }
 
 void Acceptor::greet(tcp::socket socket, Guest guest) {
@@ -157,27 +133,22 @@ std::optional<Acceptor::Guest> Acceptor::admit(tcp::socket& socket, std::size_t 
   if (error) return std::nullopt;  // gone before it was seen
   Guest guest{next_id_, ConnectionLimits::key(remote.address()), lane, std::nullopt, {}};
   const Time now = environment_.timekeeper.now();
-  if (trusted_.contains(remote.address())) {
-    guest.proxy = guest.address;
-    guest.address = unknown_of(guest.proxy);
+  const bool is_proxy = trusted_.contains(remote.address());
+  if (is_proxy) {
+    guest.proxy = remote.address();
+    guest.address = unknown_of(*guest.proxy);
   }
-  const auto admission = guest.proxy.empty() ? addresses_.admit(guest.address, now)
-                                             : addresses_.admit_unknown(guest.address, now);
+  const auto admission =
+      is_proxy ? addresses_.admit_unknown(guest.address, now) : addresses_.admit(guest.address, now);
   TrafficMetrics::add_one(environment_.traffic.connections);
-  auto why = refused(admission);
   if (admission == ConnectionLimits::Admission::kDrop) {
-    environment_.traffic.refuse(*why);
+    environment_.traffic.refuse(RefusedConnection::kDropped);
     return std::nullopt;
   }
   ++next_id_;
+  // Who comes by a proxy is judged when it has said who he is.
+  if (!is_proxy) guest.refusal = why_turned_away(environment_, admission, remote.address());
   const auto limits = environment_.limits.now();
-  if (admission != ConnectionLimits::Admission::kWelcome) guest.refusal = too_many(admission, *limits);
-  if (environment_.doorman != nullptr)
-    if (auto banned = environment_.doorman->why_not_connect(remote.address(), wall_now())) {
-      guest.refusal = std::move(*banned);
-      why = RefusedConnection::kBanned;
-    }
-  if (why) environment_.traffic.refuse(*why);
   error = set_options(socket, std::chrono::seconds(limits->vacant_s));
   if (error)
     log(LogEvent::kSocketOptionsFailed, guest.address,
@@ -231,7 +202,7 @@ void Acceptor::on_first_byte_inside(SessionId id, Comes what, std::unique_ptr<Tl
 template <typename Connection>
 void Acceptor::open_http_door(SessionId id, Connection connection) {
   Visit& visit = visits_.at(id);
-  const bool is_proxy = !visit.guest.proxy.empty();
+  const bool is_proxy = visit.guest.proxy.has_value();
   HttpDoor::Ends ends{[this, id] { asio::post(strand_, [this, id] { end_visit(id); }); },
                       [this, id](std::unique_ptr<Wire> wire) {
                         asio::post(strand_, [this, id, upgraded = std::move(wire)]() mutable {
@@ -255,7 +226,7 @@ HttpDoor::Asker Acceptor::on_forwarded(SessionId id, const std::string& forwarde
   Visit& visit = visits_.at(id);  // the door says that it is closed later than this
   if (std::exchange(visit.is_http, false)) addresses_.give_http_back(visit.guest.address);
   const auto behind = trusted_.behind(forwarded);
-  settle(visit.guest, behind ? ConnectionLimits::key(*behind) : visit.guest.proxy);
+  settle(visit.guest, behind.value_or(*visit.guest.proxy));
   return take_http(visit);
 }
 
@@ -275,7 +246,7 @@ void Acceptor::on_upgraded(SessionId id, std::unique_ptr<Wire> wire) {
   if (is_stopping_) return end_visit(id);
   Guest guest = take_visit(id);
   guest.is_web = true;
-  open_session(std::move(wire), guest, Session::Greeting::kAtOnce);
+  open_session(std::move(wire), guest, Session::Greeting::kAtOnceOnWeb);
 }
 
 Acceptor::Guest Acceptor::take_visit(SessionId id) {
@@ -289,7 +260,7 @@ Acceptor::Guest Acceptor::take_visit(SessionId id) {
 
 void Acceptor::open_session(std::unique_ptr<Wire> wire, Guest guest, Session::Greeting greeting) {
   // Its proxy never said for whom: then it is its own.
-  if (!guest.proxy.empty() && guest.address == unknown_of(guest.proxy)) settle(guest, guest.proxy);
+  if (guest.proxy && guest.address == unknown_of(*guest.proxy)) settle(guest, *guest.proxy);
   const auto session = std::make_shared<Session>(guest.id, std::move(wire), lanes_, guest.lane,
                                                  addresses_.account(guest.address), environment_);
   const bool is_new = sessions_.emplace(guest.id, session).second;

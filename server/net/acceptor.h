@@ -56,9 +56,9 @@ class Acceptor {
     std::string address;  ///< ConnectionLimits::key()
     std::size_t lane = 0;
     std::optional<protocol::ErrorMessage> refusal;  ///< why he must go again
-    /// key() of a trusted proxy that has not said for whom this is, or may say so anew with each request;
-    /// else empty. Till it has said so, `address` is a key of its own for those that are not known.
-    std::string proxy{};
+    /// A trusted proxy that has not said for whom this is, or may say so anew with each request. Till it has
+    /// said so, `address` is a key of its own for those that are not known.
+    std::optional<boost::asio::ip::address> proxy{};
     bool is_web = false;  ///< his session's wire is a WebSocket
   };
   /// One of whom it is not known yet whether a session comes of him.
@@ -77,7 +77,7 @@ class Acceptor {
   void on_proxy_header(SessionId id, const ProxyHeader& header, boost::asio::ip::tcp::socket socket,
                        Onwards onwards);
   /// The connection is of that address from now on.
-  void settle(Guest& guest, const std::string& address);
+  void settle(Guest& guest, const boost::asio::ip::address& of);
   /// A request came through a trusted proxy.
   HttpDoor::Asker on_forwarded(SessionId id, const std::string& forwarded);
   HttpDoor::Asker take_http(Visit& visit);

@@ -45,7 +45,8 @@ Session::Session(SessionId id, std::unique_ptr<Wire> wire, const Lanes& lanes, s
 void Session::start(std::function<void()> closed, Greeting greeting) {
   asio::dispatch(lane_, [self = shared_from_this(), closed = std::move(closed), greeting]() mutable {
     self->closed_ = std::move(closed);
-    if (greeting == Greeting::kAtOnce) self->greet();
+    self->is_web_ = greeting != Greeting::kAtOnce;
+    if (greeting != Greeting::kAfterFirstLine) self->greet();
     self->on_watch();
     self->read();
   });
@@ -133,7 +134,8 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
 void Session::join(protocol::Join join, Time now) {
   door_ = environment_.directory.find(join.room);
   view_ = join.view.value_or(protocol::View{});
-  if (door_) return door_->join({id_, shared_from_this(), std::move(join), allowance_.address().id(), now});
+  if (door_)
+    return door_->join({id_, shared_from_this(), std::move(join), allowance_.address().id(), now, is_web_});
   handshake_.refused();
   say(unknown_room(join.room, environment_.directory.names()));
 }

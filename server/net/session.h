@@ -26,8 +26,8 @@
 #include <string_view>
 #include <utility>
 
-#include "server/frames/viewer.h"
 #include "server/access/doorman.h"
+#include "server/frames/viewer.h"
 #include "server/logging/events.h"
 #include "server/net/allowance.h"
 #include "server/net/handshake.h"
@@ -73,7 +73,7 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
 
   // One of the two, once; any thread.
 
-  enum class Greeting : std::uint8_t { kAtOnce, kAfterFirstLine };
+  enum class Greeting : std::uint8_t { kAtOnce, kAtOnceOnWeb, kAfterFirstLine };
   /// Says hello and begins to read. closed: called once, on the session's lane, when the wire is closed.
   /// kAfterFirstLine: hello is held back until the client has said a line, whatever it is; who goes without
   /// one hears none.
@@ -275,6 +275,7 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   std::unique_ptr<Viewer> viewer_;  ///< since a frame came as a sheet
   std::uint32_t louse_ = 0;         ///< its own; 0: a spectator
   std::size_t most_rows_ = protocol::kEveryRow;
+  bool is_web_ = false;  ///< it came by the web port
   // Of the answers to get_map and, about, to resync; guesses until the welcome has come.
   std::size_t map_bytes_ = 64u << 10, key_bytes_ = 4u << 10;
   std::size_t records_bytes_ = 4u << 10, ghost_bytes_ = 16u << 10;  ///< of the longest so far, or guesses

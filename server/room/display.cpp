@@ -28,7 +28,7 @@ void Display::welcome(Seat& seat, const Arrival& arrival, bool is_back, Company 
                        arrival.address, settings_.limits.layouts_per_address);
   auto& occupant = std::get<SessionOccupant>(seat.occupant);
   occupant.channel = acquired.channel;
-  occupant.state_hz = granted_state_hz(wanted_state_hz(join), settings_.state_hz);
+  occupant.state_hz = granted_state_hz(wanted_state_hz(join, arrival.is_web), settings_.state_hz);
   protocol::Welcome welcome =
       addressed(welcome_to_all(std::move(company)), addressee_of(seat, layouts_.layout(acquired.channel)));
   welcome.resumed = is_back;

@@ -18,7 +18,8 @@ struct Arrival {
   std::shared_ptr<Subscriber> subscriber;
   protocol::Join join;
   AddressId address = 0;
-  Time at{};  ///< when its line was read
+  Time at{};            ///< when its line was read
+  bool is_web = false;  ///< by the web port
 };
 
 enum class Parting {

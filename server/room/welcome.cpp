@@ -51,8 +51,9 @@ protocol::Welcome welcome_for(const RoomSettings& settings, const match::Match& 
   return welcome;
 }
 
-std::optional<std::uint32_t> wanted_state_hz(const protocol::Join& join) {
-  if (join.state_hz || join.role != protocol::Role::kSpectator || !join.view) return join.state_hz;
+std::optional<std::uint32_t> wanted_state_hz(const protocol::Join& join, bool is_web) {
+  if (join.state_hz || join.role != protocol::Role::kSpectator || !(join.view || is_web))
+    return join.state_hz;
   return kLookersHz;
 }
 

@@ -36,10 +36,11 @@ protocol::Welcome addressed(protocol::Welcome welcome, const Addressee& to);
 /// overview where it names a file.
 Line encode_map_line(const map::Map& map);
 
-/// Frames a second of a spectator who is shown a part of the room and asks for no rate.
+/// Frames a second of a spectator who asks for no rate, where he is shown a part of the room or came by the
+/// web port.
 inline constexpr std::uint32_t kLookersHz = 10;
 /// What a join asks for, said or not.
-std::optional<std::uint32_t> wanted_state_hz(const protocol::Join& join);
+std::optional<std::uint32_t> wanted_state_hz(const protocol::Join& join, bool is_web);
 
 /// The largest divisor of `most` that does not exceed `wanted`, so that keys stay a second apart.
 std::uint32_t granted_state_hz(std::optional<std::uint32_t> wanted, std::uint32_t most);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "server/room/welcome.h"
 #include "tests/server/room/house.h"
 
 using namespace woodlouse;
@@ -85,12 +86,18 @@ TEST_CASE("who is shown a part gets sheets of its own layout, and as a spectator
   const auto eager = house.join(3, join);
   const auto plain = house.join(4);
   house.room->start([] {});
+  protocol::Join eye;
+  eye.role = protocol::Role::kSpectator;
   CHECK(player->welcomes.at(0).state_hz == 20);
   CHECK(spectator->welcomes.at(0).state_hz == 10);
   CHECK(eager->welcomes.at(0).state_hz == 20);
   CHECK(player->welcomes.at(0).view_rows == protocol::kEveryRow);
   CHECK(plain->welcomes.at(0).view_rows == protocol::kEveryRow);
   house.tick(7);
+  CHECK(wanted_state_hz(eye, true) == 10u);
+  CHECK_FALSE(wanted_state_hz(eye, false));
+  eye.role = protocol::Role::kPlayer;
+  CHECK_FALSE(wanted_state_hz(eye, true));
   for (const auto& guest : {player, spectator, eager})
     for (const Frame& frame : guest->frames) CHECK((frame.sheet && !frame.text));
   for (const Frame& frame : plain->frames) CHECK((!frame.sheet && frame.text));

@@ -1,0 +1,19 @@
+// Who has come and must go again: what he is told, and how it is counted.
+#pragma once
+
+#include <boost/asio/ip/address.hpp>
+
+#include <optional>
+
+#include "server/net/connection_limits.h"
+#include "server/net/session.h"
+#include "shared/protocol/messages.h"
+
+namespace woodlouse::server {
+
+/// A fatal error for somebody of that address; none: he is welcome. Any thread.
+std::optional<protocol::ErrorMessage> why_turned_away(const SessionEnvironment& environment,
+                                                      ConnectionLimits::Admission admission,
+                                                      const boost::asio::ip::address& address);
+
+}  // namespace woodlouse::server
