@@ -188,7 +188,7 @@ def play(seen, seconds, folder, seed=1):
             clients = []
             for k, room in enumerate(["ring/race", "ring/forage", "ring/hill", "table/hill", "volcano", "kepler", ""] * 2):
                 client = Witness(seen, rooms if room else turns)
-                client.join(f"player {k}", **JOINS[k % len(JOINS)], **({"room": room} if room else {}))
+                client.join(f"player {k}", **JOINS[(k + k // 7) % len(JOINS)], **({"room": room} if room else {}))
                 clients.append([client, 3])
             asked = [next(client for client, _ in clients if client.welcome["room"] == room and client.id) for room in
                      ("ring/race", "ring/forage", "rotation")]
