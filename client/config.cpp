@@ -74,7 +74,7 @@ const Words<std::optional<View>>& view_words() {
 
 /// Everything as it is written, before it is understood.
 struct Raw {
-  std::string server, map, name, room, recording, maps, color, glyphs, view;
+  std::string server, map, name, room, recording, maps, color, glyphs, view, token, password_file;
   int fps = 30;
   bool watch = false;
   bool verify = false;
@@ -99,10 +99,20 @@ Raw raw_of(const Config& config) {
           .color = color_words().word(config.color),
           .glyphs = glyph_words().word(config.glyphs),
           .view = view_words().word(config.view),
+          .token = config.token,
+          .password_file = "",
           .fps = config.fps,
           .watch = config.part == Part::kWatch,
           .verify = config.hashes == Hashes::kVerified,
           .no_files = config.no_files};
+}
+
+/// As typed, or the first line of the file, which no list of processes shows.
+core::Expected<std::string> token_of(const Raw& raw) {
+  if (raw.password_file.empty()) return raw.token;
+  auto text = core::read_whole_file(raw.password_file, protocol::kMaxPasswordBytes + 2);
+  if (!text) return core::fail("password-file " + raw.password_file, text.error().what, text.error().hint);
+  return text->substr(0, text->find_first_of("\r\n"));
 }
 
 core::Expected<Config> understood(const Raw& raw) {
@@ -130,6 +140,9 @@ core::Expected<Config> understood(const Raw& raw) {
   config.map = raw.map;
   config.name = raw.name;
   config.room = raw.room;
+  auto token = token_of(raw);
+  if (!token) return tl::unexpected(token.error());
+  config.token = std::move(*token);
   config.part = !raw.recording.empty() ? Part::kReplay : raw.watch ? Part::kWatch : Part::kPlay;
   config.recording = raw.recording;
   config.maps = raw.maps;
@@ -189,6 +202,10 @@ void add_options(CLI::App& app, Raw& raw) {
       ->envname("WOODLOUSE_NAME")
       ->capture_default_str();
   app.add_option("--room", raw.room, "room of the server; default: its first")->envname("WOODLOUSE_ROOM");
+  app.add_option("--token", raw.token, "password of the server; others may see it in a list of processes")
+      ->envname("WOODLOUSE_TOKEN");
+  app.add_option("--password-file", raw.password_file, "file whose first line is that password")
+      ->envname("WOODLOUSE_TOKEN_FILE");
   app.add_flag("--watch,!--play", raw.watch, "watch, without a louse of your own")
       ->envname("WOODLOUSE_WATCH");
   app.add_flag("--verify,!--no-verify", raw.verify,

@@ -24,6 +24,7 @@ struct Config {
   std::string map = "volcano";    ///< of the server started here: a file, or a name
   std::string name;               ///< at most 24 bytes
   std::string room;               ///< empty: the server's first
+  std::string token;              ///< a password of the server; empty: none
   std::string recording;          ///< of Part::kReplay: its file
   std::string maps;               ///< of Part::kReplay: where its map may be, besides beside it
   Part part = Part::kPlay;

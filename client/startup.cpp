@@ -162,8 +162,9 @@ int run_client(const Config& config) {
   boost::asio::io_context context(1);
   const protocol::Role role =
       config.part == Part::kWatch ? protocol::Role::kSpectator : protocol::Role::kPlayer;
-  Session session(context, local ? local->address() : *config.server,
-                  make_join(role, config.name, config.room, config.hashes));
+  protocol::Join join = make_join(role, config.name, config.room, config.hashes);
+  join.token = config.token;
+  Session session(context, local ? local->address() : *config.server, std::move(join));
   if (const auto joined = session.join(); !joined) {
     return complain(kExitUnreachable,
                     "cannot connect to " + joined.error().where + ": " + joined.error().what,

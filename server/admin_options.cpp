@@ -149,6 +149,19 @@ void add_admin_options(CLI::App& app, TypedAdmin& typed) {
       ->envname("WOODLOUSE_ADMIN_TOKEN_FILE");
 }
 
+void add_password_options(CLI::App& app, std::optional<std::filesystem::path>& file, bool& may_be_plain) {
+  CLI::Option* passwords =
+      app.add_option(
+             "--password-file", file,
+             "Who joins needs a token of this file: lines of `player TOKEN`, `moderator TOKEN` or `admin "
+             "TOKEN`; read again at SIGHUP")
+          ->envname("WOODLOUSE_PASSWORD_FILE");
+  app.add_flag("--plain-passwords", may_be_plain,
+               "Take tokens without TLS from other machines, too, where others may read them")
+      ->envname("WOODLOUSE_PLAIN_PASSWORDS")
+      ->needs(passwords);
+}
+
 void add_ban_option(CLI::App& app, std::optional<std::filesystem::path>& file) {
   app.add_option(
          "--ban-file", file,

@@ -25,6 +25,8 @@ struct TypedAdmin {
 
 void add_admin_options(CLI::App& app, TypedAdmin& typed);
 
+/// --password-file and --plain-passwords.
+void add_password_options(CLI::App& app, std::optional<std::filesystem::path>& file, bool& may_be_plain);
 void add_ban_option(CLI::App& app, std::optional<std::filesystem::path>& file);
 
 /// As typed: what is said to the server, and where.

@@ -110,6 +110,7 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
       ->envname("WOODLOUSE_TRUSTED_PROXY");
   add_admin_options(app, typed.admin);
   add_ban_option(app, serve.ban_file);
+  add_password_options(app, serve.password_file, serve.may_passwords_be_plain);
   app.add_option("--state-hz", serve.state_hz, "Frames a second; divides the tick rate")
       ->envname("WOODLOUSE_STATE_HZ")
       ->check(whole_number(1, kMaxTickHz))

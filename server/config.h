@@ -38,8 +38,10 @@ struct ServeConfig {
   std::optional<WebSettings> web;      ///< where the client speaks first; empty: nowhere
   std::optional<AdminSettings> admin;  ///< the operator's door; empty: there is none
   std::optional<std::filesystem::path> ban_file;
-  std::uint32_t tick_hz = 60;   ///< 1..1000
-  std::uint32_t state_hz = 20;  ///< divides tick_hz
+  std::optional<std::filesystem::path> password_file;  ///< empty: everybody may join
+  bool may_passwords_be_plain = false;                 ///< from other machines, without TLS
+  std::uint32_t tick_hz = 60;                          ///< 1..1000
+  std::uint32_t state_hz = 20;                         ///< divides tick_hz
   std::optional<RecordSettings> record;
   std::optional<std::filesystem::path> records;  ///< the folder of the races' boards; empty: there are none
   bool shadow = false;                           ///< re-run and compare each tick beside the game

@@ -12,6 +12,7 @@
 #include "server/logging/events.h"
 #include "server/version.h"
 #include "shared/core/printable.h"
+#include "shared/json/document.h"
 #include "shared/protocol/codes.h"
 
 namespace woodlouse::server {
@@ -96,6 +97,33 @@ void Operator::dispatch(const Command& command, Answered answered) {
   assert(false);  // every verb is above
 }
 
+void Operator::moderate(protocol::Moderate wish, std::string room, std::string who,
+                        std::function<void(protocol::ServerMessage)> answered) {
+  Command command;
+  command.verb = wish.action == "kick"     ? Verb::kKick
+                 : wish.action == "mute"   ? Verb::kMute
+                 : wish.action == "unmute" ? Verb::kUnmute
+                                           : Verb::kSay;
+  command.who = std::move(wish.who);
+  command.room = std::move(room);
+  command.text = std::move(wish.text);
+  command.seconds = wish.seconds;
+  const auto refuse = [answered](const std::string& text) {
+    answered(protocol::ErrorMessage{std::string(protocol::code::kNotModerated), text, false, {}});
+  };
+  // Whole networks are the operator's.
+  if (command.verb != Verb::kSay && (command.who.empty() || AddressRange::parse(command.who)))
+    return refuse("moderate.who: a name, or the number of a louse");
+  log_event(*log_, LogEvent::kModerator,
+            fmt::format("moderator, {}: {} {}{}", who, wish.action, command.who, command.text));
+  carry_out(std::move(command), [answered, refuse](const std::string& line) {
+    const auto document = json::parse(line, {8, 1000});
+    const std::string text(document->root().find("text")->text());
+    if (document->root().find("type")->text() != "done") return refuse(text);
+    answered(protocol::Notice{std::string(protocol::code::kModerated), text});
+  });
+}
+
 std::string Operator::status() const {
   const protocol::Rooms list = lobby_.list();
   std::uint64_t players = 0, bots = 0, spectators = 0;
@@ -150,7 +178,7 @@ std::string Operator::rooms() const {
 void Operator::reload(const Answered& answered) {
   server_.reload([answered](const core::Expected<void>& reloaded) {
     if (!reloaded) return answered(refused(admin_code::kFailed, reloaded.error().text()));
-    answered(done("limits, log level, certificate and bans are read again"));
+    answered(done("limits, log level, certificate, passwords and bans are read again"));
   });
 }
 

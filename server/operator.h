@@ -45,6 +45,9 @@ class Operator final : public Control {
            const Metrics& metrics, Server server, std::shared_ptr<spdlog::logger> log);
 
   void carry_out(Command command, Answered answered) override;
+  /// Of a moderator in that room; who: he himself, for the log. Any thread.
+  void moderate(protocol::Moderate wish, std::string room, std::string who,
+                std::function<void(protocol::ServerMessage)> answered);
   [[nodiscard]] WebAnswer page(std::string_view path) const override;
 
  private:

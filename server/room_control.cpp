@@ -7,6 +7,7 @@
 #include <cassert>
 #include <mutex>
 #include <random>
+#include <system_error>
 #include <utility>
 
 #include "server/admin/answer.h"
@@ -87,8 +88,9 @@ RoomControl::RoomControl(const Strand& strand, Lobby& lobby, RoomOpener& opener,
 }
 
 void RoomControl::end() {
-  slow_.stop();
-  slow_.join();
+  if (!slow_) return;
+  slow_->stop();
+  slow_->join();
 }
 
 void RoomControl::open(const Command& command, Answered answered) {
@@ -97,35 +99,45 @@ void RoomControl::open(const Command& command, Answered answered) {
   config.fork.reset();
   config.rotate.reset();
   const std::uint64_t seed = config.seed ? *config.seed + kMaxRooms + opened_++ : fresh_seed();
-  asio::post(slow_, [this, config, seed, name = command.name, answered = std::move(answered)] {
-    const auto fail = [&answered](const core::Error& error) {
-      answered(refused(admin_code::kFailed, error.text()));
-    };
-    const auto games = choose_games(config);
-    if (!games) return fail(games.error());
-    Made rooms;
-    for (const ChosenGame& game : *games) {
-      const std::string room = name.empty() ? game.room : room_name(name, game.mode);
-      if (room.size() > protocol::kMaxRoomBytes || protocol::clean_text(room, room.size()) != room)
-        return fail({"open", "a room's name has at most 64 bytes, all of them to be seen", "--name NAME"});
-      if (!chosen_rooms(lobby_, room).empty())
-        return answered(refused(admin_code::kNotNow,
-                                fmt::format("there is a room \"{}\" already: --name NAME gives another one",
-                                            core::printable(room))));
-      auto made = opener_.make(config, room, start_of(game, config, seed + rooms.size()));
-      if (!made) return fail(made.error());
-      rooms.push_back(std::move(*made));
+  asio::post(*slow_, [this, config, seed, name = command.name, answered = std::move(answered)] {
+    try {
+      make_rooms(config, seed, name, answered);
+    } catch (const std::system_error& error) {  // of what no error can be returned from: a thread
+      answered(refused(admin_code::kFailed, error.what()));
     }
-    const std::lock_guard lock(made_mutex_);
-    const auto made = made_.insert(made_.end(), std::move(rooms));
-    asio::post(strand_, [this, made, answered] {
-      std::list<Made> taken;
-      {
-        const std::lock_guard again(made_mutex_);
-        taken.splice(taken.end(), made_, made);
-      }
-      open_made(taken.front(), answered);
-    });
+  });
+}
+
+/// On the slow thread.
+void RoomControl::make_rooms(const ServeConfig& config, std::uint64_t seed, const std::string& name,
+                             const Answered& answered) {
+  const auto fail = [&answered](const core::Error& error) {
+    answered(refused(admin_code::kFailed, error.text()));
+  };
+  const auto games = choose_games(config);
+  if (!games) return fail(games.error());
+  Made rooms;
+  for (const ChosenGame& game : *games) {
+    const std::string room = name.empty() ? game.room : room_name(name, game.mode);
+    if (room.size() > protocol::kMaxRoomBytes || protocol::clean_text(room, room.size()) != room)
+      return fail({"open", "a room's name has at most 80 bytes, all of them to be seen", "--name NAME"});
+    if (!chosen_rooms(lobby_, room).empty())
+      return answered(refused(admin_code::kNotNow,
+                              fmt::format("there is a room \"{}\" already: --name NAME gives another one",
+                                          core::printable(room))));
+    auto made = opener_.make(config, room, start_of(game, config, seed + rooms.size()));
+    if (!made) return fail(made.error());
+    rooms.push_back(std::move(*made));
+  }
+  const std::lock_guard lock(made_mutex_);
+  const auto made = made_.insert(made_.end(), std::move(rooms));
+  asio::post(strand_, [this, made, answered] {
+    std::list<Made> taken;
+    {
+      const std::lock_guard again(made_mutex_);
+      taken.splice(taken.end(), made_, made);
+    }
+    open_made(taken.front(), answered);
   });
 }
 
@@ -225,12 +237,16 @@ void RoomControl::begin_recording(Room& room, Room::Ordered answered) {
   if (room.is_recorded()) return answered(core::fail({}, "is recorded already"));
   room.ask_header(kServerName, [this, room = room.weak_from_this(), answered = std::move(answered)](
                                    replay::Header header, std::uint64_t game) {
-    asio::post(slow_, [this, room, header = std::move(header), game, answered] {
+    asio::post(*slow_, [this, room, header = std::move(header), game, answered] {
       const auto self = room.lock();
       if (!self) return answered(core::fail({}, "the room has closed"));
-      auto recorder = companions_.record(self->name(), header);
-      if (!recorder) return answered(tl::unexpected(recorder.error()));
-      self->record(std::move(*recorder), game, answered);
+      try {
+        auto recorder = companions_.record(self->name(), header);
+        if (!recorder) return answered(tl::unexpected(recorder.error()));
+        self->record(std::move(*recorder), game, answered);
+      } catch (const std::system_error& error) {  // a thread, again
+        answered(core::fail({}, error.what()));
+      }
     });
   });
 }

@@ -12,6 +12,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,10 @@ class RoomControl {
   /// Waits for a room that is being made.
   ~RoomControl() { end(); }
 
+  /// Before it is asked for anything; not where nobody will ask. Throws std::system_error where the system
+  /// gives no thread.
+  void begin() { slow_.emplace(1); }
+
   void open(const Command& command, Answered answered);
   void close(const Command& command, const Answered& answered);
   void pause(const Command& command, Answered answered);
@@ -56,6 +61,8 @@ class RoomControl {
   void order(const Command& command, const std::string& done, const Give& give, Answered answered);
   using Made = std::vector<std::shared_ptr<Room>>;
   void open_made(const Made& rooms, const Answered& answered);
+  void make_rooms(const ServeConfig& config, std::uint64_t seed, const std::string& name,
+                  const Answered& answered);
   void begin_recording(Room& room, Room::Ordered answered);
 
   Strand strand_;
@@ -70,7 +77,7 @@ class RoomControl {
   /// Made and not yet opened; kept here, that a server which ends meanwhile ends them in time.
   std::list<Made> made_;
   std::mutex made_mutex_;
-  boost::asio::thread_pool slow_{1};
+  std::optional<boost::asio::thread_pool> slow_;
 };
 
 /// The room of that name, or all for an empty name; empty: there is none such.

@@ -99,6 +99,10 @@ Server::Server(const ServeConfig& config, Outside outside, std::shared_ptr<spdlo
           log_),
       admin_(io_, operator_, timekeeper_, log_) {
   environment_.doorman = doorman_.get();
+  environment_.moderate = [this](protocol::Moderate wish, std::string room, std::string who,
+                                 std::function<void(protocol::ServerMessage)> answered) {
+    operator_.moderate(std::move(wish), std::move(room), std::move(who), std::move(answered));
+  };
 }
 
 Server::~Server() {
@@ -133,10 +137,12 @@ core::Expected<void> Server::open_ports(const ServeConfig& config) {
     if (!web) return tl::unexpected(web.error());
     environment_.web_url = core::joined({"http://", to_text(*web), "/"});
   }
-  if (config.admin || config.ban_file) ban_desk_.emplace(doorman_, config.ban_file);
+  if (const auto passwords = use_passwords(config); !passwords) return passwords;
+  if (config.admin || config.ban_file || config.password_file) ban_desk_.emplace(doorman_, config.ban_file);
   if (ban_desk_)
     if (const auto bans = ban_desk_->read(); !bans) return tl::unexpected(bans.error());
   if (!config.admin) return {};
+  room_control_.begin();
   auto admin = admin_.open(*config.admin);
   if (!admin) return tl::unexpected(admin.error());
   admin_address_ = std::move(*admin);
@@ -180,6 +186,15 @@ core::Expected<void> Server::open_fork_room(const ServeConfig& config, Start sta
   take_signals();
   const std::string name = room_name(start.map->definition.name, start.match->settings().mode);
   return open_room(config, name, std::move(start));
+}
+
+core::Expected<void> Server::use_passwords(const ServeConfig& config) {
+  if (!config.password_file) return {};
+  auto passwords = read_passwords(*config.password_file);
+  if (!passwords) return tl::unexpected(passwords.error());
+  doorman_->use(std::move(*passwords),
+                config.may_passwords_be_plain ? Doorman::Plain::kAllowed : Doorman::Plain::kRefused);
+  return {};
 }
 
 void Server::take_signals() {
@@ -259,6 +274,8 @@ void Server::reload(const std::string& who, std::function<void(core::Expected<vo
   limits_.replace(limits);
   for (const auto& room : lobby_.rooms()) room->use(limits);
   if (config->web) acceptor_.reread(*config->web);
+  if (const auto passwords = use_passwords(*config); !passwords)
+    return refuse(passwords.error(), "the passwords are as they were, and so are the bans");
   log_event(
       *log_, LogEvent::kReloaded,
       fmt::format("{}: limits, log level and certificate are read again; limits of a session hold for who "

@@ -102,6 +102,7 @@ class Server {
   /// From here on a signal waits for run(), which writes down and says bye. Before, nothing is begun that it
   /// would cut short: maps, which may take long, are loaded, and no recording is created.
   void take_signals();
+  core::Expected<void> use_passwords(const ServeConfig& config);
   core::Expected<void> open_room(const ServeConfig& config, const std::string& name, Start start);
   /// False: there is one of its name, or it is too late. Before the threads run, or on the strand.
   bool open(std::shared_ptr<Room> room);

@@ -37,7 +37,7 @@ row.vx ...), in units. me: your own row; None for a spectator, and before your l
 
 
 def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields=None, format="quantized", state_hz=None,
-            verify=False, resume=True, view=None):
+            verify=False, resume=True, view=None, token=None):
     """Connects to HOST:PORT, or HOST:PORT/ROOM, and joins. Raises WoodlouseError. Use it in a `with`: that leaves at the
     end.
 
@@ -51,6 +51,7 @@ def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields
     resume: where the connection breaks, come back within 30 s, into the louse that waits for so long; what is sent
     meanwhile is dropped. That is what a loop over states() is written for, so it is the default; with False a broken
     connection raises WoodlouseError, and the louse goes with it.
+    token: a password, where the server has some.
     """
     if verify:
         if fields is not None:
@@ -61,7 +62,8 @@ def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields
     join = {"type": "join", "protocol": 1, "role": role, "name": name, "format": format}
     if verify and view is not None:
         raise ValueError("verify needs all lice: leave out `view`")
-    for field, value in (("room", room), ("fields", fields), ("state_hz", state_hz), ("view", view)):
+    for field, value in (("room", room), ("fields", fields), ("state_hz", state_hz), ("view", view),
+                         ("token", token)):
         if value is not None:
             join[field] = value
     return Game(Door(address, join, resume, with_standing(fields)), name, verify, fields)

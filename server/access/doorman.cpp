@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
+#include "server/timing/budgets.h"
 #include "shared/core/joined.h"
 #include "shared/protocol/codes.h"
 
@@ -22,8 +24,41 @@ Doorman::Refusal Doorman::why_not_connect(const boost::asio::ip::address& addres
   return ban == nullptr ? std::nullopt : Refusal(banned_error(*ban));
 }
 
-Doorman::Refusal Doorman::why_not_join(const protocol::Join& join, WallTime now) const {
+Doorman::Refusal Doorman::why_no_token(const protocol::Join& join, const Comer& comer) {
+  if (!passwords_) return std::nullopt;
+  const auto error = [](std::string_view code, std::string text) {
+    return protocol::ErrorMessage{std::string(code), std::move(text), false, {}};
+  };
+  if (!comer.is_confidential && plain_ == Plain::kRefused)
+    return error(protocol::code::kBadToken,
+                 "join.token: on the way here others may read it: come over TLS, or from the machine itself");
+  if (const Duration wait = wrong_.wait(comer.address, comer.now); wait > Duration{}) {
+    protocol::ErrorMessage limited =
+        error(protocol::code::kRateLimited, "join.token: too many wrong ones came from your address");
+    limited.retry_after_ms = retry_after_ms(wait);
+    return limited;
+  }
+  if (passwords_->right_of(join.token)) return std::nullopt;
+  if (join.token.empty())
+    return error(protocol::code::kBadToken, "join.token is missing: who plays here has a password");
+  wrong_.count(comer.address, comer.now);
+  return error(protocol::code::kBadToken, "join.token is no password of this server");
+}
+
+Right Doorman::right_of(std::string_view token) const {
   const std::lock_guard lock(mutex_);
+  return passwords_ ? passwords_->right_of(token).value_or(Right::kPlayer) : Right::kPlayer;
+}
+
+void Doorman::use(Passwords passwords, Plain plain) {
+  const std::lock_guard lock(mutex_);
+  passwords_ = std::move(passwords);
+  plain_ = plain;
+}
+
+Doorman::Refusal Doorman::why_not_join(const protocol::Join& join, WallTime now, const Comer& comer) {
+  const std::lock_guard lock(mutex_);
+  if (auto refusal = why_no_token(join, comer)) return refusal;
   if (const Ban* ban = bans_.of(std::string_view(join.name), now)) return banned_error(*ban);
   // Who comes back to his louse is here already.
   if (!drains_until_ || !join.resume.empty()) return std::nullopt;

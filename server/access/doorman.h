@@ -1,5 +1,5 @@
-// Whom the operator lets in, and whom he lets speak: bans, mutes, and a server that is about to stop.
-// Sessions and ports ask it; what it says is the error that they are told.
+// Whom the operator lets in, and whom he lets speak: passwords, bans, mutes, and a server that is about to
+// stop. Sessions and ports ask it; what it says is the error that they are told.
 #pragma once
 
 #include <boost/asio/ip/address.hpp>
@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "server/access/bans.h"
+#include "server/access/passwords.h"
+#include "server/timing/clock.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::server {
@@ -31,14 +33,24 @@ class Doorman {
 
   /// A fatal one.
   [[nodiscard]] Refusal why_not_connect(const boost::asio::ip::address& address, WallTime now) const;
+  /// Who wants to join, besides what he says.
+  struct Comer {
+    std::string_view address;     ///< as sessions are counted by
+    bool is_confidential = true;  ///< nobody on the way reads what he says
+    Time now{};
+  };
   /// A ban's is fatal.
-  [[nodiscard]] Refusal why_not_join(const protocol::Join& join, WallTime now) const;
+  [[nodiscard]] Refusal why_not_join(const protocol::Join& join, WallTime now, const Comer& comer);
+  /// What whoever joined with that token may do.
+  [[nodiscard]] Right right_of(std::string_view token) const;
   /// address: as sessions are counted by (AddressRange::parse() takes it).
   [[nodiscard]] Refusal why_not_speak(SessionNumber session, std::string_view address, WallTime now) const;
   [[nodiscard]] bool is_draining() const;
 
   // What the operator says:
 
+  enum class Plain : std::uint8_t { kRefused, kAllowed };  ///< tokens where others may read them
+  void use(Passwords passwords, Plain plain);
   void use(Bans bans);
   [[nodiscard]] Bans bans() const;
 
@@ -57,7 +69,12 @@ class Doorman {
   void drain(WallTime until);
 
  private:
+  [[nodiscard]] Refusal why_no_token(const protocol::Join& join, const Comer& comer);
+
   mutable std::mutex mutex_;
+  std::optional<Passwords> passwords_;  ///< none: everybody may join
+  Plain plain_ = Plain::kRefused;
+  WrongTokens wrong_;
   Bans bans_;
   std::vector<Mute> mutes_;
   std::optional<WallTime> drains_until_;

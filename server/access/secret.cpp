@@ -4,7 +4,6 @@
 #include <openssl/sha.h>
 
 #include <algorithm>
-#include <cassert>
 #include <string>
 
 #include "shared/core/joined.h"
@@ -12,16 +11,15 @@
 
 namespace woodlouse::server {
 
-Secret::Secret(std::string_view token) {
-  static_assert(SHA256_DIGEST_LENGTH == sizeof(digest_));
-  assert(!token.empty());
-  ::SHA256(reinterpret_cast<const unsigned char*>(token.data()), token.size(), digest_.data());
+Secret::Digest Secret::digest_of(std::string_view token) {
+  Digest digest{};
+  static_assert(SHA256_DIGEST_LENGTH == sizeof(digest));
+  ::SHA256(reinterpret_cast<const unsigned char*>(token.data()), token.size(), digest.data());
+  return digest;
 }
 
-bool Secret::matches(std::string_view token) const {
-  std::array<unsigned char, 32> other{};
-  ::SHA256(reinterpret_cast<const unsigned char*>(token.data()), token.size(), other.data());
-  return ::CRYPTO_memcmp(digest_.data(), other.data(), other.size()) == 0;
+bool Secret::matches(const Digest& digest) const {
+  return ::CRYPTO_memcmp(digest_.data(), digest.data(), digest.size()) == 0;
 }
 
 bool may_be_secret(std::string_view token) {

@@ -16,13 +16,18 @@ inline constexpr std::size_t kMostSecretBytes = 256;
 /// Keeps a hash of the token alone. Immutable; any thread.
 class Secret {
  public:
-  explicit Secret(std::string_view token);
+  using Digest = std::array<unsigned char, 32>;  ///< SHA-256
+
+  explicit Secret(std::string_view token) : digest_(digest_of(token)) {}
+  /// To compare one token with several secrets.
+  [[nodiscard]] static Digest digest_of(std::string_view token);
 
   /// In the same time whatever differs, and wherever.
-  [[nodiscard]] bool matches(std::string_view token) const;
+  [[nodiscard]] bool matches(std::string_view token) const { return matches(digest_of(token)); }
+  [[nodiscard]] bool matches(const Digest& digest) const;
 
  private:
-  std::array<unsigned char, 32> digest_{};  ///< SHA-256
+  Digest digest_;
 };
 
 /// Nothing but visible ASCII, of kLeastSecretBytes to kMostSecretBytes: what can be typed, and told apart.

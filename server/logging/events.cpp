@@ -16,6 +16,7 @@ constexpr std::array<LogEventEntry, kLogEventCount> kEvents{{
     {"reopened", level::info, "recordings go on in new files from their next keyframe on"},
     {"certificate_refused", level::err, "a new certificate can't be used, the old one serves on"},
     {"operator", level::info, "what else was done as the admin door was asked to"},
+    {"moderator", level::info, "what a moderator has asked for in a game"},
     {"draining", level::info, "nobody is let in any more, by an operator's word; the server ends then"},
     {"kicked", level::info, "an operator has put somebody out"},
     {"banned", level::info, "an operator has banned an address, a network or a name"},

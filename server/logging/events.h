@@ -23,6 +23,7 @@ enum class LogEvent : std::uint8_t {
   kReopened,
   kCertificateRefused,
   kOperator,
+  kModerator,
   kDraining,
   kKicked,
   kBanned,

@@ -138,10 +138,10 @@ void Metrics::add_traffic(Scrape& scrape) const {
   scrape.add(Family::kReceivedLines, value(traffic.lines_received));
   const auto codes = protocol::codes();
   for (std::size_t k = 0; k < codes.size(); ++k) {
-    if (is_carried_by(codes[k], "error"))
-      scrape.add(Family::kRefusedLines, traffic.refused_lines.count(k), codes[k].code);
-    if (is_carried_by(codes[k], "bye"))
-      scrape.add(Family::kSessionEnds, traffic.session_ends.count(k), codes[k].code);
+    const std::uint64_t refused = traffic.refused_lines.count(k), ended = traffic.session_ends.count(k);
+    if (refused > 0 || is_carried_by(codes[k], "error"))
+      scrape.add(Family::kRefusedLines, refused, codes[k].code);
+    if (ended > 0 || is_carried_by(codes[k], "bye")) scrape.add(Family::kSessionEnds, ended, codes[k].code);
   }
   scrape.add(Family::kSessionEnds, value(traffic.sessions_lost), "lost");
   scrape.add(Family::kConnections, value(traffic.connections));

@@ -28,6 +28,11 @@ constexpr Duration kHeaderPatience = std::chrono::seconds(3);
 /// As what the connections of a trusted proxy count of which it has not said whose they are.
 std::string unknown_of(const asio::ip::address& proxy) { return "proxy " + ConnectionLimits::key(proxy); }
 
+bool is_of_this_machine(const asio::ip::address& address) {
+  if (address.is_v4() || !address.to_v6().is_v4_mapped()) return address.is_loopback();
+  return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6()).is_loopback();
+}
+
 }  // namespace
 
 Acceptor::Acceptor(const Lanes& lanes, const SessionEnvironment& environment)
@@ -119,6 +124,8 @@ void Acceptor::settle(Guest& guest, const asio::ip::address& of) {
     guest.address = address;
   }
   guest.refusal = why_turned_away(environment_, admission, of);
+  // What is said to a proxy before it comes here nobody knows.
+  guest.is_confidential = is_of_this_machine(of);
   log_event(*environment_.log, LogEvent::kConnected,
             fmt::format("session {:016x}: for {}", guest.id, address));
 }
@@ -131,8 +138,9 @@ std::optional<Acceptor::Guest> Acceptor::admit(tcp::socket& socket, std::size_t 
   error_code error;
   const tcp::endpoint remote = socket.remote_endpoint(error);
   if (error) return std::nullopt;  // gone before it was seen
-  Guest guest{next_id_, ConnectionLimits::key(remote.address()), lane, std::nullopt, {}};
+  Guest guest{next_id_, ConnectionLimits::key(remote.address()), lane, std::nullopt};
   const Time now = environment_.timekeeper.now();
+  guest.is_confidential = is_of_this_machine(remote.address());
   const bool is_proxy = trusted_.contains(remote.address());
   if (is_proxy) {
     guest.proxy = remote.address();
@@ -195,6 +203,7 @@ void Acceptor::shake_hands(SessionId id, tcp::socket socket) {
 
 void Acceptor::on_first_byte_inside(SessionId id, Comes what, std::unique_ptr<TlsConnection> connection) {
   if (is_stopping_ || what == Comes::kNothing) return end_visit(id);
+  visits_.at(id).guest.is_confidential = true;
   if (what == Comes::kHttp) return open_http_door(id, std::move(connection));
   open_session(make_tls_wire(std::move(connection)), take_visit(id), Session::Greeting::kAfterFirstLine);
 }
@@ -266,6 +275,7 @@ void Acceptor::open_session(std::unique_ptr<Wire> wire, Guest guest, Session::Gr
   const bool is_new = sessions_.emplace(guest.id, session).second;
   assert(is_new && !is_stopping_);
   count_sessions(guest, is_new);
+  if (!guest.is_confidential) session->is_read_by_others();
   auto closed = [this, guest] { asio::post(strand_, [this, guest] { on_closed(guest); }); };
   if (guest.refusal) return session->start_refused(*guest.refusal, std::move(closed));
   session->start(std::move(closed), greeting);

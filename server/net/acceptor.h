@@ -56,6 +56,7 @@ class Acceptor {
     std::string address;  ///< ConnectionLimits::key()
     std::size_t lane = 0;
     std::optional<protocol::ErrorMessage> refusal;  ///< why he must go again
+    bool is_confidential = true;                    ///< nobody on the way reads what he says
     /// A trusted proxy that has not said for whom this is, or may say so anew with each request. Till it has
     /// said so, `address` is a key of its own for those that are not known.
     std::optional<boost::asio::ip::address> proxy{};

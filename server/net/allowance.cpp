@@ -30,6 +30,7 @@ protocol::ErrorMessage limited(std::string text, Duration wait) {
 std::optional<Spending> spending_of(const protocol::ClientMessage& message) {
   if (std::holds_alternative<protocol::Join>(message)) return Spending::kJoin;
   if (std::holds_alternative<protocol::Chat>(message)) return Spending::kChat;
+  if (std::holds_alternative<protocol::Moderate>(message)) return Spending::kChat;
   if (std::holds_alternative<protocol::Respawn>(message)) return Spending::kRespawn;
   if (std::holds_alternative<protocol::List>(message)) return Spending::kAnswerBytes;
   return std::nullopt;

@@ -119,9 +119,10 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
     allowance_.charge_answer(line.size(), now);
     return push(Line(std::move(line)));
   }
-  if (auto* wanted = std::get_if<protocol::Join>(&message)) return join(std::move(*wanted), now);
-  if (const auto* look = std::get_if<protocol::Look>(&message); look != nullptr && !is_for_room(*look))
-    return;
+  if (auto* wanted = std::get_if<protocol::Join>(&message)) return join(take_token(*wanted), now);
+  if (auto* wish = std::get_if<protocol::Moderate>(&message)) return moderate(std::move(*wish));
+  const auto* look = std::get_if<protocol::Look>(&message);
+  if (look != nullptr && !is_for_room(*look)) return;
   if (waits_for_its_turn(message)) return ask(std::move(message), now);
   if (std::holds_alternative<protocol::Leave>(message)) {
     if (!input_ended_) parting_ = Parting::kLeft;

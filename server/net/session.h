@@ -42,6 +42,7 @@
 #include "server/timing/figures.h"
 #include "server/timing/live_limits.h"
 #include "server/timing/timekeeper.h"
+#include "shared/core/stable_hash.h"
 #include "shared/protocol/codec.h"
 #include "shared/protocol/codes.h"
 #include "shared/protocol/framing.h"
@@ -57,8 +58,13 @@ struct SessionEnvironment {
   Timekeeper& timekeeper;
   std::string_view server_name;  ///< with its version
   std::shared_ptr<spdlog::logger> log;
-  std::string web_url{};             ///< where a browser may go; empty: nowhere
-  const Doorman* doorman = nullptr;  ///< what the operator says; null: everybody may
+  std::string web_url{};  ///< where a browser may go; empty: nowhere
+  /// Has done what a moderator of that room wants, who: he himself, for the log. Any thread; answered once,
+  /// on some thread.
+  std::function<void(protocol::Moderate wish, std::string room, std::string who,
+                     std::function<void(protocol::ServerMessage)> answered)>
+      moderate{};
+  Doorman* doorman = nullptr;  ///< what the operator says; null: everybody may
 };
 
 class Session final : public Subscriber, private Sender::Owner, public std::enable_shared_from_this<Session> {
@@ -70,6 +76,9 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   /// The wire is of that lane of the server's: what is not said to be of any thread runs there alone.
   Session(SessionId id, std::unique_ptr<Wire> wire, const Lanes& lanes, std::size_t lane,
           std::shared_ptr<AddressAccount> address, const SessionEnvironment& environment);
+
+  /// Others may read what comes and goes. Before it is started.
+  void is_read_by_others() { is_confidential_ = false; }
 
   // One of the two, once; any thread.
 
@@ -151,11 +160,28 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   [[nodiscard]] Doorman::Refusal why_kept_out(const protocol::ClientMessage& message) const {
     if (environment_.doorman == nullptr) return std::nullopt;
     if (const auto* join = std::get_if<protocol::Join>(&message))
-      return environment_.doorman->why_not_join(*join, wall_now());
+      return environment_.doorman->why_not_join(*join, wall_now(), {address(), is_confidential_, now()});
     if (!std::holds_alternative<protocol::Chat>(message)) return std::nullopt;
     return environment_.doorman->why_not_speak(id_, address(), wall_now());
   }
   void join(protocol::Join join, Time now);
+  /// The join without its token, which nobody else needs to know.
+  protocol::Join take_token(protocol::Join& join) {
+    if (environment_.doorman != nullptr) right_ = environment_.doorman->right_of(join.token);
+    join.token.clear();
+    return std::move(join);
+  }
+  void moderate(protocol::Moderate wish) {
+    if (right_ == Right::kPlayer || !environment_.moderate)
+      return say(protocol::ErrorMessage{std::string(protocol::code::kNoRight),
+                                        "moderate: you joined with no moderator's token",
+                                        false,
+                                        {}});
+    environment_.moderate(std::move(wish), door_->name(), "session " + core::to_hex(id_) + " of " + address(),
+                          [session = weak_from_this()](protocol::ServerMessage message) {
+                            if (const auto self = session.lock()) self->answer(std::move(message));
+                          });
+  }
   void ask(protocol::ClientMessage question, Time now) {
     if (const auto refusal = allowance_.ask(std::move(question))) return say(*refusal);
     pass_on_due(now);
@@ -262,8 +288,10 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   std::shared_ptr<Door> door_;  ///< null before the join
   std::array<char, 2048> incoming_{};
   protocol::LineFramer framer_;
-  bool is_greeted_ = false;   ///< hello is said
-  bool input_ended_ = false;  ///< the client has shut its sending side: nothing is left to read
+  bool is_confidential_ = true;   ///< nobody on the way reads what is said
+  Right right_ = Right::kPlayer;  ///< by the token of its join
+  bool is_greeted_ = false;       ///< hello is said
+  bool input_ended_ = false;      ///< the client has shut its sending side: nothing is left to read
   Parting parting_ = Parting::kLost;
   Allowance allowance_;
 

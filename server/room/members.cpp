@@ -253,7 +253,8 @@ void Members::dismiss(const protocol::Bye& bye) {
 template <typename Message>
 constexpr bool kAnsweredBefore =
     std::is_same_v<Message, protocol::Join> || std::is_same_v<Message, protocol::List> ||
-    std::is_same_v<Message, protocol::Ping> || std::is_same_v<Message, protocol::Pong>;
+    std::is_same_v<Message, protocol::Ping> || std::is_same_v<Message, protocol::Pong> ||
+    std::is_same_v<Message, protocol::Moderate>;
 
 void Members::take(SessionId session, const protocol::ClientMessage& message, Time arrived) {
   Seat* seat = seats_.find(session);

@@ -44,6 +44,10 @@ constexpr std::array kCodes = {
     CodeEntry{
         code::kBadToken, "error", Ends::kNo,
         "the server has passwords: `join.token` is none of them, or is not to be said over this connection"},
+    CodeEntry{code::kNoRight, "error", Ends::kNo,
+              "`moderate` is for who joined with the token of a moderator or admin"},
+    CodeEntry{code::kNotModerated, "error", Ends::kNo,
+              "nobody in the room is called so, or it can't be done; the text says which"},
     CodeEntry{code::kStaleSeq, "error", Ends::kNo, "input dropped: `seq` is not above the last one"},
     CodeEntry{code::kQueueFull, "error", Ends::kNo,
               "input dropped: too many of this player's inputs wait, or came later for the same step"},
@@ -67,6 +71,7 @@ constexpr std::array kCodes = {
         "the operator has paused the room: no tick passes. As an error: too many have joined or asked for "
         "something meanwhile"},
     CodeEntry{code::kResumed, "notice", Ends::kNo, "the room goes on"},
+    CodeEntry{code::kModerated, "notice", Ends::kNo, "what a moderator asked for is done"},
     CodeEntry{code::kOperator, "notice", Ends::kNo, "the operator or a moderator says the text to all"},
     CodeEntry{code::kRecordingEnded, "notice", Ends::kNo,
               "the game goes on, but is no longer recorded: the disk is full or too slow, or its share is "

@@ -35,6 +35,8 @@ inline constexpr std::string_view kBanned = "banned";
 inline constexpr std::string_view kKicked = "kicked";
 inline constexpr std::string_view kMuted = "muted";
 inline constexpr std::string_view kBadToken = "bad_token";
+inline constexpr std::string_view kNoRight = "no_right";
+inline constexpr std::string_view kNotModerated = "not_moderated";
 // Why an input was dropped.
 inline constexpr std::string_view kStaleSeq = "stale_seq";
 inline constexpr std::string_view kQueueFull = "queue_full";
@@ -55,6 +57,7 @@ inline constexpr std::string_view kDraining = "draining";
 inline constexpr std::string_view kPaused = "paused";
 inline constexpr std::string_view kResumed = "resumed";
 inline constexpr std::string_view kOperator = "operator";
+inline constexpr std::string_view kModerated = "moderated";
 inline constexpr std::string_view kRecordingEnded = "recording_ended";
 }  // namespace code
 

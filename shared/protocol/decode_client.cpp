@@ -106,6 +106,17 @@ void read_its_view(FieldReader& reader, Join& join) {
       "view", [&](FieldReader& inner) { read_view(inner, join.view.emplace()); }, Presence::kOptional);
 }
 
+/// No error shows what it was.
+void read_token(FieldReader& reader, std::string& token) {
+  constexpr std::string_view kWants = "a password of the server, of 1 to 256 bytes";
+  const auto value = reader.field("token", kWants, Presence::kOptional);
+  if (!value) return;
+  if (value->kind() != json::Kind::kString || value->text().empty() ||
+      value->text().size() > kMaxPasswordBytes)
+    return reader.fail(code::kBadField, "join.token must be " + std::string(kWants));
+  token = value->text();
+}
+
 Decoded read_join(FieldReader& reader) {
   Join join;
   reader.integer("protocol", join.protocol, kAnyUint32);
@@ -121,6 +132,7 @@ Decoded read_join(FieldReader& reader) {
   reader.integer("state_hz", join.state_hz, {1, kMaxStateHz});
   read_resume(reader, join);
   read_its_view(reader, join);
+  read_token(reader, join.token);
   return reader.finish<ClientMessage>(std::move(join));
 }
 
@@ -178,9 +190,24 @@ Decoded read_get_ghost(FieldReader& reader) {
   return reader.finish<ClientMessage>(get);
 }
 
+Decoded read_moderate(FieldReader& reader) {
+  Moderate moderate;
+  reader.choice("action", moderate.action, R"("kick", "mute", "unmute" or "say")",
+                [](std::string_view text) -> std::optional<std::string> {
+                  for (const char* action : {"kick", "mute", "unmute", "say"})
+                    if (text == action) return std::string(text);
+                  return std::nullopt;
+                });
+  const bool says = moderate.action == "say";
+  reader.key_text("who", moderate.who, kMaxNameBytes, says ? Presence::kOptional : Presence::kRequired);
+  if (says) reader.cleaned_text("text", moderate.text, {1, kMaxChatBytes});
+  reader.integer("seconds", moderate.seconds, {1, kMaxModerateSeconds});
+  return reader.finish<ClientMessage>(std::move(moderate));
+}
+
 using Read = Decoded (*)(FieldReader&);
 
-constexpr std::array<std::pair<std::string_view, Read>, 14> kTypes = {{
+constexpr std::array<std::pair<std::string_view, Read>, 15> kTypes = {{
     {"join", read_join},
     {"input", read_input},
     {"chat", read_chat},
@@ -195,6 +222,7 @@ constexpr std::array<std::pair<std::string_view, Read>, 14> kTypes = {{
     {"pong", read_time<Pong>},
     {"list_records", read_list_records},
     {"get_ghost", read_get_ghost},
+    {"moderate", read_moderate},
 }};
 
 }  // namespace

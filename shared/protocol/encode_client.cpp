@@ -28,6 +28,7 @@ void append_line(std::string& out, const Join& join) {
   else if (join.may_resume)
     text.boolean("resume", true);
   if (join.view) text.object("view", [&](json::ObjectText& view) { append_view(view, *join.view); });
+  if (!join.token.empty()) text.text("token", join.token);
   text.end_line();
 }
 
@@ -74,6 +75,15 @@ void append_line(std::string& out, const ListRecords& list) {
 }
 void append_line(std::string& out, const GetGhost& get) {
   json::ObjectText(out, "get_ghost").text("board", to_text(get.board)).integer("rank", get.rank).end_line();
+}
+
+void append_line(std::string& out, const Moderate& moderate) {
+  json::ObjectText text(out, "moderate");
+  text.text("action", moderate.action);
+  if (!moderate.who.empty()) text.text("who", moderate.who);
+  if (!moderate.text.empty()) text.text("text", moderate.text);
+  if (moderate.seconds) text.integer("seconds", *moderate.seconds);
+  text.end_line();
 }
 
 }  // namespace

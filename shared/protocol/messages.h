@@ -34,6 +34,8 @@ inline constexpr std::size_t kMaxNameBytes = 24;    ///< after cleaning
 inline constexpr std::size_t kMaxChatBytes = 400;   ///< after cleaning
 inline constexpr std::size_t kMaxRoomBytes = 80;    ///< of a room's name: a map's, its mode, a number
 inline constexpr std::size_t kMaxTokenBytes = 64;   ///< of a resume_token
+inline constexpr std::size_t kMaxPasswordBytes = 256;
+inline constexpr std::int64_t kMaxModerateSeconds = 86'400;
 inline constexpr std::size_t kMaxTextBytes =
     2048;  ///< of an error's, a notice's or a bye's text, after cleaning
 inline constexpr std::uint32_t kMaxStateHz = 1000;
@@ -73,6 +75,7 @@ struct Join {
   bool may_resume = false;                ///< its louse is to wait for it when the connection breaks
   std::string resume{};                   ///< the token of a louse that waits; empty: none
   std::optional<View> view{};             ///< frames show that alone; none: all
+  std::string token{};                    ///< a password of the server; empty: none
   friend bool operator==(const Join&, const Join&) = default;
 };
 
@@ -112,6 +115,14 @@ struct Look {
   View view;
   friend bool operator==(const Look&, const Look&) = default;
 };
+/// What a moderator does about somebody in his room.
+struct Moderate {
+  std::string action;                    ///< of kModerateActions
+  std::string who;                       ///< a name or the number of a louse; empty: of "say"
+  std::string text;                      ///< of "say": cleaned, 1..kMaxChatBytes
+  std::optional<std::uint64_t> seconds;  ///< of "mute"; none: as long as the connection lasts
+  friend bool operator==(const Moderate&, const Moderate&) = default;
+};
 struct Leave {
   friend bool operator==(const Leave&, const Leave&) = default;
 };
@@ -125,7 +136,7 @@ struct Pong {
 };
 
 using ClientMessage = std::variant<Join, Input, Chat, List, GetMap, Resync, Respawn, Skip, Look, Leave, Ping,
-                                   Pong, ListRecords, GetGhost>;
+                                   Pong, ListRecords, GetGhost, Moderate>;
 
 // ---- server to client ----------------------------------------------------------------------------------
 

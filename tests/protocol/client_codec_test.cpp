@@ -46,6 +46,8 @@ TEST_CASE("every client message comes back as it was sent") {
   hopeful.may_resume = true;
   Join back = hopeful;
   back.resume = "5d1c0f";
+  Join known = plain;
+  known.token = "correct-horse \" \\";
   Join looking = plain;
   looking.view = View{{}, 7u, 8.5, 30u};
   Join capped = plain;
@@ -56,6 +58,7 @@ TEST_CASE("every client message comes back as it was sent") {
                                                Look{{woodlouse::core::Vec2{-1.5, 2.0}, {}, 0.25, {}}},
                                                hopeful,
                                                back,
+                                               known,
                                                join,
                                                plain,
                                                number,
@@ -72,11 +75,32 @@ TEST_CASE("every client message comes back as it was sent") {
                                                ListRecords{},
                                                ListRecords{Board::kHandedIn},
                                                GetGhost{},
-                                               GetGhost{Board::kBots, 100}};
+                                               GetGhost{Board::kBots, 100},
+                                               Moderate{"kick", "ann", "", {}},
+                                               Moderate{"mute", "ann", "", 60},
+                                               Moderate{"say", "", "hello, all", {}}};
   for (const ClientMessage& message : messages) {
     INFO(line_of(message));
     CHECK(decoded(line_of(message)) == message);
   }
+}
+
+TEST_CASE("an error about a token does not say which") {
+  for (const std::string& token :
+       {std::string("7777777"), "\"" + std::string(257, 's') + "\"", std::string("\"\"")}) {
+    const auto refused = decode_client(R"({"type":"join","protocol":1,"name":"ann","token":)" + token + "}");
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().code == "bad_field");
+    CHECK(refused.error().text == "join.token must be a password of the server, of 1 to 256 bytes");
+  }
+}
+
+TEST_CASE("a moderator says what to do, and about whom") {
+  CHECK_FALSE(decode_client(R"({"type":"moderate"})"));
+  CHECK_FALSE(decode_client(R"({"type":"moderate","action":"ban","who":"ann"})"));
+  CHECK_FALSE(decode_client(R"({"type":"moderate","action":"kick"})"));
+  CHECK_FALSE(decode_client(R"({"type":"moderate","action":"say"})"));
+  CHECK_FALSE(decode_client(R"({"type":"moderate","action":"mute","who":"ann","seconds":0})"));
 }
 
 TEST_CASE("a join needs only protocol and name") {

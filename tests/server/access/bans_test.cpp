@@ -113,9 +113,9 @@ TEST_CASE("the doorman keeps out who is banned and lets nobody speak who is mute
   CHECK(refusal->text == "the operator has banned your address until 2026-01-01 00:01:00 UTC");
   protocol::Join join;
   join.name = "ann";
-  CHECK(doorman.why_not_join(join, kNow)->code == "banned");
+  CHECK(doorman.why_not_join(join, kNow, {})->code == "banned");
   join.name = "bob";
-  CHECK_FALSE(doorman.why_not_join(join, kNow));
+  CHECK_FALSE(doorman.why_not_join(join, kNow, {}));
 
   doorman.mute({7, std::nullopt, std::nullopt}, kNow);
   doorman.mute({0, AddressRange::parse("2001:db8::/48"), kNow + seconds(60)}, kNow);
@@ -135,13 +135,13 @@ TEST_CASE("a server that drains takes those alone who come back") {
   CHECK(doorman.is_draining());
   protocol::Join join;
   join.name = "ann";
-  const auto refusal = doorman.why_not_join(join, kNow);
+  const auto refusal = doorman.why_not_join(join, kNow, {});
   REQUIRE(refusal);
   CHECK(refusal->code == "draining");
   CHECK_FALSE(refusal->fatal);
   CHECK(refusal->text == "join: the server stops in 30 s and takes nobody any more");
   join.resume = "0123";
-  CHECK_FALSE(doorman.why_not_join(join, kNow));
+  CHECK_FALSE(doorman.why_not_join(join, kNow, {}));
 }
 
 TEST_CASE("mutes are bounded: the oldest goes") {

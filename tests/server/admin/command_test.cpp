@@ -57,7 +57,7 @@ TEST_CASE("what is wrong with a command is said in the wire's codes") {
   CHECK(code_of(R"({"type":"record","on":"yes"})") == "bad_field");
   CHECK(code_of(R"({"type":"say","text":""})") == "bad_field");
   CHECK(code_of(R"({"type":"ban","who":""})") == "bad_field");
-  CHECK(code_of(R"({"type":"ban","who":"​"})") == "bad_field");
+  CHECK(code_of(R"({"type":"ban","who":"\u0007\u200b"})") == "bad_field");
   CHECK(code_of(R"({"type":"close","room":""})") == "bad_field");
   CHECK(code_of(R"({"type":"open","file":""})") == "bad_field");
   CHECK(code_of(R"({"type":"open","file":"a\u0000b"})") == "bad_field");
