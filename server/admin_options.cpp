@@ -102,7 +102,8 @@ CLI::App* add_admin_command(CLI::App& app, TypedErrand& typed) {
   admin->add_option("--token-file", typed.token_file, "The server's --admin-token-file")->needs(connect);
   admin->add_flag("--json", typed.as_json, "The answer as a JSON line");
   add_verb(*admin, typed, Verb::kStatus, "How the server is");
-  add_verb(*admin, typed, Verb::kRooms, "Which rooms there are, who is in them, how they keep time");
+  add_verb(*admin, typed, Verb::kRooms, "Which rooms there are and how they keep time; of one, who is in it")
+      ->add_option("room", typed.command.room, "Which");
   add_room_verbs(*admin, typed);
   add_people_verbs(*admin, typed);
   add_verb(*admin, typed, Verb::kReload, "Read limits, log level, certificate and bans again, as SIGHUP");

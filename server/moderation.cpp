@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <charconv>
+#include <map>
 #include <mutex>
 #include <set>
 #include <utility>
@@ -89,6 +90,38 @@ void Moderation::expel(const std::vector<Found>& found, protocol::ErrorMessage w
   acceptor_.expel(
       [sessions = std::move(sessions)](SessionId id, const std::string&) { return sessions.contains(id); },
       std::move(why), [done = std::move(done)](std::size_t) { done(); });
+}
+
+void Moderation::list(const Command& command, const Answered& answered) {
+  if (chosen_rooms(lobby_, command.room).empty()) return answered(no_such_room(lobby_, command.room));
+  find([](const RosterEntry&) { return true; }, command.room,
+       [this, answered](std::vector<Found> found) {
+         acceptor_.ask_addresses([found = std::move(found),
+                                  answered](const std::map<SessionId, std::string>& addresses) {
+           const auto address_of = [&addresses](const Found& one) {
+             const auto its = addresses.find(one.entry.session);
+             return its == addresses.end() ? std::string() : its->second;
+           };
+           std::string text = fmt::format("{:>6} {:<24} {:<10} {}", "louse", "name", "role", "from");
+           for (const Found& one : found) {
+             const std::string from = one.entry.kind == Kind::kHouse  ? "the house"
+                                      : one.entry.kind == Kind::kAway ? "(away)"
+                                                                      : address_of(one);
+             text += fmt::format("\n{:>6} {:<24} {:<10} {}", one.entry.louse, core::printable(one.entry.name),
+                                 protocol::to_text(one.entry.role), from);
+           }
+           answered(done(text, [&](json::ObjectText& object) {
+             object.objects("members", found, [&](json::ObjectText& row, const Found& one) {
+               row.integer("louse", one.entry.louse).text("name", one.entry.name);
+               row.text("role", protocol::to_text(one.entry.role));
+               row.boolean("house", one.entry.kind == Kind::kHouse)
+                   .boolean("away", one.entry.kind == Kind::kAway);
+               if (const std::string address = address_of(one); !address.empty())
+                 row.hash("session", one.entry.session).text("address", address);
+             });
+           }));
+         });
+       });
 }
 
 void Moderation::kick(const Command& command, Answered answered) {

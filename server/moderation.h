@@ -38,6 +38,8 @@ class Moderation {
         desk_(desk),
         log_(std::move(log)) {}
 
+  /// Who is in a room, and from where.
+  void list(const Command& command, const Answered& answered);
   void kick(const Command& command, Answered answered);
   void ban(const Command& command, const Answered& answered);
   void unban(const Command& command, const Answered& answered);

@@ -60,7 +60,7 @@ void Operator::dispatch(const Command& command, Answered answered) {
     case Verb::kStatus:
       return answered(status());
     case Verb::kRooms:
-      return answered(rooms());
+      return command.room.empty() ? answered(rooms()) : server_.people.list(command, answered);
     case Verb::kOpen:
       return server_.rooms.open(command, std::move(answered));
     case Verb::kClose:

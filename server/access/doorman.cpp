@@ -40,7 +40,8 @@ Doorman::Refusal Doorman::why_no_token(const protocol::Join& join, const Comer& 
   }
   if (passwords_->right_of(join.token)) return std::nullopt;
   if (join.token.empty())
-    return error(protocol::code::kBadToken, "join.token is missing: who plays here has a password");
+    return error(protocol::code::kBadToken,
+                 "join.token is missing: who plays here has a password (woodlouse --password-file FILE)");
   wrong_.count(comer.address, comer.now);
   return error(protocol::code::kBadToken, "join.token is no password of this server");
 }

@@ -38,7 +38,7 @@ constexpr Taken kSeconds{"seconds"};
 
 constexpr std::array<std::pair<std::string_view, VerbEntry>, 18> kVerbs = {{
     {"status", {Verb::kStatus}},
-    {"rooms", {Verb::kRooms}},
+    {"rooms", {Verb::kRooms, {{kRoom}}}},
     {"open", {Verb::kOpen, {{{"file", Presence::kRequired}, {"name"}}}}},
     {"close", {Verb::kClose, {{{"room", Presence::kRequired}}}}},
     {"kick", {Verb::kKick, {{kWho, kRoom}}}},

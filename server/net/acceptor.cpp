@@ -323,6 +323,14 @@ void Acceptor::expel(IsMeant is_meant, protocol::ErrorMessage why, std::function
              });
 }
 
+void Acceptor::ask_addresses(std::function<void(std::map<SessionId, std::string>)> told) {
+  asio::post(strand_, [this, told = std::move(told)] {
+    std::map<SessionId, std::string> addresses;
+    for (const auto& [id, session] : sessions_) addresses.emplace(id, session->address());
+    told(std::move(addresses));
+  });
+}
+
 void Acceptor::stop(protocol::Bye bye, std::function<void()> stopped) {
   asio::post(strand_, [this, bye = std::move(bye), stopped = std::move(stopped)]() mutable {
     is_stopping_ = true;

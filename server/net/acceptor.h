@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,6 +47,8 @@ class Acceptor {
   /// Ends those; `done` is called on some thread: how many sessions that were.
   using IsMeant = std::function<bool(SessionId session, const std::string& address)>;
   void expel(IsMeant is_meant, protocol::ErrorMessage why, std::function<void(std::size_t)> done);
+  /// The address that each session is counted by; `told` is called on some thread.
+  void ask_addresses(std::function<void(std::map<SessionId, std::string>)> told);
   /// Closes the ports, says bye to who is left; `stopped` when the last connection is closed.
   void stop(protocol::Bye bye, std::function<void()> stopped);
 

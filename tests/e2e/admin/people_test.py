@@ -51,6 +51,21 @@ class Kicked(unittest.TestCase):
             bob.expect("event", kind="left", name="ann")
 
 
+class Listed(unittest.TestCase):
+    def test_who_is_in_a_room_and_from_where(self):
+        with AdminServer("--bots", "1") as server:
+            ann = server.player("ann", source="127.0.0.9", resume=True)
+            eve = server.player("eve", role="spectator")
+            members = {member["name"]: member for member in server.done("rooms", room="volcano")["members"]}
+            self.assertEqual((members["ann"]["louse"], members["ann"]["address"]), (ann.id, "127.0.0.9"))
+            self.assertEqual((members["eve"]["role"], members["eve"]["louse"]), ("spectator", eve.id))
+            self.assertEqual([member["house"] for member in members.values()].count(True), 1)
+            ann.socket.close()
+            wait_until(lambda: any(member["away"] for member in server.done("rooms", room="volcano")["members"]))
+            self.assertIn("(away)", server.typed("rooms", "volcano")[1])
+            server.refused("rooms", "unknown_room", room="moon")
+
+
 class Muted(unittest.TestCase):
     def test_chat_is_refused_and_the_game_goes_on(self):
         with AdminServer() as server:
