@@ -101,9 +101,11 @@ Outcome play(boost::asio::io_context& context, Session& session, const Config& c
 }
 
 /// A state that was not what the server said outweighs how the run ended otherwise.
-Outcome judged(Outcome outcome, const KeyVerifier& verifier) {
-  if (!verifier.difference()) return outcome;
-  return {kExitDiffers, outcome.message + "woodlouse: " + to_text(*verifier.difference()) +
+Outcome judged(Outcome outcome, const RoomView& room) {
+  const auto& of_key = room.verifier().difference();
+  const auto& of_tick = room.follower().difference();
+  if (!of_key && !of_tick) return outcome;
+  return {kExitDiffers, outcome.message + "woodlouse: " + (of_key ? to_text(*of_key) : to_text(*of_tick)) +
                             "\n      the server, or something on the way here, altered the state\n"};
 }
 
@@ -163,8 +165,9 @@ int run_client(const Config& config) {
   const protocol::Role role =
       config.part == Part::kWatch ? protocol::Role::kSpectator : protocol::Role::kPlayer;
   protocol::Join join = make_join(role, config.name, config.room, config.hashes);
+  if (role == protocol::Role::kSpectator && config.hashes == Hashes::kIgnored) join = by_inputs(join);
   join.token = config.token;
-  Session session(context, local ? local->address() : *config.server, std::move(join));
+  Session session(context, local ? local->address() : *config.server, join);
   if (const auto joined = session.join(); !joined) {
     return complain(kExitUnreachable,
                     "cannot connect to " + joined.error().where + ": " + joined.error().what,
@@ -175,7 +178,7 @@ int run_client(const Config& config) {
   }
   const Outcome outcome =
       judged(as_text ? tell(context, session, local.get()) : play(context, session, config, local.get()),
-             session.room().verifier());
+             session.room());
   session.leave();
   std::cerr << outcome.message;
   return outcome.exit_code;

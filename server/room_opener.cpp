@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "server/logging/events.h"
+#include "server/version.h"
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
 
@@ -17,6 +18,7 @@ core::Expected<std::shared_ptr<Room>> RoomOpener::make(const ServeConfig& config
   assert(!name.empty() && start.match != nullptr);
   RoomSettings settings;
   settings.name = name;
+  settings.build = kServerName;
   settings.state_hz = config.state_hz;
   settings.bots = config.bots;
   settings.bots_skill = config.bots_skill;

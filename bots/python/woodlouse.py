@@ -37,7 +37,7 @@ row.vx ...), in units. me: your own row; None for a spectator, and before your l
 
 
 def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields=None, format="quantized", state_hz=None,
-            verify=False, resume=True, view=None, token=None):
+            verify=False, resume=True, view=None, token=None, stream="frames"):
     """Connects to HOST:PORT, or HOST:PORT/ROOM, and joins. Raises WoodlouseError. Use it in a `with`: that leaves at the
     end.
 
@@ -52,6 +52,7 @@ def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields
     meanwhile is dropped. That is what a loop over states() is written for, so it is the default; with False a broken
     connection raises WoodlouseError, and the louse goes with it.
     token: a password, where the server has some.
+    stream: "inputs", of a spectator: the room's recording instead of states; take recorded() then, not states().
     """
     if verify:
         if fields is not None:
@@ -63,7 +64,7 @@ def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields
     if verify and view is not None:
         raise ValueError("verify needs all lice: leave out `view`")
     for field, value in (("room", room), ("fields", fields), ("state_hz", state_hz), ("view", view),
-                         ("token", token)):
+                         ("token", token), ("stream", None if stream == "frames" else stream)):
         if value is not None:
             join[field] = value
     return Game(Door(address, join, resume, with_standing(fields)), name, verify, fields)
@@ -244,6 +245,7 @@ class Game(Session):
     # ---- the wire ----
 
     def _on_welcome(self, message):
+        self._lines.has_recording = message.get("stream") == "inputs"
         before, is_comeback = self.welcome, self._lines is not self._welcomed_on
         if before is None or before["map"]["hash"] != message["map"]["hash"]:
             self._ground, self.physics = None, dict(message["physics"])

@@ -28,6 +28,7 @@ class Lines:
         self._socket.settimeout(SILENCE_S)
         self._bytes = bytearray()
         self._searched = 0  # of _bytes, without a newline
+        self.has_recording = False  # lines without a `type` may come: a recording's
         self._cut = False  # in the middle of a line to the server
 
     def wait_at_most(self, seconds):
@@ -75,8 +76,11 @@ class Lines:
             self._bytes += chunk
 
     def message(self):
-        """The next message, waiting for it. Raises WoodlouseError: silence, a lost connection, no message."""
+        """The next message, waiting for it; of a line of a recording {"type": "recorded", "line": its text}. Raises
+        WoodlouseError: silence, a lost connection, no message."""
         line = self._line()
+        if self.has_recording and not line.startswith(b'{"type":'):
+            return {"type": "recorded", "line": line.decode("utf-8", "replace")}
         try:
             message = json.loads(line)
             message["type"]

@@ -1,5 +1,7 @@
 """A joined connection that comes back when it breaks; the base of woodlouse.Game."""
 
+import collections
+
 from woodlouse_lines import WoodlouseError
 
 
@@ -11,6 +13,24 @@ class Session:
         self._door = door
         self.comebacks = 0
         self.bye = None
+        self._recorded = collections.deque()
+
+    def recorded(self):
+        """Of who watches by inputs: yields the lines of the room's recording as they come, text without newlines: a header,
+        a keyframe, then every step; a further keyframe where some steps did not come or resync() asked for it, a further
+        header where another game or connection begins. Each keyframe with its header begins a recording: save_stream.py.
+        Raises WoodlouseError "no_stream" where the server shows frames alone."""
+        while self.bye is None:
+            while self._recorded:
+                yield self._recorded.popleft()
+            if not self._lines.has_recording:
+                raise WoodlouseError("no_stream", "the server shows frames alone")
+            self._receive()
+        yield from self._recorded
+
+    def resync(self):
+        """Asks for the newest key; of who watches by inputs, for a new keyframe."""
+        self._send({"type": "resync"})
 
     def close(self):
         """Leaves; the louse goes with you."""
@@ -69,6 +89,9 @@ class Session:
                 handler(message)
         except (KeyError, TypeError, ValueError, IndexError) as error:
             raise WoodlouseError("protocol", "a %s out of shape (%s)" % (message["type"], error)) from None
+
+    def _on_recorded(self, message):
+        self._recorded.append(message["line"])
 
     def _on_ping(self, message):
         self._send({"type": "pong", "t": message["t"]})

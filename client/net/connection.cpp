@@ -36,6 +36,13 @@ void Connection::stop() {
   link_.reset();
 }
 
+void Connection::watch_by_frames() {
+  join_.stream = protocol::Stream::kFrames;
+  join_.state_hz.reset();  // it was the stream's
+  stop();
+  start();
+}
+
 std::optional<double> Connection::seconds_left(core::Time now) const {
   if (!until_ || phase_ == Phase::kStopped) return std::nullopt;
   return std::max(0.0, std::chrono::duration<double>(*until_ - now).count());

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "client/net/closing.h"
 #include "client/net/link.h"
@@ -18,6 +19,8 @@ class ConnectionListener {
  public:
   virtual ~ConnectionListener() = default;
   virtual void on_message(const protocol::ServerMessage& message, core::Time arrival) = 0;
+  /// A line of the room's recording, without its newline, of who watches by inputs.
+  virtual void on_recorded(std::string_view /*line*/, core::Time /*arrival*/) {}
   /// The line broke, or an attempt at coming back failed. The next one follows by itself, unless phase() is
   /// kStopped: then it is over.
   virtual void on_lost() = 0;
@@ -41,6 +44,8 @@ class Connection final : public LinkListener {
   void start();
   void send(const protocol::ClientMessage& message);
   void stop();
+  /// Leaves and joins anew, to be shown frames, now and whenever it comes back.
+  void watch_by_frames();
 
   [[nodiscard]] Phase phase() const { return phase_; }
   [[nodiscard]] const Address& address() const { return address_; }
@@ -57,6 +62,9 @@ class Connection final : public LinkListener {
 
   // Of the link, for it alone to call.
   void on_message(const protocol::ServerMessage& message, core::Time arrival) override;
+  void on_recorded(std::string_view line, core::Time arrival) override {
+    listener_.on_recorded(line, arrival);
+  }
   void on_closed(const Closing& closing) override;
 
  private:

@@ -6,7 +6,10 @@
 #include <utility>
 #include <variant>
 
+#include "shared/follow/follower.h"
+#include "shared/match/match.h"
 #include "shared/protocol/codec.h"
+#include "shared/protocol/codes.h"
 
 namespace woodlouse::client {
 
@@ -24,11 +27,20 @@ std::string in_words(error_code error) {
   return error.message();
 }
 
+protocol::Join by_frames(protocol::Join join) {
+  if (std::exchange(join.stream, protocol::Stream::kFrames) == protocol::Stream::kInputs)
+    join.state_hz.reset();
+  return join;
+}
+
 /// Where the server has rules of play, also with their columns, unless every column is spoken for by a proof.
+/// By inputs only what this program can re-run.
 protocol::Join asked_of(const protocol::Hello& hello, protocol::Join join) {
-  const bool has_rules =
-      std::find(hello.features.begin(), hello.features.end(), "rules") != hello.features.end();
-  if (!has_rules || join.fields.empty() || join.fields == protocol::all_columns()) return join;
+  const auto has = [&hello](std::string_view feature) {
+    return std::find(hello.features.begin(), hello.features.end(), feature) != hello.features.end();
+  };
+  if (!has("inputs") || hello.behavior != match::kBehavior) join = by_frames(std::move(join));
+  if (!has("rules") || join.fields.empty() || join.fields == protocol::all_columns()) return join;
   for (const protocol::Column column : protocol::kRulesColumns) join.fields.push_back(column);
   return join;
 }
@@ -84,6 +96,10 @@ void Link::take_lines() {
     if (line->oversize)
       return end({"the server sent a line of more than " + std::to_string(kMaxLineBytes) + " bytes",
                   kNoServerOfOurs});
+    if (welcome_.stream == protocol::Stream::kInputs && follow::Follower::is_recorded(line->text)) {
+      listener_->on_recorded(line->text, std::chrono::steady_clock::now());
+      continue;
+    }
     const auto message = protocol::decode_server(line->text, welcome_.fields, welcome_.format);
     if (message) {
       take(*message);
@@ -100,12 +116,18 @@ void Link::take(const protocol::ServerMessage& message) {
                       std::to_string(protocol::kProtocolVersion),
                   kNoServerOfOurs});
     }
-    write(protocol::encode(protocol::ClientMessage(asked_of(*hello, join_))));
+    protocol::Join join = asked_of(*hello, join_);
+    write(protocol::encode(protocol::ClientMessage(join)));
+    if (join.stream == protocol::Stream::kInputs) by_frames_ = by_frames(std::move(join));
   } else if (const auto* welcome = std::get_if<protocol::Welcome>(&message)) {
     welcome_ = *welcome;
     joined_ = true;
   } else if (const auto* error = std::get_if<protocol::ErrorMessage>(&message);
              error != nullptr && (error->fatal || !joined_)) {
+    if (!error->fatal && by_frames_ && error->code == protocol::code::kBadField) {
+      write(protocol::encode(protocol::ClientMessage(*std::exchange(by_frames_, std::nullopt))));
+      return;
+    }
     farewell_ = Closing{error->text, error->code};
     if (error->retry_after_ms) farewell_->retry_after = std::chrono::milliseconds(*error->retry_after_ms);
     if (!joined_) return end(*farewell_);

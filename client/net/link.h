@@ -7,7 +7,9 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "client/net/address.h"
 #include "client/net/closing.h"
@@ -22,6 +24,8 @@ class LinkListener {
  public:
   virtual ~LinkListener() = default;
   virtual void on_message(const protocol::ServerMessage& message, core::Time arrival) = 0;
+  /// A line of the room's recording, without its newline, of who watches by inputs.
+  virtual void on_recorded(std::string_view line, core::Time arrival) = 0;
   /// The link has ended; nothing comes after it.
   virtual void on_closed(const Closing& closing) = 0;
 };
@@ -65,6 +69,7 @@ class Link : public std::enable_shared_from_this<Link> {
   std::string sending_;  ///< under way to the socket
   std::string unsent_;
   bool joined_ = false;
+  std::optional<protocol::Join> by_frames_;  ///< asked for where the room can't be watched by inputs
   protocol::Welcome welcome_;
   std::optional<Closing> farewell_;  ///< what a fatal error or a bye gave as the reason
 };

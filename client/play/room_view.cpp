@@ -1,6 +1,7 @@
 #include "client/play/room_view.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 #include <variant>
@@ -13,6 +14,7 @@
 namespace woodlouse::client {
 namespace {
 
+constexpr std::uint32_t kStreamHz = 20;   // parts of the stream a second
 constexpr double kTrailSpacings = 200.0;  // a trail's points are this part of the map's width apart
 
 template <typename... Cases>
@@ -45,6 +47,13 @@ protocol::Join make_join(protocol::Role role, const std::string& name, const std
     join.fields = protocol::all_columns();
     join.format = protocol::Format::kExact;
   }
+  return join;
+}
+
+protocol::Join by_inputs(protocol::Join join) {
+  assert(join.role == protocol::Role::kSpectator);
+  join.stream = protocol::Stream::kInputs;
+  join.state_hz = kStreamHz;
   return join;
 }
 
@@ -83,7 +92,10 @@ core::Expected<void> RoomView::on_message(const protocol::ServerMessage& message
 }
 
 void RoomView::take(const protocol::Welcome& welcome, core::Time now) {
-  if (was_here_) notice(what_became(welcome), now);
+  if (was_here_) {
+    const auto& difference = follower().difference();
+    notice(difference ? "watching by frames now: " + to_text(*difference) : what_became(welcome), now);
+  }
   if (welcome_) {  // another game of the room, on the same connection
     notice(core::joined({"now: ", welcome.mode, " on ", welcome.map_name}), now);
     if (pilot_) last_seq_ = pilot_->last_seq();
@@ -97,6 +109,7 @@ void RoomView::take(const protocol::Welcome& welcome, core::Time now) {
   view_.emplace(welcome.tick_hz, welcome.fields);
   pilot_.reset();
   rate_time_.reset();
+  if (welcome.stream == protocol::Stream::kInputs) return stream_.begin(welcome.tick_hz, welcome.state_hz);
   if (map_ && map_->hash == welcome.map_hash) {
     begin_piloting();
   } else {
@@ -151,6 +164,26 @@ void RoomView::take(const protocol::Frame& frame, core::Time now) {
   if (!pilot_) return;
   const auto row = view_->newest()->lice.find(pilot_->id());
   if (row != view_->newest()->lice.end()) pilot_->compare(frame.tick, row->second);
+}
+
+bool RoomView::follow(std::string_view line, core::Time now) {
+  if (!view_) return true;
+  if (!stream_.take(line)) {
+    notice(to_text(*follower().difference()), now);
+    return false;
+  }
+  const match::Match* const match = stream_.match();
+  if (match == nullptr) return true;
+  if (map_ != match->shared_map()) {
+    map_ = match->shared_map();
+    trails_.clear();
+  }
+  if (stream_.is_on_time()) {
+    clock_->observe(match->tick(), now);
+    measure_rate(match->tick(), now);
+  }
+  if (auto picture = stream_.picture()) view_->show(std::move(*picture));
+  return true;
 }
 
 void RoomView::measure_rate(std::uint64_t tick, core::Time now) {

@@ -16,6 +16,7 @@
 #include "client/play/keyframe_verifier.h"
 #include "client/play/pilot.h"
 #include "client/play/roster.h"
+#include "client/play/stream_view.h"
 #include "client/play/trail.h"
 #include "client/play/view_state.h"
 #include "client/play/visible_lice.h"
@@ -38,6 +39,9 @@ class RoomView {
 
   /// One message of the server. Error: the server can't be played with (its map is unreadable); leave.
   core::Expected<void> on_message(const protocol::ServerMessage& message, core::Time now);
+  /// A line of the room's recording, of who watches by inputs. False: it differs from what is re-run here,
+  /// and none is taken any more.
+  bool follow(std::string_view line, core::Time now);
   /// The line is cut: keeps the chat, the map and the picture, forgets the session. The next welcome says
   /// what became of the louse.
   void on_lost();
@@ -76,6 +80,8 @@ class RoomView {
   [[nodiscard]] const std::string& notice_line() const { return notice_; }
   /// What came of the keys' hashes, over all sessions; nothing verified unless asked for (make_join).
   [[nodiscard]] const KeyVerifier& verifier() const { return verifier_; }
+  /// What came of the re-run, over all sessions; nothing where frames are watched.
+  [[nodiscard]] const follow::Follower& follower() const { return stream_.follower(); }
 
  private:
   void take(const protocol::Welcome& welcome, core::Time now);
@@ -95,6 +101,7 @@ class RoomView {
   std::optional<ServerClock> clock_;
   std::optional<ViewState> view_;
   KeyVerifier verifier_;
+  StreamView stream_;
   std::optional<Pilot> pilot_;
   std::uint32_t last_seq_ = 0;  ///< of the connection's inputs, when the game began
   Roster roster_;
@@ -117,5 +124,7 @@ class RoomView {
 /// The join of our client: its columns, its format; its louse is to wait for it.
 protocol::Join make_join(protocol::Role role, const std::string& name, const std::string& room,
                          Hashes hashes = Hashes::kIgnored);
+/// The same of a watcher by inputs, where the server offers that.
+protocol::Join by_inputs(protocol::Join join);
 
 }  // namespace woodlouse::client

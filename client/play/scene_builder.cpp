@@ -66,7 +66,16 @@ void fill_connection_numbers(const RoomView& room, HudNumbers& hud) {
   if (hud.tick_hz == 0.0 && room.welcome() != nullptr) hud.tick_hz = room.welcome()->tick_hz;
 }
 
-std::optional<StateProof> proof_of(const KeyVerifier& verifier) {
+/// Of a re-run, which proves more than keys do, or of keys.
+std::optional<StateProof> proof_of(const RoomView& room) {
+  const follow::Follower& follower = room.follower();
+  if (follower.proven() > 0 || follower.difference()) {
+    StateProof proof;
+    proof.verified = follower.proven();
+    if (follower.difference()) proof.differs = follower.difference()->tick;
+    return proof;
+  }
+  const KeyVerifier& verifier = room.verifier();
   if (verifier.verified() == 0 && !verifier.difference()) return std::nullopt;
   StateProof proof;
   proof.verified = verifier.verified();
@@ -187,7 +196,7 @@ Scene build_scene(const Session& session, const Interface& interface, const Chat
   scene.chat_entry = entry.text();
   scene.notice = room.notice_line();
   scene.goal = room.goal();
-  scene.proof = proof_of(room.verifier());
+  scene.proof = proof_of(room);
   if (room.verifier().difference()) scene.notice = to_text(*room.verifier().difference());
   if (const auto seconds = session.connection().seconds_left(facts.now))
     scene.lost = {session.connection().closing().reason, *seconds};

@@ -45,6 +45,13 @@ void Session::on_message(const protocol::ServerMessage& message, core::Time arri
   connection_.stop();
 }
 
+void Session::on_recorded(std::string_view line, core::Time arrival) {
+  if (room_.follow(line, arrival)) return;
+  // What is shown from here on is the server's word, but it is the room.
+  connection_.watch_by_frames();
+  room_.on_lost();
+}
+
 void Session::on_lost() {
   room_.on_lost();
   if (connection_.phase() == Connection::Phase::kStopped && connection_.was_joined()) failure_ = farewell();

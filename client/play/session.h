@@ -4,6 +4,7 @@
 #include <boost/asio/io_context.hpp>
 #include <chrono>
 #include <optional>
+#include <string_view>
 
 #include "client/net/connection.h"
 #include "client/play/room_view.h"
@@ -37,6 +38,7 @@ class Session final : private ConnectionListener {
 
  private:
   void on_message(const protocol::ServerMessage& message, core::Time arrival) override;
+  void on_recorded(std::string_view line, core::Time arrival) override;
   void on_lost() override;
   /// What to tell when the connection is over.
   [[nodiscard]] core::Error farewell() const;

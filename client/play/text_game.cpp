@@ -133,6 +133,9 @@ void TextGame::update() {
     for (std::size_t i = 0; i < lines.size() && !(only_own && i == 1); ++i) say(lines[i]);
     if (const std::uint64_t keys = session_.room().verifier().verified(); keys > 0)
       say("state ok, " + std::to_string(keys) + (keys == 1 ? " key" : " keys") + " verified");
+    if (const std::uint64_t ticks = session_.room().follower().proven();
+        ticks > 0 && !session_.room().follower().difference())
+      say("state ok, " + std::to_string(ticks) + " ticks proven");
   }
   if (outcome_) return;
   timer_.expires_after(kUpdate);
@@ -167,6 +170,9 @@ void TextGame::tell_news() {
 }
 
 void TextGame::tell_proof() {
+  if (const auto& of_tick = session_.room().follower().difference();
+      of_tick && !std::exchange(is_difference_told_, true))
+    say(to_text(*of_tick));
   const auto& difference = session_.room().verifier().difference();
   if (!difference) return;
   say(to_text(*difference));

@@ -63,7 +63,8 @@ class TextGame {
   bool asked_ = false;          ///< Q was pressed and is to be confirmed
   std::size_t lines_told_ = 0;  ///< of the roster's
   std::string notice_told_;
-  int losses_told_ = 0;  ///< of the connection's
+  bool is_difference_told_ = false;  ///< of the re-run
+  int losses_told_ = 0;              ///< of the connection's
   core::Time state_told_{};
   std::optional<Outcome> outcome_;
 };

@@ -111,9 +111,14 @@ ViewState::Merge ViewState::merge(const protocol::Frame& frame) {
   }
   read_rows(frame, places_, standing_places_, snapshot.lice);
   if (frame.is_key) key_ = snapshot;
+  show(std::move(snapshot));
+  return Merge::kTaken;
+}
+
+void ViewState::show(Snapshot snapshot) {
+  if (!snapshots_.empty() && snapshot.tick <= snapshots_.back().tick) return;
   snapshots_.push_back(std::move(snapshot));
   if (snapshots_.size() > kSnapshots) snapshots_.pop_front();
-  return Merge::kTaken;
 }
 
 void ViewState::clear() {

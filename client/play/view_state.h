@@ -66,6 +66,8 @@ class ViewState {
   explicit ViewState(std::uint32_t tick_hz, const std::vector<protocol::Column>& columns = wanted_columns());
 
   Merge merge(const protocol::Frame& frame);
+  /// One that was made here; passed over where it is not newer than what is here.
+  void show(Snapshot snapshot);
   /// Forgets all: a new session.
   void clear();
 

@@ -12,6 +12,8 @@ namespace woodlouse::server {
 
 /// A layout in use in a room; never used again for another one.
 using ChannelId = std::uint32_t;
+/// No layout's: of who watches by inputs and is shown no frames.
+inline constexpr ChannelId kByInputs = 0;
 /// Counts the addresses of clients; an address keeps its number while anybody is connected from there.
 using AddressId = std::uint64_t;
 

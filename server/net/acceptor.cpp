@@ -28,11 +28,6 @@ constexpr Duration kHeaderPatience = std::chrono::seconds(3);
 /// As what the connections of a trusted proxy count of which it has not said whose they are.
 std::string unknown_of(const asio::ip::address& proxy) { return "proxy " + ConnectionLimits::key(proxy); }
 
-bool is_of_this_machine(const asio::ip::address& address) {
-  if (address.is_v4() || !address.to_v6().is_v4_mapped()) return address.is_loopback();
-  return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6()).is_loopback();
-}
-
 }  // namespace
 
 Acceptor::Acceptor(const Lanes& lanes, const SessionEnvironment& environment)
@@ -302,10 +297,6 @@ void Acceptor::count_sessions(const Guest& guest, bool is_new) {
   if (!guest.is_web) return;
   assert(is_new || traffic.web_sessions > 0);
   is_new ? ++traffic.web_sessions : --traffic.web_sessions;
-}
-
-void Acceptor::tell_when_empty() {
-  if (stopped_ && sessions_.empty() && visits_.empty()) std::exchange(stopped_, nullptr)();
 }
 
 void Acceptor::expel(IsMeant is_meant, protocol::ErrorMessage why, std::function<void(std::size_t)> done) {

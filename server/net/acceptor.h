@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "server/logging/events.h"
 #include "server/net/connection_limits.h"
@@ -100,7 +101,9 @@ class Acceptor {
   void end_visit(SessionId id);
   void on_closed(const Guest& guest);
   void count_sessions(const Guest& guest, bool is_new);
-  void tell_when_empty();
+  void tell_when_empty() {
+    if (stopped_ && sessions_.empty() && visits_.empty()) std::exchange(stopped_, nullptr)();
+  }
   void log(LogEvent event, const std::string& address, const std::string& what);
 
   const Lanes& lanes_;

@@ -37,6 +37,11 @@ std::optional<RefusedConnection> refused(ConnectionLimits::Admission admission) 
 
 }  // namespace
 
+bool is_of_this_machine(const boost::asio::ip::address& address) {
+  if (address.is_v4() || !address.to_v6().is_v4_mapped()) return address.is_loopback();
+  return boost::asio::ip::make_address_v4(boost::asio::ip::v4_mapped, address.to_v6()).is_loopback();
+}
+
 std::optional<protocol::ErrorMessage> why_turned_away(const SessionEnvironment& environment,
                                                       ConnectionLimits::Admission admission,
                                                       const boost::asio::ip::address& address) {

@@ -11,6 +11,9 @@
 
 namespace woodlouse::server {
 
+/// Loopback, also as IPv6 has it of IPv4.
+[[nodiscard]] bool is_of_this_machine(const boost::asio::ip::address& address);
+
 /// A fatal error for somebody of that address; none: he is welcome. Any thread.
 std::optional<protocol::ErrorMessage> why_turned_away(const SessionEnvironment& environment,
                                                       ConnectionLimits::Admission admission,

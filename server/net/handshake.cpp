@@ -85,7 +85,7 @@ protocol::Hello hello_of(std::uint64_t session, std::string_view server, std::ve
   hello.session = core::to_hex(session);
   hello.rooms = std::move(rooms);
   hello.features = {"quantized", "exact", "fields",  "delta",    "get_map",
-                    "resume",    "rules", "records", "rotation", "view"};
+                    "resume",    "rules", "records", "rotation", "view", "inputs"};
   hello.limits = limits;
   return hello;
 }

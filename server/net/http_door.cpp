@@ -35,8 +35,7 @@ namespace beast = boost::beast;
 namespace http = boost::beast::http;
 using boost::system::error_code;
 
-// One head and what may be read behind it.
-constexpr std::size_t kBufferBytes = 2 * std::size_t{HttpDoor::kHeadBytes};
+constexpr std::size_t kBufferBytes = 2 * std::size_t{HttpDoor::kHeadBytes};  // of a head and what comes along
 
 constexpr std::size_t kKeyLength = 24;  // of Sec-WebSocket-Key: 16 bytes in base64
 

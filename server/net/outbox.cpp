@@ -18,6 +18,7 @@ void Outbox::push_last(Line line, Replaceable replaceable) {
   if (replaceable == Replaceable::kSent) return;
   map_.reset();
   frames_.clear();
+  stream_.begin_anew();
 }
 
 Outbox::PushMap Outbox::push_map(Line line) {
@@ -29,6 +30,7 @@ Outbox::PushMap Outbox::push_map(Line line) {
 void Outbox::begin_anew() {
   map_.reset();
   frames_ = FrameSlots();
+  stream_.begin_anew();
 }
 
 FrameSlots::Outcome Outbox::offer(Frame frame) {
@@ -45,6 +47,7 @@ Outbox::Batch Outbox::take(Batch written) {
     batch.lines.push_back(std::move(frame->text));
     ++batch.frames;
   }
+  stream_.take(batch.lines);
   if (last_) batch.lines.push_back(std::exchange(last_, {}));
   flying_bytes_ = std::exchange(waiting_bytes_, 0);
   return batch;

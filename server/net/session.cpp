@@ -121,8 +121,7 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
   }
   if (auto* wanted = std::get_if<protocol::Join>(&message)) return join(take_token(*wanted), now);
   if (auto* wish = std::get_if<protocol::Moderate>(&message)) return moderate(std::move(*wish));
-  const auto* look = std::get_if<protocol::Look>(&message);
-  if (look != nullptr && !is_for_room(*look)) return;
+  if (const auto* look = std::get_if<protocol::Look>(&message); look && !is_for_room(*look)) return;
   if (waits_for_its_turn(message)) return ask(std::move(message), now);
   if (std::holds_alternative<protocol::Leave>(message)) {
     if (!input_ended_) parting_ = Parting::kLeft;
@@ -155,7 +154,7 @@ void Session::queue(Line line) {
 }
 
 void Session::on_all_sent() {
-  if (state_ != State::kSayingBye) return;
+  if (state_ != State::kSayingBye) return ask_for_keyframe();
   state_ = State::kDraining;
   sender_.stop();
   if (wire_->shut_down_sending() || input_ended_) return close();  // the client went first

@@ -110,6 +110,10 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   }
   void show(const Frame& frame) override;
   void show_again(const Frame& frame) override;
+  void follow(const StreamPart& part) override {
+    if (lane_.running_in_this_thread()) return follow_here(part);
+    boost::asio::post(lane_, [self = shared_from_this(), part] { self->follow_here(part); });
+  }
   void deliver_map(Line line) override;
   void deliver_record(Line line) override {
     boost::asio::post(lane_, [self = shared_from_this(), line = std::move(line)]() mutable {
@@ -229,6 +233,29 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
     if (!viewer_) viewer_ = std::make_unique<Viewer>(view_, louse_, most_rows_);
     return viewer_->frame(frame);
   }
+  void follow_here(const StreamPart& part) {
+    if (state_ != State::kOpen) return;
+    charge(part);
+    sender_.outbox().follow(part);
+    if (++parts_ % divisor_ == 0 || part.kind == StreamPart::Kind::kKeyframe) sender_.write();
+  }
+  /// What begins a game was not asked for, and is charged as it comes; a resync is charged before, by the
+  /// size of the last one.
+  void charge(const StreamPart& part) {
+    const std::size_t size = part.lines->size();
+    const bool is_header = part.kind == StreamPart::Kind::kHeader;
+    const bool is_keyframe = part.kind == StreamPart::Kind::kKeyframe;
+    if (is_keyframe) key_bytes_ = size;
+    if (part.is_answer && part.kind == StreamPart::Kind::kSteps) key_bytes_ += size;
+    if (is_header || (is_keyframe && has_header_)) allowance_.charge_answer(size, now());
+    if (is_header || is_keyframe) has_header_ = is_header;
+  }
+  /// Where the client has fallen behind in the stream, as if it had sent resync.
+  void ask_for_keyframe() {
+    if (state_ != State::kOpen || !sender_.outbox().take_wish()) return;
+    if (!allowance_.ask(protocol::Resync{})) pass_on_due(now());  // else one is on its way
+    watch_next(now());
+  }
   void say(const protocol::ServerMessage& message) {
     if (const auto* error = std::get_if<protocol::ErrorMessage>(&message))
       environment_.traffic.refused_lines.add(error->code);
@@ -303,7 +330,9 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   std::unique_ptr<Viewer> viewer_;  ///< since a frame came as a sheet
   std::uint32_t louse_ = 0;         ///< its own; 0: a spectator
   std::size_t most_rows_ = protocol::kEveryRow;
-  bool is_web_ = false;  ///< it came by the web port
+  bool is_web_ = false;      ///< it came by the web port
+  std::uint64_t parts_ = 0;  ///< of the stream, so far
+  bool has_header_ = false;  ///< and no keyframe behind it yet
   // Of the answers to get_map and, about, to resync; guesses until the welcome has come.
   std::size_t map_bytes_ = 64u << 10, key_bytes_ = 4u << 10;
   std::size_t records_bytes_ = 4u << 10, ghost_bytes_ = 16u << 10;  ///< of the longest so far, or guesses

@@ -23,9 +23,8 @@ std::uint64_t unix_seconds() {
 
 }  // namespace
 
-void GhostRecorder::step(const match::StepRecord& record, std::span<const InputMargin>,
-                         const match::Match& game) {
-  for (match::DrivenRun& driven : tracks_.take(record)) {
+void GhostRecorder::step(const LiveStep& step, const match::Match& game) {
+  for (match::DrivenRun& driven : tracks_.take(step.record())) {
     const auto label = game.labels().find(driven.player);
     if (label == game.labels().end()) continue;
     const state::Role role = label->second.role;

@@ -24,8 +24,7 @@ class GhostRecorder final : public TickWatcher {
 
   void attach_events(Tell tell) override { tell_ = std::move(tell); }
   void begin(const match::Match&) override {}
-  void step(const match::StepRecord& record, std::span<const InputMargin> margins,
-            const match::Match& game) override;
+  void step(const LiveStep& step, const match::Match& game) override;
   [[nodiscard]] Line answer(const protocol::ClientMessage& question) const override;
   void finish(const std::string&, std::function<void()> done) override { done(); }
 

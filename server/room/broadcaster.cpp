@@ -22,11 +22,11 @@ void Broadcaster::remove(SessionId session) {
     for (Member& member : members_)
       if (member.session == session) member.subscriber.reset();
     // A running job holds an index into the list; it is tidied when the job ends.
-    if (!event_job_ && !frame_job_) end_job();
+    if (!has_job()) end_job();
   });
 }
 
-void Broadcaster::move(SessionId session, ChannelId channel) {
+void Broadcaster::change(SessionId session, ChannelId channel) {
   asio::post(strand_, [self = shared_from_this(), this, session, channel] {
     for (Member& member : members_)
       if (member.session == session) member.channel = channel;
@@ -61,11 +61,21 @@ void Broadcaster::frames(FrameKind kind, ChannelFrames frames) {
   });
 }
 
+void Broadcaster::part(StreamPart part) {
+  assert(part.kind == StreamPart::Kind::kSteps);
+  asio::post(strand_, [self = shared_from_this(), this, added = std::move(part)]() mutable {
+    if (parts_.size() >= kMostParts) parts_.clear();
+    parts_.push_back(std::move(added));
+    wake();
+  });
+}
+
 void Broadcaster::drop_frames() {
   asio::post(strand_, [self = shared_from_this(), this] {
     key_.reset();
     delta_.reset();
-    if (frame_job_) end_job();
+    parts_.clear();
+    if (frame_job_ || !part_job_.empty()) end_job();
   });
 }
 
@@ -97,21 +107,26 @@ Broadcaster::Batch Broadcaster::take_events() {
 bool Broadcaster::begin_job() {
   next_member_ = 0;
   let_those_go();
-  if (!events_.empty() && !(is_frames_turn_ && (key_ || delta_))) {
+  const bool has_frames = key_ || delta_;
+  if (!events_.empty() && !(is_frames_turn_ && (has_frames || !parts_.empty()))) {
     event_job_ = take_events();
+  } else if (!parts_.empty() && (is_parts_turn_ || !has_frames)) {
+    part_job_ = std::exchange(parts_, {});
   } else if (key_) {
     frame_job_ = std::exchange(key_, std::nullopt);
   } else if (delta_) {
     frame_job_ = std::exchange(delta_, std::nullopt);
   }
   is_frames_turn_ = event_job_.has_value();
-  return event_job_ || frame_job_;
+  if (!is_frames_turn_) is_parts_turn_ = part_job_.empty();
+  return has_job();
 }
 
 void Broadcaster::end_job() {
   if (event_job_) backlog_.fetch_sub(event_job_->events.size(), std::memory_order_relaxed);
   event_job_.reset();
   frame_job_.reset();
+  part_job_.clear();
   std::erase_if(members_, [](const Member& member) { return !member.subscriber; });
 }
 
@@ -124,6 +139,11 @@ void Broadcaster::serve(const Member& member) const {
       if (event.number >= member.first_event) member.subscriber->deliver(event.line);
     return;
   }
+  if (!frame_job_) {
+    if (member.channel != kByInputs) return;
+    for (const StreamPart& part : part_job_) member.subscriber->follow(part);
+    return;
+  }
   for (const ChannelFrame& entry : *frame_job_)
     if (entry.channel == member.channel) return member.subscriber->show(entry.frame);
 }
@@ -134,7 +154,7 @@ void Broadcaster::wake() {
 }
 
 void Broadcaster::hand_out_slice() {
-  if (!event_job_ && !frame_job_ && !begin_job()) {
+  if (!has_job() && !begin_job()) {
     awake_ = false;
     return;
   }

@@ -3,7 +3,8 @@
 //
 // Events wait in their order, and all that wait go out together, one text for everybody; of frames at most
 // the newest key and the newest delta wait (state is replaceable). Both take turns: however many events come,
-// a frame that is due waits for one hand-out of them, a delta behind a key for two. backlog() tells the room
+// a frame that is due waits for one hand-out of them, a delta behind a key for two. Who watches by inputs is
+// handed parts of the stream instead, all that wait together, in turns with frames. backlog() tells the room
 // when events come faster than they go out, so that it refuses what would make more of them.
 #pragma once
 
@@ -18,6 +19,7 @@
 #include "server/frames/channels.h"
 #include "server/room/lanes.h"
 #include "server/room/subscriber.h"
+#include "server/stream/stream_part.h"
 
 namespace woodlouse::server {
 
@@ -26,6 +28,8 @@ class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
  public:
   static constexpr std::size_t kSlice = 64;         ///< members served before others may run
   static constexpr std::size_t kMaxBacklog = 1024;  ///< events waiting, past which the room makes no more
+  /// Parts of the stream waiting, past which all are dropped: who watches goes on from a new keyframe.
+  static constexpr std::size_t kMostParts = 256;
   static constexpr std::size_t kBatchBytes = 32u
                                              << 10;  ///< of events handed out together, or one of any length
 
@@ -34,19 +38,22 @@ class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
   struct Member {
     SessionId session = 0;
     std::shared_ptr<Subscriber> subscriber;
-    ChannelId channel = 0;
+    ChannelId channel = 0;          ///< or kByInputs
     std::uint64_t first_event = 0;  ///< events numbered below came before it joined
   };
 
   // Any thread; in the order called. A member is called on the lane.
   void add(Member member);
   void remove(SessionId session);
-  void move(SessionId session, ChannelId channel);
+  /// The member is shown that from now on.
+  void change(SessionId session, ChannelId channel);
   void event(std::uint64_t number, Line line);
   /// Lets the member go when it has heard the events before this.
   void let_go(SessionId session);
   void frames(FrameKind kind, ChannelFrames frames);
-  /// Those that wait, and those that are being handed out, are of a game that is over.
+  /// Of the stream. REQUIRES one of steps.
+  void part(StreamPart part);
+  /// Those that wait, and those that are being handed out, are of a game that is over; parts, too.
   void drop_frames();
   /// Events not yet handed out.
   [[nodiscard]] std::size_t backlog() const { return backlog_.load(std::memory_order_relaxed); }
@@ -69,6 +76,7 @@ class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
   [[nodiscard]] Batch take_events();
   void let_those_go();
   void end_job();
+  [[nodiscard]] bool has_job() const { return event_job_ || frame_job_ || !part_job_.empty(); }
   void serve(const Member& member) const;
 
   Lane strand_;
@@ -78,9 +86,12 @@ class Broadcaster : public std::enable_shared_from_this<Broadcaster> {
   std::deque<Event> events_;
   std::optional<ChannelFrames> key_;
   std::optional<ChannelFrames> delta_;
-  std::optional<Batch> event_job_;  ///< the job being handed out, one of the two
+  std::vector<StreamPart> parts_;
+  std::optional<Batch> event_job_;  ///< the job being handed out, one of the three
   std::optional<ChannelFrames> frame_job_;
+  std::vector<StreamPart> part_job_;
   bool is_frames_turn_ = false;  ///< events went out last
+  bool is_parts_turn_ = true;    ///< of both, frames went out last
   std::size_t next_member_ = 0;  ///< of that job
   bool awake_ = false;           ///< a slice is posted
 };

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "server/frames/layouts.h"
@@ -13,6 +14,8 @@
 #include "server/room/outlet.h"
 #include "server/room/room_settings.h"
 #include "server/room/seats.h"
+#include "server/room/welcome.h"
+#include "server/stream/recorded_step.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
 
@@ -35,10 +38,13 @@ class Display {
   /// From now on it has every frame, and the events from that one on.
   void subscribe(const SessionOccupant& occupant, std::uint64_t first_event);
   void unsubscribe(const SessionOccupant& occupant);
+  /// Whether the game can be watched by inputs: its map is sent whole.
+  [[nodiscard]] bool has_inputs() const;
   /// Another game: who is seated is welcomed to it, behind all frames of the one before.
   void begin(match::Match& game, Seats& seats, Company company);
 
   void show_newest(const SessionOccupant& occupant) {
+    if (occupant.channel == kByInputs) return asked_.push_back({occupant.subscriber, false});
     outlet_.show_newest(occupant.channel, occupant.subscriber, snapshot());
   }
   void show_map(const SessionOccupant& occupant) const { occupant.subscriber->deliver_map(map_line_); }
@@ -46,12 +52,25 @@ class Display {
   void look(SessionId session, const protocol::View& view) { turning_[session] = shows_part(view); }
   /// The picture of every layout in use, where one is due.
   void send_frames(Seats& seats);
+  /// The step just done, to who watches by inputs, and a keyframe to who has asked for one since. REQUIRES
+  /// that nothing is queued in the match.
+  void show_step(const LiveStep& step);
 
  private:
   [[nodiscard]] bool shows_part(const protocol::View& view) const {
     return !view.is_whole() || settings_.limits.frame_rows < protocol::kEveryRow;
   }
-  void turn(SessionOccupant& occupant, AddressId address, bool shows_part);
+  void turn(Seat& seat, bool shows_part);
+  /// Who is to get a keyframe behind the next step.
+  struct Asked {
+    std::shared_ptr<Subscriber> subscriber;
+    bool wants_header = false;
+  };
+  void choose(Seat& seat, const RowLayout& rows);
+  [[nodiscard]] Addressee addressee(const Seat& seat) const;
+  void show_first(const SessionOccupant& occupant);
+  void change_over(Seat& seat, SessionOccupant& occupant);
+  [[nodiscard]] const Line& header();
   [[nodiscard]] protocol::Welcome welcome_to_all(Company company) const;
   [[nodiscard]] SharedSnapshot snapshot();
   [[nodiscard]] std::uint64_t ticks_a_frame() const;
@@ -64,6 +83,10 @@ class Display {
   std::map<SessionId, bool> turning_;  ///< with the next key, to a part or to all
   SharedPool<Snapshot> snapshots_;
   SharedSnapshot snapshot_;  ///< of its tick, for all who ask within that
+  Line header_;              ///< of the game's recording, once somebody watches by inputs
+  std::vector<Asked> asked_;
+  std::size_t by_inputs_ = 0;                   ///< how many are subscribed
+  std::optional<std::uint64_t> keyframe_tick_;  ///< of the one that the outlet keeps
 };
 
 }  // namespace woodlouse::server

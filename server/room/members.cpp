@@ -107,6 +107,9 @@ std::optional<protocol::ErrorMessage> Members::why_not(const Arrival& arrival) {
                                                 std::to_string(places_of(role, settings_.limits)),
                                                 ", the last for addresses that have nobody here); try again "
                                                 "later or another room"}));
+  if (arrival.join.stream == protocol::Stream::kInputs && !display_.has_inputs())
+    return error(code::kBadField, core::joined({"join.stream: the map of room ", settings_.name,
+                                                " is too big to be watched by inputs; watch by frames"}));
   if (outlet_->backlog() > Broadcaster::kMaxBacklog)
     return error(code::kRateLimited, "join: too much is happening in room " + settings_.name, 1000);
   if (role == protocol::Role::kSpectator) return std::nullopt;  // nobody else hears of it
@@ -293,10 +296,6 @@ void Members::on_message(Seat&, const SessionOccupant& occupant, const protocol:
   leaving_.emplace(occupant.acked_from, occupant.session);
 }
 
-void Members::on_message(Seat&, SessionOccupant& occupant, const protocol::Resync&, Time) {
-  display_.show_newest(occupant);
-}
-
 void Members::on_message(Seat& seat, const SessionOccupant&, const protocol::Respawn& respawn, Time arrived) {
   if (refuse_when_busy(seat, Spending::kRespawn, arrived)) return;
   if (!may_wait())
@@ -324,8 +323,9 @@ std::size_t Members::votes() const {
 
 // ---- what they are shown -------------------------------------------------------------------------------
 
-void Members::tell(const match::StepRecord& step) {
-  for (const rules::Event& event : step.events) {
+void Members::tell(const LiveStep& step) {
+  display_.show_step(step);
+  for (const rules::Event& event : step.record().events) {
     const auto label = game_->labels().find(event.louse);
     send(events_.ruled(event, label != game_->labels().end() ? label->second.name : std::string(),
                        *game_->rules()));

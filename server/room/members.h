@@ -87,8 +87,8 @@ class Members {
     return inputs_->margins(tick, begun);
   }
   void answer(std::uint64_t tick, Time begun);
-  /// What the rules of play said of the step.
-  void tell(const match::StepRecord& step);
+  /// What the rules of play said of the step, and the step itself to who watches by inputs.
+  void tell(const LiveStep& step);
   /// What a watcher has to tell.
   void tell(const protocol::Event& event) { send(events_.told(event)); }
   void send_frames() { display_.send_frames(seats_); }
@@ -119,7 +119,9 @@ class Members {
   void on_message(Seat&, SessionOccupant& occupant, const protocol::GetMap&, Time) {
     display_.show_map(occupant);
   }
-  void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Resync&, Time);
+  void on_message(Seat&, SessionOccupant& occupant, const protocol::Resync&, Time) {
+    display_.show_newest(occupant);
+  }
   void on_message(Seat&, const SessionOccupant& occupant, const protocol::Look& look, Time) {
     display_.look(occupant.session, look.view);
   }

@@ -46,12 +46,6 @@ void Outlet::remove(SessionId session, std::size_t lane) {
   asio::post(strand_, [self = shared_from_this(), session, lane] { self->lanes_[lane]->remove(session); });
 }
 
-void Outlet::move(SessionId session, std::size_t lane, ChannelId channel) {
-  asio::post(strand_, [self = shared_from_this(), session, lane, channel] {
-    self->lanes_[lane]->move(session, channel);
-  });
-}
-
 void Outlet::event(std::uint64_t number, Line line) {
   events_.fetch_add(1, std::memory_order_relaxed);
   asio::post(strand_, [self = shared_from_this(), number, line = std::move(line)] {
@@ -76,9 +70,48 @@ void Outlet::show(FrameKind kind, SharedSnapshot now) {
   });
 }
 
+void Outlet::change(SessionId session, std::size_t lane, ChannelId channel) {
+  asio::post(strand_, [self = shared_from_this(), session, lane, channel] {
+    self->lanes_[lane]->change(session, channel);
+  });
+}
+
+void Outlet::show_step(SharedStep step, std::optional<InputStream::Quiet> goes_out) {
+  assert(step != nullptr);
+  asio::post(strand_, [self = shared_from_this(), step = std::move(step), goes_out] {
+    self->stream_.step(*step);
+    if (goes_out) self->hand_out(self->stream_.take(*goes_out));
+  });
+}
+
+void Outlet::keep_keyframe(match::MatchState state, std::uint64_t kept_ticks) {
+  asio::post(strand_, [self = shared_from_this(), state = std::move(state), kept_ticks]() mutable {
+    self->hand_out(self->stream_.take(InputStream::Quiet::kTold));
+    self->stream_.keyframe(std::move(state), kept_ticks);
+  });
+}
+
+void Outlet::show_keyframe(std::shared_ptr<Subscriber> subscriber, Line header) {
+  assert(subscriber != nullptr);
+  asio::post(strand_,
+             [self = shared_from_this(), subscriber = std::move(subscriber), header = std::move(header)] {
+               if (header) subscriber->follow({StreamPart::Kind::kHeader, 0, 0, header, true});
+               for (StreamPart part : self->stream_.newest()) {
+                 part.is_answer = true;
+                 subscriber->follow(part);
+               }
+             });
+}
+
+void Outlet::hand_out(std::optional<StreamPart> part) {
+  if (!part) return;
+  for (const auto& lane : lanes_) lane->part(*part);
+}
+
 void Outlet::begin_anew() {
   asio::post(strand_, [self = shared_from_this()] {
     self->due_ = {};
+    self->stream_.begin_anew();
     self->channels_.begin_anew();
     for (const auto& lane : self->lanes_) lane->drop_frames();
   });

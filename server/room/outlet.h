@@ -10,12 +10,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "server/frames/channels.h"
 #include "server/frames/snapshot.h"
 #include "server/room/broadcaster.h"
 #include "server/room/lanes.h"
+#include "server/stream/input_stream.h"
 
 namespace woodlouse::server {
 
@@ -34,11 +36,19 @@ class Outlet : public std::enable_shared_from_this<Outlet> {
   void show_newest(ChannelId channel, std::shared_ptr<Subscriber> subscriber, SharedSnapshot now);
   void add(Broadcaster::Member member);
   void remove(SessionId session, std::size_t lane);
-  /// Its frames are those of another channel from now on.
-  void move(SessionId session, std::size_t lane, ChannelId channel);
   void event(std::uint64_t number, Line line);
   void let_go(SessionId session, std::size_t lane);
   void show(FrameKind kind, SharedSnapshot now);
+  /// Who is a member is shown frames or, of kByInputs, the stream.
+  void change(SessionId session, std::size_t lane, ChannelId channel);
+
+  /// Of the stream, for who watches by inputs: the step just done. goes_out: with what waits; none: not yet.
+  void show_step(SharedStep step, std::optional<InputStream::Quiet> goes_out);
+  /// Where the steps led, kept for so many ticks. REQUIRES that the step that led there was shown.
+  void keep_keyframe(match::MatchState state, std::uint64_t kept_ticks);
+  /// The keyframe kept, behind the game's header where there is one, and what came since. REQUIRES one.
+  void show_keyframe(std::shared_ptr<Subscriber> subscriber, Line header);
+
   /// Another game begins: no frame of the one before goes to anybody after this.
   void begin_anew();
   /// Made and said behind all frames of the game before. divisor: Subscriber::welcome()'s.
@@ -53,12 +63,14 @@ class Outlet : public std::enable_shared_from_this<Outlet> {
 
  private:
   void encode();
+  void hand_out(std::optional<StreamPart> part);
 
   boost::asio::strand<boost::asio::io_context::executor_type> strand_;
   std::vector<std::shared_ptr<Broadcaster>> lanes_;
   std::atomic<std::uint64_t> encoded_{0};
   std::atomic<std::size_t> events_{0};  ///< on their way to the lanes
   // The strand's:
+  InputStream stream_;
   Channels channels_;
   SharedSnapshot due_;  ///< to be encoded; none: nothing is
   FrameKind due_kind_ = FrameKind::kDelta;

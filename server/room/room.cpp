@@ -315,9 +315,9 @@ void Room::tick(Time now) {
   const std::uint64_t number = game_->tick();
   members_.give_up_vacant();
   members_.steer_house_bots();
-  const match::StepRecord& step = game_->advance();
-  const std::span<const InputMargin> margins = members_.margins(number, now);
-  for (const auto& watcher : watchers_) watcher->step(step, margins, *game_);
+  const match::StepRecord& record = game_->advance();
+  const LiveStep step(record, members_.margins(number, now));
+  for (const auto& watcher : watchers_) watcher->step(step, *game_);
   if (late_) begin_late();
   members_.answer(number, now);
   members_.tell(step);

@@ -12,6 +12,7 @@ namespace woodlouse::server {
 
 struct RoomSettings {
   std::string name;
+  std::string build{};          ///< of the server, for who saves what he watches
   std::uint32_t state_hz = 20;  ///< divides the match's tick_hz
   std::uint32_t bots = 0;       ///< of the house
   bots::Skill bots_skill = bots::Skill::kFair;

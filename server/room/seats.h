@@ -35,6 +35,8 @@ struct SessionOccupant {
   ChannelId channel = 0;
   std::uint64_t acked_from = 0;  ///< the tick from which on all its inputs are acknowledged
   std::uint32_t state_hz = 0;    ///< granted to it
+  /// Who asked to watch by inputs: what his rows are where a game can't be watched so.
+  std::optional<RowLayout> rows_instead{};
 };
 
 /// One of the house's bots, counted from 0.

@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "shared/follow/shown_game.h"
+
 namespace woodlouse::server {
 namespace {
 
@@ -13,31 +15,8 @@ using protocol::EventKind;
 static_assert(static_cast<int>(rules::EventKind::kRound) + static_cast<int>(EventKind::kGate) ==
               static_cast<int>(EventKind::kRound));
 
-protocol::GamePhase shown(rules::Phase phase) {
-  static_assert(static_cast<int>(rules::Phase::kPodium) == static_cast<int>(protocol::GamePhase::kPodium));
-  return static_cast<protocol::GamePhase>(phase);
-}
-
-std::vector<protocol::GameTableRow> shown_table(const rules::Rules& rules) {
-  std::vector<protocol::GameTableRow> rows;
-  for (const rules::TableRow& row : rules.table()) {
-    if (rows.size() == protocol::kMaxTableRows) break;
-    rows.push_back({row.louse, row.score});
-  }
-  return rows;
-}
-
 GameScene shown_game(const rules::Rules& rules, std::span<const state::Louse> lice) {
-  GameScene scene;
-  const rules::Round& round = rules.round();
-  scene.game.phase = shown(round.phase);
-  scene.game.round = round.number;
-  scene.game.until = round.until;
-  for (const rules::ShownCrumb& crumb : rules.shown_crumbs())
-    scene.game.crumbs.push_back({crumb.slot, crumb.position, crumb.value});
-  if (const auto hill = rules.shown_hill())
-    scene.game.hill = {hill->place, hill->holder, hill->is_contested, hill->moves_at};
-  scene.game.table = shown_table(rules);
+  GameScene scene{follow::shown_game(rules), {}};
   for (const state::Louse& louse : lice) scene.standings.push_back(rules.standing(louse.id));
   return scene;
 }
@@ -67,9 +46,9 @@ protocol::Event shown_event(const rules::Event& event, const rules::Rules& rules
   }
   if (event.kind != rules::EventKind::kRound) return shown_event;
   // A phase is told by name.
-  shown_event.phase = shown(static_cast<rules::Phase>(event.values[1]));
+  shown_event.phase = follow::shown_phase(static_cast<rules::Phase>(event.values[1]));
   shown_event.values = {event.values[0], event.values[2], std::nullopt, std::nullopt};
-  shown_event.table = shown_table(rules);
+  shown_event.table = follow::shown_table(rules);
   return shown_event;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "server/frames/frame.h"
+#include "server/stream/stream_part.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::server {
@@ -31,6 +32,8 @@ class Subscriber {
   virtual void show(const Frame& frame) = 0;
   /// Frames asked for again, or the first ones; they say nothing about the client's pace.
   virtual void show_again(const Frame& frame) = 0;
+  /// The next part of the stream, of who watches by inputs.
+  virtual void follow(const StreamPart& part) { deliver(part.lines); }
   /// The answer to get_map.
   virtual void deliver_map(Line line) = 0;
   /// The answer to list_records or get_ghost, which many share.

@@ -5,23 +5,16 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "server/frames/line.h"
+#include "server/stream/recorded_step.h"
 #include "server/timing/figures.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::server {
-
-/// How long before its step an input came; negative: after the step it asked for.
-struct InputMargin {
-  match::PlayerId player = 0;
-  std::uint32_t seq = 0;
-  std::int64_t microseconds = 0;
-};
 
 /// The room's strand calls it, in this order: attach(), begin(), then chat(), step() and rest() as they
 /// happen, fall_asleep() and wake() around a time in which no tick passes, finish(). Every call returns at
@@ -45,10 +38,8 @@ class TickWatcher {
   virtual void begin(const match::Match& game) = 0;
   virtual void chat(std::uint64_t /*tick*/, match::PlayerId /*player*/, const std::string& /*name*/,
                     const std::string& /*text*/) {}
-  /// After the step. `game`: as the step left it, nothing queued since. margins: of the step's inputs that
-  /// came from sessions.
-  virtual void step(const match::StepRecord& /*record*/, std::span<const InputMargin> /*margins*/,
-                    const match::Match& /*game*/) {}
+  /// After the step. `game`: as the step left it, nothing queued since.
+  virtual void step(const LiveStep& /*step*/, const match::Match& /*game*/) {}
   /// After everything else of the tick is done: who is in the room was answered and shown it.
   virtual void rest(const match::Match& /*game*/) {}
   /// The room stands still, as nobody is there, or its operator has paused it. Nothing follows but chat(),

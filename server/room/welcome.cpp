@@ -18,8 +18,12 @@ namespace woodlouse::server {
 Addressee addressee_of(const Seat& seat, const RowLayout& layout) {
   const auto* occupant = std::get_if<SessionOccupant>(&seat.occupant);
   assert(occupant != nullptr && occupant->state_hz > 0);
-  return {seat.louse, seat.name, seat.token ? to_text(*seat.token) : std::string(), layout,
-          occupant->state_hz};
+  return {seat.louse,
+          seat.name,
+          seat.token ? to_text(*seat.token) : std::string(),
+          layout,
+          occupant->state_hz,
+          occupant->channel == kByInputs ? protocol::Stream::kInputs : protocol::Stream::kFrames};
 }
 
 protocol::Welcome addressed(protocol::Welcome welcome, const Addressee& to) {
@@ -29,6 +33,7 @@ protocol::Welcome addressed(protocol::Welcome welcome, const Addressee& to) {
   welcome.fields = to.layout.fields;
   welcome.format = to.layout.format;
   welcome.state_hz = to.state_hz;
+  welcome.stream = to.stream;
   return welcome;
 }
 
@@ -52,9 +57,9 @@ protocol::Welcome welcome_for(const RoomSettings& settings, const match::Match& 
 }
 
 std::optional<std::uint32_t> wanted_state_hz(const protocol::Join& join, bool is_web) {
-  if (join.state_hz || join.role != protocol::Role::kSpectator || !(join.view || is_web))
-    return join.state_hz;
-  return kLookersHz;
+  if (join.state_hz || join.role != protocol::Role::kSpectator) return join.state_hz;
+  const bool is_by_inputs = join.stream == protocol::Stream::kInputs;
+  return is_by_inputs || join.view || is_web ? std::optional(kLookersHz) : std::nullopt;
 }
 
 std::uint32_t granted_state_hz(std::optional<std::uint32_t> wanted, std::uint32_t most) {

@@ -23,6 +23,7 @@ struct Addressee {
   std::string resume_token;
   RowLayout layout;
   std::uint32_t state_hz = 0;
+  protocol::Stream stream = protocol::Stream::kFrames;
 };
 /// REQUIRES that the seat is a session's.
 Addressee addressee_of(const Seat& seat, const RowLayout& layout);
@@ -36,8 +37,8 @@ protocol::Welcome addressed(protocol::Welcome welcome, const Addressee& to);
 /// overview where it names a file.
 Line encode_map_line(const map::Map& map);
 
-/// Frames a second of a spectator who asks for no rate, where he is shown a part of the room or came by the
-/// web port.
+/// Frames a second of a spectator who asks for no rate, where he watches by inputs, is shown a part of the
+/// room or came by the web port.
 inline constexpr std::uint32_t kLookersHz = 10;
 /// What a join asks for, said or not.
 std::optional<std::uint32_t> wanted_state_hz(const protocol::Join& join, bool is_web);

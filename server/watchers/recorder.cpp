@@ -68,15 +68,13 @@ void Recorder::chat(std::uint64_t tick, match::PlayerId player, const std::strin
   enqueue([writer = writer_, tick, player, name, text] { writer->chat(tick, player, name, text); });
 }
 
-void Recorder::step(const match::StepRecord& record, std::span<const InputMargin> margins,
-                    const match::Match& game) {
+void Recorder::step(const LiveStep& step, const match::Match& game) {
   if (writer_->has_failed()) return writer_->lose_tick();
   std::shared_ptr<const match::MatchState> keyframe;
   if (game.tick() % keyframe_ticks_ == 0) keyframe = std::make_shared<const match::MatchState>(game.state());
   const bool next_file = keyframe != nullptr && is_next_file_due();
-  enqueue([writer = writer_, record, margins = std::vector(margins.begin(), margins.end()),
-           keyframe = std::move(keyframe), next_file] {
-    writer->step(record, margins);
+  enqueue([writer = writer_, step = step.shared(), keyframe = std::move(keyframe), next_file] {
+    writer->step(*step);
     if (keyframe) writer->keyframe(*keyframe, next_file);
   });
 }

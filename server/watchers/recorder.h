@@ -55,8 +55,7 @@ class Recorder final : public TickWatcher {
   void chat(std::uint64_t tick, match::PlayerId player, const std::string& name,
             const std::string& text) override;
   /// The game is copied where a keyframe is due.
-  void step(const match::StepRecord& record, std::span<const InputMargin> margins,
-            const match::Match& game) override;
+  void step(const LiveStep& step, const match::Match& game) override;
   /// The pause is told when it is over; a server that is killed within one leaves it untold.
   void fall_asleep(const match::Match& game) override;
   void wake(const match::Match& game) override;

@@ -122,11 +122,10 @@ void RecordingWriter::chat(std::uint64_t tick, match::PlayerId player, const std
   write_when_much();
 }
 
-void RecordingWriter::step(const match::StepRecord& step, const std::vector<InputMargin>& margins) {
+void RecordingWriter::step(const RecordedStep& step) {
   if (!is_writing()) return lose_tick();
-  for (const InputMargin& margin : margins)
-    lines_.note_margin(margin.player, margin.seq, margin.microseconds);
-  lines_.append_step(bytes_, step);
+  const bool has_line = !lines_.is_quiet(step.record());
+  lines_.append_step(bytes_, step.record(), has_line ? std::string_view(step.line()) : std::string_view());
   write_when_much();
 }
 

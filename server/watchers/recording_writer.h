@@ -58,7 +58,7 @@ class RecordingWriter {
 
   void begin(const match::MatchState& first);
   void chat(std::uint64_t tick, match::PlayerId player, const std::string& name, const std::string& text);
-  void step(const match::StepRecord& step, const std::vector<InputMargin>& margins);
+  void step(const RecordedStep& step);
   /// next_file: what follows, this keyframe first, is another file's.
   void keyframe(const match::MatchState& state, bool next_file);
   void pause(const replay::PauseLine& pause);

@@ -40,11 +40,11 @@ core::Expected<void> Shadow::follow(match::MatchState game) {
   return {};
 }
 
-void Shadow::step(const match::StepRecord& record, std::span<const InputMargin>, const match::Match& game) {
+void Shadow::step(const LiveStep& step, const match::Match& game) {
   if (ended_) return;
   if (queued_ >= kMaxQueued) return end(joined({"it fell ", std::to_string(kMaxQueued), " steps behind"}));
   ++queued_;
-  boost::asio::post(strand_, [this, record, state = game.state()]() mutable {
+  boost::asio::post(strand_, [this, record = step.record(), state = game.state()]() mutable {
     if (!ended_ && Clock::now() < finish_by_.load()) compare(record, std::move(state));
     --queued_;
   });

@@ -38,8 +38,7 @@ class Shadow final : public TickWatcher {
          std::filesystem::path dump, boost::asio::thread_pool& pool, std::shared_ptr<spdlog::logger> log);
 
   void begin(const match::Match& game) override;
-  void step(const match::StepRecord& record, std::span<const InputMargin> margins,
-            const match::Match& game) override;
+  void step(const LiveStep& step, const match::Match& game) override;
   /// `done` is called on the shadow's thread.
   void finish(const std::string& reason, std::function<void()> done) override;
   void add_figures(RoomFigures& figures) const override;

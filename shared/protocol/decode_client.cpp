@@ -130,6 +130,11 @@ Decoded read_join(FieldReader& reader) {
   read_fields(reader, join.fields);
   reader.choice("format", join.format, kFormatTexts, format_from_text, Presence::kOptional);
   reader.integer("state_hz", join.state_hz, {1, kMaxStateHz});
+  reader.choice("stream", join.stream, kStreamTexts, stream_from_text, Presence::kOptional);
+  if (!reader.failed() && join.stream == Stream::kInputs && join.role != Role::kSpectator)
+    reader.fail(code::kBadField,
+                "join.stream is \"inputs\", which is for the role \"spectator\": who plays is "
+                "shown frames");
   read_resume(reader, join);
   read_its_view(reader, join);
   read_token(reader, join.token);

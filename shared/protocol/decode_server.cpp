@@ -103,6 +103,7 @@ Decoded read_welcome(FieldReader& reader, const Context&) {
   read_columns(reader, welcome);
   reader.choice("format", welcome.format, kFormatTexts, format_from_text);
   check_quanta(reader, welcome);
+  reader.choice("stream", welcome.stream, kStreamTexts, stream_from_text, Presence::kOptional);
   reader.object("map", [&](FieldReader& map) {
     map.cleaned_text("name", welcome.map_name, kLabelBytes);
     map.hash("hash", welcome.map_hash);

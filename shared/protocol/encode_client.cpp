@@ -23,6 +23,7 @@ void append_line(std::string& out, const Join& join) {
   if (!join.fields.empty()) text.array("fields", join.fields, append_name);
   text.text("format", to_text(join.format));
   if (join.state_hz) text.integer("state_hz", *join.state_hz);
+  if (join.stream == Stream::kInputs) text.text("stream", to_text(join.stream));
   if (!join.resume.empty())
     text.text("resume", join.resume);
   else if (join.may_resume)

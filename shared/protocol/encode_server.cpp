@@ -33,6 +33,7 @@ void append_line(std::string& out, const Welcome& welcome) {
     json::append_double(quanta, welcome.format == Format::kExact ? 1.0 : quantum(column));
   });
   text.text("format", to_text(welcome.format));
+  if (welcome.stream == Stream::kInputs) text.text("stream", to_text(welcome.stream));
   text.object("map", [&](json::ObjectText& map) {
     map.text("name", welcome.map_name).hash("hash", welcome.map_hash);
     map.array("extent", welcome.extent, json::append_double).integer("bytes", welcome.map_bytes);

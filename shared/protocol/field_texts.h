@@ -16,6 +16,15 @@ namespace woodlouse::protocol {
 inline constexpr std::string_view kRoleTexts = R"("player", "bot" or "spectator")";
 inline constexpr std::string_view kFormatTexts = R"("quantized" or "exact")";
 
+inline constexpr std::string_view kStreamTexts = R"("frames" or "inputs")";
+
+inline std::optional<Stream> stream_from_text(std::string_view text) {
+  for (const Stream stream : {Stream::kFrames, Stream::kInputs}) {
+    if (to_text(stream) == text) return stream;
+  }
+  return std::nullopt;
+}
+
 inline std::optional<Format> format_from_text(std::string_view text) {
   for (const Format format : {Format::kQuantized, Format::kExact}) {
     if (to_text(format) == text) return format;

@@ -30,6 +30,8 @@ constexpr std::array<EventEntry, kEventKindCount> kEvents = {
 
 std::string_view to_text(Format format) { return format == Format::kExact ? "exact" : "quantized"; }
 
+std::string_view to_text(Stream stream) { return stream == Stream::kInputs ? "inputs" : "frames"; }
+
 std::string_view to_text(Role role) {
   switch (role) {
     case Role::kPlayer:

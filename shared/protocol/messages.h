@@ -47,7 +47,10 @@ inline constexpr std::size_t kMaxServerLineBytes = std::size_t{128} << 20;  ///<
 
 enum class Format : std::uint8_t { kQuantized, kExact };
 using state::Role;
+/// What a session is shown of the game: pictures, or the room's recording as it is written.
+enum class Stream : std::uint8_t { kFrames, kInputs };
 std::string_view to_text(Format format);
+std::string_view to_text(Stream stream);
 std::string_view to_text(Role role);
 std::optional<Role> role_from_text(std::string_view text);
 
@@ -76,6 +79,7 @@ struct Join {
   std::string resume{};                   ///< the token of a louse that waits; empty: none
   std::optional<View> view{};             ///< frames show that alone; none: all
   std::string token{};                    ///< a password of the server; empty: none
+  Stream stream = Stream::kFrames;        ///< kInputs: of a spectator only
   friend bool operator==(const Join&, const Join&) = default;
 };
 
@@ -169,6 +173,7 @@ struct Welcome {
   std::uint32_t state_hz = 20;
   std::vector<Column> fields;
   Format format = Format::kQuantized;
+  Stream stream = Stream::kFrames;  ///< granted; on the wire where it is kInputs
   std::string map_name;
   std::uint64_t map_hash = 0;
   std::array<double, 4> extent{};  ///< x_min, y_min, x_max, y_max [m]

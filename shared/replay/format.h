@@ -66,6 +66,8 @@ inline match::MatchSettings settings_of(const Header& header) {
   return {header.tick_hz, header.seed, header.mode};
 }
 
+/// Whether a header has the map in it.
+bool holds_map(const map::Map& map);
 /// The header of a match. `map_file` as the server was given it.
 Header make_header(const match::Match& match, std::string_view build, std::string_view map_file);
 

@@ -138,6 +138,11 @@ void end_line(std::string& out, json::ObjectText& line) {
 
 }  // namespace
 
+bool holds_map(const map::Map& map) {
+  return !std::holds_alternative<map::TiledTerrain>(map.definition.terrain) &&
+         map.canonical.size() <= kMaxInlineMapBytes;
+}
+
 Header make_header(const match::Match& match, std::string_view build, std::string_view map_file) {
   Header header;
   header.build = build;
@@ -146,9 +151,7 @@ Header make_header(const match::Match& match, std::string_view build, std::strin
   header.mode = match.settings().mode;
   header.map_name = match.map().definition.name;
   header.map_hash = match.map().hash;
-  const map::Map& map = match.map();
-  const bool is_whole = !std::holds_alternative<map::TiledTerrain>(map.definition.terrain);
-  if (is_whole && map.canonical.size() <= kMaxInlineMapBytes) header.map_definition = map.canonical;
+  if (holds_map(match.map())) header.map_definition = match.map().canonical;
   header.map_file = map_file;
   return header;
 }

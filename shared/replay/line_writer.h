@@ -14,6 +14,11 @@ namespace woodlouse::replay {
 /// [ms] by player and seq.
 using Margins = std::map<std::pair<match::PlayerId, std::uint32_t>, std::int64_t>;
 
+/// [ms], down: what came late stays negative.
+constexpr std::int64_t whole_milliseconds(std::int64_t us) {
+  return us >= 0 ? us / 1000 : -((999 - us) / 1000);
+}
+
 void append_header(std::string& out, const Header& header);
 /// REQUIRES that state.roster is empty.
 void append_keyframe(std::string& out, const match::MatchState& state);

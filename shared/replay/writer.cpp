@@ -8,9 +8,6 @@
 namespace woodlouse::replay {
 namespace {
 
-/// Whole milliseconds, down: what came late stays negative.
-std::int64_t milliseconds(std::int64_t us) { return us >= 0 ? us / 1000 : -((999 - us) / 1000); }
-
 bool is_player(const match::MatchState& state, match::PlayerId player) {
   const auto at =
       std::lower_bound(state.players.begin(), state.players.end(), player,
@@ -66,21 +63,28 @@ void ReplayWriter::append_keyframe(std::string& out, const match::MatchState& st
 }
 
 void ReplayWriter::note_margin(match::PlayerId player, std::uint32_t seq, std::int64_t margin_us) {
-  margins_[{player, seq}] = milliseconds(margin_us);
+  margins_[{player, seq}] = whole_milliseconds(margin_us);
 }
 
 void ReplayWriter::append_step(std::string& out, const match::StepRecord& step) {
-  const bool is_quiet = step.roster.empty() && step.inputs.empty() && step.hash == hash_;
-  if (!is_quiet) {
+  std::string line;
+  if (!is_quiet(step)) replay::append_step(line, step, margins_);
+  append_step(out, step, line);
+}
+
+void ReplayWriter::append_step(std::string& out, const match::StepRecord& step, std::string_view line) {
+  const bool is_one_more = is_quiet(step);
+  if (!is_one_more) {
+    assert(line.ends_with('\n'));
     put_quiet(out);
-    replay::append_step(line_, step, margins_);
+    line_ = line;
     put(out);
   }
   index_.add(StepLine{step});
   forget_notes(step);
   hash_ = step.hash;
   chats_ = 0;
-  if (is_quiet && ++quiet_ == kMaxStepsBetweenKeyframes) put_quiet(out);
+  if (is_one_more && ++quiet_ == kMaxStepsBetweenKeyframes) put_quiet(out);
 }
 
 void ReplayWriter::forget_notes(const match::StepRecord& step) {

@@ -43,6 +43,13 @@ class ReplayWriter {
   /// Steps in a row that changed nothing become one line, which is written when something else is, at the
   /// latest by flush().
   void append_step(std::string& out, const match::StepRecord& step);
+  /// The same of a step whose line others have use for, too. `line`: line_writer.h's, with the margins in it;
+  /// not looked at where the step is_quiet().
+  void append_step(std::string& out, const match::StepRecord& step, std::string_view line);
+  /// Whether the step, the next one, gets no line of its own.
+  [[nodiscard]] bool is_quiet(const match::StepRecord& step) const {
+    return step.roster.empty() && step.inputs.empty() && step.hash == hash_;
+  }
   /// False: it was left out, for there are kMaxChatsAStep since the last step (line_order.h).
   bool append_chat(std::string& out, std::uint64_t tick, match::PlayerId player, std::string_view name,
                    std::string_view text);

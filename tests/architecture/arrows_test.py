@@ -21,6 +21,7 @@ ARROWS = {
     "rules": {"core", "state", "terrain", "physics", "map"},
     "match": {"core", "state", "terrain", "physics", "map", "rules"},
     "replay": {"core", "json", "state", "terrain", "physics", "map", "rules", "match", "protocol"},
+    "follow": {"core", "state", "map", "rules", "match", "protocol", "replay"},
 }
 LIBRARY = set(ARROWS)
 SHARED = LIBRARY - {"physics/lanes"}  # reached through physics/batch.h
@@ -29,11 +30,12 @@ ARROWS |= {
     "server/timing": SHARED,
     "server/frames": SHARED,
     "server/bots": SHARED,
-    "server/room": SHARED | {"server/access", "server/bots", "server/frames", "server/logging", "server/timing"},
-    "server/watchers": SHARED | {"server/logging", "server/room", "server/timing"},
+    "server/stream": SHARED | {"server/frames"},
+    "server/room": SHARED | {"server/access", "server/bots", "server/frames", "server/logging", "server/stream", "server/timing"},
+    "server/watchers": SHARED | {"server/logging", "server/room", "server/stream", "server/timing"},
     "server/records": SHARED | {"server/frames", "server/logging", "server/room", "server/timing", "server/watchers"},
     "server/proxies": SHARED | {"server/timing"},
-    "server/net": SHARED | {"server/access", "server/frames", "server/logging", "server/proxies", "server/room", "server/timing"},
+    "server/net": SHARED | {"server/access", "server/frames", "server/logging", "server/proxies", "server/room", "server/stream", "server/timing"},
     "server/access": SHARED | {"server/timing"},
     "server/admin": SHARED | {"server/access", "server/logging", "server/net", "server/timing"},
     "server/metrics": SHARED | {"server/room", "server/timing", "server/watchers"},

@@ -46,6 +46,9 @@ TEST_CASE("every client message comes back as it was sent") {
   hopeful.may_resume = true;
   Join back = hopeful;
   back.resume = "5d1c0f";
+  Join watcher = plain;
+  watcher.role = Role::kSpectator;
+  watcher.stream = Stream::kInputs;
   Join known = plain;
   known.token = "correct-horse \" \\";
   Join looking = plain;
@@ -57,6 +60,7 @@ TEST_CASE("every client message comes back as it was sent") {
                                                Look{},
                                                Look{{woodlouse::core::Vec2{-1.5, 2.0}, {}, 0.25, {}}},
                                                hopeful,
+                                               watcher,
                                                back,
                                                known,
                                                join,

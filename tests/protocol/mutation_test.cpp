@@ -25,7 +25,7 @@ const std::vector<std::string> kClientLines = {
 
 const std::vector<std::string> kServerLines = {
     R"({"type":"hello","protocol":1,"behavior":1,"server":"w","session":"1","rooms":["a"],"features":[],"limits":{"line":4096,"depth":8,"messages_per_s":60,"burst":120,"outbox_bytes":4194304,"handshake_s":10,"idle_s":60,"per_address":256,"per_room":1024}})",
-    R"({"type":"welcome","id":1,"resume_token":"","room":"a","tick":5,"tick_hz":60,"state_hz":20,"fields":["id","x"],"quantum":[1,0.0009765625],"format":"quantized","map":{"name":"a","hash":"0123456789abcdef","extent":[-1,-1,1,1],"bytes":9},"physics":{"gravity":9.81,"drag":0.2,"friction":0.05,"thrust_max":4,"edge_restitution":0.5},"mode":"roam","players":[{"id":1,"name":"a","role":"bot"}]})",
+    R"({"type":"welcome","id":1,"resume_token":"","room":"a","tick":5,"tick_hz":60,"state_hz":20,"fields":["id","x"],"quantum":[1,0.0009765625],"format":"quantized","stream":"inputs","map":{"name":"a","hash":"0123456789abcdef","extent":[-1,-1,1,1],"bytes":9},"physics":{"gravity":9.81,"drag":0.2,"friction":0.05,"thrust_max":4,"edge_restitution":0.5},"mode":"roam","players":[{"id":1,"name":"a","role":"bot"}]})",
     R"({"type":"key","tick":60,"louse":[[1,512,-3,0,7],[2,0,0,0,0]],"hash":"00000000000000ff"})",
     R"({"type":"delta","tick":63,"base":60,"louse":[[1,512,-3,0,7]],"gone":[2]})",
     R"({"type":"ack","seq":1,"tick":63,"margin_us":-5,"late":false,"dropped":false,"clamped":true,"you":{"tick":64,"id":1,"x":1.5,"y":-0.0,"vx":0,"vy":1e-9,"heading":[1,0],"thrust":[0.5,0],"thrust_kind":1,"thrust_ticks":4294967295,"phase":0,"flight_z":0,"flight_vz":0,"distance":3.25}})",

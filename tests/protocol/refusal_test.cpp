@@ -159,7 +159,11 @@ TEST_CASE("fields of a join out of range are refused") {
          {join(base + R"("state_hz":0)"), code::kBadField, {"join.state_hz", "1 to 1000"}},
          {join(base + R"("state_hz":1001)"), code::kBadField, {}},
          {join(base + R"("state_hz":20.0)"), code::kBadField, {"20.0"}},
-         {join(base + R"("state_hz":null)"), code::kBadField, {"null"}}});
+         {join(base + R"("state_hz":null)"), code::kBadField, {"null"}},
+         {join(base + R"("stream":"lines")"), code::kBadField, {"join.stream", "\"inputs\""}},
+         {join(base + R"("stream":null)"), code::kBadField, {"null"}},
+         {join(base + R"("stream":"inputs")"), code::kBadField, {"join.stream", "spectator"}},
+         {join(base + R"("role":"bot","stream":"inputs")"), code::kBadField, {"spectator"}}});
 }
 
 TEST_CASE("fields of an input out of range are refused, a fraction where an integer is meant too") {

@@ -43,6 +43,7 @@ Welcome some_welcome(Format format) {
   welcome.fields = {Column::kId, Column::kX, Column::kYaw, Column::kTx, Column::kDistance};
   welcome.format = format;
   if (format == Format::kExact) welcome.view_rows = 30;
+  welcome.stream = format == Format::kExact ? Stream::kInputs : Stream::kFrames;
   welcome.map_name = "volcano";
   welcome.map_hash = 0x00123456789abcde;
   welcome.extent = {-20.0, -20.0, 20.0, 20.5};

@@ -46,8 +46,8 @@ TEST_CASE("a session says hello first, and all of it") {
   hello.server = "woodlouse a.b.c";
   hello.session = core::to_hex(Stage::kId);
   hello.rooms = {"volcano", "meadow"};
-  hello.features = {"quantized", "exact", "fields",  "delta",    "get_map",
-                    "resume",    "rules", "records", "rotation", "view"};
+  hello.features = {"quantized", "exact",   "fields",   "delta", "get_map", "resume",
+                    "rules",     "records", "rotation", "view",  "inputs"};
   CHECK(stage.far->received == text_of(hello));
   CHECK(stage.log.str().empty());
 }

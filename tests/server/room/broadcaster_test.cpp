@@ -195,3 +195,36 @@ TEST_CASE(
   CHECK(shown_old < static_cast<std::ptrdiff_t>(house.listeners.size()));
   CHECK(shown_old > 0);
 }
+
+TEST_CASE(
+    "parts of the stream go to who watches by inputs alone, all that wait together, in turns with frames") {
+  House house;
+  house.add(2);
+  const auto watcher = std::make_shared<Listener>();
+  house.broadcaster->add({77, watcher, kByInputs, 0});
+  const auto part = [](std::uint64_t step) {
+    return StreamPart{StreamPart::Kind::kSteps, step, step + 1, line("step" + std::to_string(step))};
+  };
+  house.broadcaster->frames(FrameKind::kKey, frames(FrameKind::kKey, 0, "key"));
+  for (std::uint64_t step = 0; step < 3; ++step) house.broadcaster->part(part(step));
+  house.broadcaster->event(1, line("one"));
+  house.io.run();
+  CHECK(watcher->heard == Heard{"one", "step0", "step1", "step2"});
+  CHECK(house.listeners[0]->heard == Heard{"one", "1:key"});
+
+  house.io.restart();
+  house.broadcaster->change(77, 1);
+  house.broadcaster->change(1, kByInputs);
+  house.broadcaster->frames(FrameKind::kKey, frames(FrameKind::kKey, 60, "key60"));
+  house.broadcaster->part(part(3));
+  house.io.run();
+  CHECK(watcher->heard.back() == "1:key60");
+  CHECK(house.listeners[0]->heard.back() == "step3");
+
+  house.io.restart();
+  for (std::uint64_t step = 4; step < 5 + Broadcaster::kMostParts; ++step)
+    house.broadcaster->part(part(step));
+  house.broadcaster->drop_frames();  // of a game that is over
+  house.io.run();
+  CHECK(house.listeners[0]->heard.back() == "step3");
+}

@@ -37,6 +37,7 @@ class Guest final : public Subscriber {
     frames.push_back(frame);
   }
   void show_again(const Frame& frame) override { frames.push_back(frame); }
+  void follow(const StreamPart& part) override { parts.push_back(part); }
   void deliver_map(Line line) override { maps.push_back(*line); }
   void refuse_join(protocol::ErrorMessage error) override { refusals.push_back(std::move(error)); }
   void welcome(protocol::Welcome message, std::uint32_t every) override {
@@ -50,6 +51,7 @@ class Guest final : public Subscriber {
   std::vector<std::string> lines, maps;
   std::vector<protocol::ServerMessage> answers;
   std::vector<Frame> frames;
+  std::vector<StreamPart> parts;
   std::vector<protocol::ErrorMessage> refusals;
   std::vector<protocol::Welcome> welcomes;
   std::vector<protocol::Bye> byes;

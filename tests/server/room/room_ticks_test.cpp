@@ -100,12 +100,13 @@ class Witness final : public TickWatcher {
     seen_.push_back("chat " + std::to_string(tick) + " " + text);
     announce_({"heard", text});
   }
-  void step(const match::StepRecord& record, std::span<const InputMargin> margins,
-            const match::Match&) override {
+  void step(const LiveStep& step, const match::Match&) override {
+    const match::StepRecord& record = step.record();
     for (const match::RosterChange& change : record.roster)
       if (change.action == match::RosterAction::kJoin)
         seen_.push_back("player " + std::to_string(change.player) + " " + change.label.name);
-    seen_.push_back("step " + std::to_string(record.tick) + " margins " + std::to_string(margins.size()));
+    seen_.push_back("step " + std::to_string(record.tick) + " margins " +
+                    std::to_string(step.margins().size()));
   }
   void rest(const match::Match& game) override { seen_.push_back("rest " + std::to_string(game.tick())); }
   void finish(const std::string& reason, std::function<void()> done) override {

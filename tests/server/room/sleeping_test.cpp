@@ -21,8 +21,8 @@ class Watch final : public TickWatcher {
   };
   explicit Watch(Seen& seen) : seen_(seen) {}
   void begin(const match::Match&) override {}
-  void step(const match::StepRecord& record, std::span<const InputMargin>, const match::Match&) override {
-    CHECK(record.tick == seen_.steps++);  // no tick is left out
+  void step(const LiveStep& step, const match::Match&) override {
+    CHECK(step.record().tick == seen_.steps++);  // no tick is left out
   }
   void fall_asleep(const match::Match& game) override { seen_.turns.emplace_back("asleep", game.tick()); }
   void wake(const match::Match& game) override { seen_.turns.emplace_back("awake", game.tick()); }

@@ -54,7 +54,7 @@ std::vector<protocol::Notice> play(Recorder& recorder, int ticks, int chats = 1)
           {player, static_cast<std::uint32_t>(tick), {state::ThrustKind::kAlongHeading, {0.5, 0.0}}, 5, 0});
     const match::StepRecord& step = match.advance();
     const InputMargin margin{player, static_cast<std::uint32_t>(tick), 1000};
-    recorder.step(step, {&margin, 1}, match);
+    recorder.step(LiveStep(step, {&margin, 1}), match);
   }
   for (int k = 1; k < chats; ++k) recorder.chat(match.tick(), player, "mara", std::string(4000, 'x'));
   recorder.chat(match.tick(), player, "mara", "over \"and\" out");

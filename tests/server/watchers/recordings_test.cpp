@@ -56,7 +56,7 @@ struct Night {
     for (int tick = 0; tick < ticks; ++tick) {
       if (game.tick() % 10 == 1) game.file({1, ++seq, {state::ThrustKind::kAlongHeading, {0.5, 0.0}}, 5, 0});
       const match::StepRecord& step = game.advance();
-      recorder.step(step, {}, game);
+      recorder.step(LiveStep(step, {}), game);
       if (tick % 1000 == 999) catch_up(recorder);
     }
   }

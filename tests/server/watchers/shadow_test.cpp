@@ -44,7 +44,7 @@ class Stage {
     return game.advance();
   }
   void step(int times) {
-    for (int k = 0; k < times; ++k) shadow.step(step(), {}, game);
+    for (int k = 0; k < times; ++k) shadow.step(LiveStep(step(), {}), game);
   }
   ShadowFigures finish() {
     shadow.finish("test over", [] {});
@@ -94,7 +94,7 @@ TEST_CASE("a game with joins, leaves, respawns and inputs filed ahead has a shad
   stage.game.respawn(1);
   stage.game.file({2, 1000, {state::ThrustKind::kAlongHeading, {1.0, 0.0}}, 7, stage.game.tick() + 40});
   stage.game.leave(1);
-  for (int k = 0; k < 100; ++k) stage.shadow.step(stage.game.advance(), {}, stage.game);
+  for (int k = 0; k < 100; ++k) stage.shadow.step(LiveStep(stage.game.advance(), {}), stage.game);
   const ShadowFigures figures = stage.finish();
   CHECK(figures.ticks == 120);
   CHECK(figures.differences == 0);
@@ -108,7 +108,7 @@ TEST_CASE(
   stage.step(10);
   match::StepRecord altered = stage.step();
   altered.inputs.at(1).thrust.x = 0.25;
-  stage.shadow.step(altered, {}, stage.game);
+  stage.shadow.step(LiveStep(altered, {}), stage.game);
   stage.step(50);
   const ShadowFigures figures = stage.finish();
   CHECK(figures.ticks == 61);
@@ -132,7 +132,7 @@ TEST_CASE("each difference is counted, only the first is told") {
     stage.step(3);
     match::StepRecord altered = stage.step();
     altered.hash ^= 1;
-    stage.shadow.step(altered, {}, stage.game);
+    stage.shadow.step(LiveStep(altered, {}), stage.game);
   }
   const ShadowFigures figures = stage.finish();
   CHECK(figures.ticks == 20);
@@ -160,7 +160,7 @@ TEST_CASE("a dump that can't be written is told in the same line, and the shadow
   fs::remove_all(stage.dump("game", 1).parent_path());
   match::StepRecord altered = stage.step();
   altered.hash ^= 1;
-  stage.shadow.step(altered, {}, stage.game);
+  stage.shadow.step(LiveStep(altered, {}), stage.game);
   stage.step(5);
   CHECK(stage.finish().ticks == 6);
   CHECK_THAT(stage.log.str(), Catch::Contains("can't be written: No such file"));
