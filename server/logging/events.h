@@ -77,7 +77,7 @@ enum class LogEvent : std::uint8_t {
   kRecordsNotWritten,
   kRecordsWrittenAgain,
 };
-inline constexpr std::size_t kLogEventCount = 54;
+inline constexpr std::size_t kLogEventCount = 55;
 
 struct LogEventEntry {
   std::string_view name;  ///< a literal
