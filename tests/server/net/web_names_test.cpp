@@ -19,9 +19,9 @@ TEST_CASE("a host's name is read with its port, in lower case") {
   CHECK(parse_authority("10.0.0.1:65535") == Authority{"10.0.0.1", 65535});
   CHECK(parse_authority("[::1]") == Authority{"::1", {}});
   CHECK(parse_authority("[2001:DB8::1]:7778") == Authority{"2001:db8::1", 7778});
-  const std::string none =
-      GENERATE("", ":80", "a:", "a:65536", "a:-1", "a:8x", "a b", "a/b", "user@a", "[::1", "[::1]7", "::1",
-               "[a]", "[127.0.0.1]", "a,b", "<a>", std::string("a\0", 2), std::string(254, 'a'));
+  const std::string none = GENERATE(as<std::string>{}, "", ":80", "a:", "a:65536", "a:-1", "a:8x", "a b",
+                                    "a/b", "user@a", "[::1", "[::1]7", "::1", "[a]", "[127.0.0.1]", "a,b",
+                                    "<a>", std::string("a\0", 2), std::string(254, 'a'));
   INFO(none);
   CHECK_FALSE(parse_authority(none));
 }
