@@ -251,7 +251,9 @@ void Room::await_tick() {
   // Weakly: the room owns the alarm.
   alarm_->set(clock_->deadline(), [room = weak_from_this()](bool cancelled) {
     const auto self = room.lock();
-    if (self && !cancelled && self->state_ == State::kRunning) self->on_tick_due();
+    if (!self || cancelled || self->state_ != State::kRunning) return;
+    // One that was due when the room was paused may still ring once it goes on.
+    if (self->timekeeper_.now() >= self->clock_->deadline()) self->on_tick_due();
   });
 }
 

@@ -45,6 +45,18 @@ class Paused(unittest.TestCase):
                 server.done("pause")
                 self.assertEqual(door.answer()["code"], "not_now")
 
+    def test_as_often_and_as_fast_as_somebody_likes(self):
+        with AdminServer() as server, server.door() as door:
+            server.player("ann")
+            end = time.monotonic() + 3
+            while time.monotonic() < end:  # between, at and around ticks
+                for _ in range(20):
+                    door.send("pause")
+                    door.send("resume")
+                for _ in range(40):
+                    self.assertEqual(door.answer()["type"], "done")
+            self.assertEqual(server.done("rooms")["rooms"][0]["clock_moves"], 0)
+
     def test_a_paused_room_sleeps_no_more_than_it_stands_and_a_recording_of_it_verifies(self):
         with AdminServer("--record", "FOLDER/game.ndjson", "--bots", "2") as server:
             ann = server.player("ann")
