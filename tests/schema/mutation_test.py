@@ -47,15 +47,15 @@ class Mutation(unittest.TestCase):
         schema = validator("client")
         counts = self.compare(schema, "client", values, True)
         self.assertGreater(counts["refused by both"], 300)
-        self.required(schema, values, {"role", "room", "fields", "format", "resume", "state_hz", "ticks", "tick", "at", "board", "rank", "view", "louse",
-                                           "radius", "rows"})
+        self.required(schema, values, {"role", "room", "fields", "format", "resume", "state_hz", "ticks", "tick", "at", "board", "rank", "view", "louse", "stream",
+                                           "radius", "rows", "token", "who", "seconds"})
 
     def test_each_message_of_a_server(self):
         values = [line for line in [*map(json.loads, TABLES["server_samples"]), *examples("server")]]
         schema = validator("server")
         # Left out by older servers, which the reader still understands; a newer one sends it.
         older = {"name", "resumed", "spectators", "gone", "central_gravity", "core_radius", "equations", "method", "contact", "edges"}
-        optional = {"rules", "you", "retry_after_ms", "overview", "knots", "game", "crumbs", "place", "phase", "round", "until", "table"}
+        optional = {"rules", "stream", "you", "retry_after_ms", "overview", "knots", "game", "crumbs", "place", "phase", "round", "until", "table"}
         counts = self.compare_server(schema, values)
         self.assertGreater(counts["refused"], 2000)
         in_maps = {"surface", "edges", "physics", "spawns", "race", "forage", "hill", "storage", "fingerprint", "radius", "round_s",

@@ -24,16 +24,18 @@ View some_view(std::optional<std::uint32_t> louse) {
 Join whole_join() {
   Join join;
   [[maybe_unused]] const auto& [protocol, role, name, room, fields, format, state_hz, may_resume, resume,
-                                view] = join;
-  join.role = Role::kBot;
+                                view, token, stream] = join;
+  join.role = Role::kSpectator;
   join.name = "climber";
   join.room = "volcano";
   join.fields = all_columns();
   join.format = Format::kExact;
   join.state_hz = 10;
+  join.stream = Stream::kInputs;
   join.may_resume = true;
   join.resume = "646801f8bdabf83c1a04ed33c112afec";
   join.view = some_view({});
+  join.token = "correct-horse";
   return join;
 }
 
@@ -67,14 +69,15 @@ PlayerEntry some_player() {
 Welcome whole_welcome() {
   Welcome welcome;
   [[maybe_unused]] const auto& [id, name, resume_token, resumed, room, tick, tick_hz, state_hz, fields,
-                                format, map_name, map_hash, extent, map_bytes, physics, mode, rules, players,
-                                spectators, view_rows] = welcome;
+                                format, stream, map_name, map_hash, extent, map_bytes, physics, mode, rules,
+                                players, spectators, view_rows] = welcome;
   welcome.id = 7;
   welcome.name = "ann";
   welcome.resume_token = "646801f8bdabf83c1a04ed33c112afec";
   welcome.room = "volcano/forage";
   welcome.tick = 811;
   welcome.fields = {Column::kId, Column::kX, Column::kYaw, Column::kTx, Column::kDistance};
+  welcome.stream = Stream::kInputs;
   welcome.map_name = "volcano";
   welcome.map_hash = 0x0123456789abcdef;
   welcome.extent = {-20, -20, 20, 20};
@@ -195,7 +198,7 @@ Records whole_records() {
 }  // namespace
 
 std::vector<ClientMessage> client_samples() {
-  static_assert(std::variant_size_v<ClientMessage> == 14, "a message without a sample");
+  static_assert(std::variant_size_v<ClientMessage> == 15, "a message without a sample");
   Join plain;
   plain.name = "ann";
   plain.fields.clear();
@@ -209,13 +212,15 @@ std::vector<ClientMessage> client_samples() {
   [[maybe_unused]] const auto& [text] = chat;
   const Look look{some_view(7)};
   [[maybe_unused]] const auto& [its_view] = look;
+  const Moderate mute{"mute", "ann", "", 600};
+  [[maybe_unused]] const auto& [action, who, said, seconds] = mute;
   const GetGhost ghost{Board::kHandedIn, 3};
   [[maybe_unused]] const auto& [board, rank] = ghost;
   const ListRecords list{Board::kBots};
   [[maybe_unused]] const auto& [its_board] = list;
-  return {whole_join(), plain,     again,   whole_input(), push,   chat, List{},
-          GetMap{},     Resync{},  respawn, Respawn{},     Skip{}, look, Look{},
-          Ping{123},    Pong{-99}, list,    ghost,         Leave{}};
+  return {whole_join(), plain,     again,   whole_input(), push,    chat, List{},
+          GetMap{},     Resync{},  respawn, Respawn{},     Skip{},  look, Look{},
+          Ping{123},    Pong{-99}, list,    ghost,         Leave{}, mute, Moderate{"say", "", "hello", {}}};
 }
 
 std::vector<ServerMessage> server_samples() {

@@ -19,7 +19,7 @@ from schemas import SOURCE, faults, row_schema, validator
 sys.path.insert(0, str(SOURCE / "tests" / "e2e" / "server"))
 import wire  # noqa: E402  (it stands with the tests that use it most)
 
-SENT, CAME = validator("client"), validator("server")
+SENT, CAME, LINES = validator("client"), validator("server"), validator("recording")
 FLAT = [[0] * 9 for _ in range(5)]
 # Level ground that wraps: a push of a second laps it, so that runs and records come soon.
 RING = {
@@ -74,6 +74,11 @@ class Witness(wire.Client):
         super().send(*messages)
 
     def look(self, message):
+        if "type" not in message:  # of who watches by inputs
+            kind = "header" if "format" in message else next(iter(message))
+            self.witness.note("stream", kind, faults(LINES, message), message)
+            message["type"] = kind
+            return
         kind = message["type"] + (" " + message["kind"] if message["type"] == "event" else "")
         wrong = faults(CAME, message)
         if message["type"] == "welcome":
@@ -169,6 +174,7 @@ JOINS = [  # in turn
      "view": {"rows": 2}},
     {"role": "player", "fields": ["tx", "ty", "thrust_kind", "ticks_left", "phase", "distance"], "format": "exact"},
     {"role": "spectator", "fields": "all", "format": "exact", "state_hz": 1},
+    {"role": "spectator", "stream": "inputs", "state_hz": 20},
 ]
 
 
@@ -213,14 +219,13 @@ def play(seen, seconds, folder, seed=1):
             for client, _ in clients:
                 client.until_end(patience=300)  # all that it was sent and we have not looked at yet
                 client.socket.close()
-        lines = validator("recording")
         for name in sorted(os.listdir(folder)):
             if not name.endswith(".ndjson"):
                 continue
             with open(os.path.join(folder, name)) as file:
                 for line in map(json.loads, file):
                     kind = "header" if "format" in line else next(iter(line))
-                    seen.note("recording", kind, faults(lines, line), line)
+                    seen.note("recording", kind, faults(LINES, line), line)
             os.remove(os.path.join(folder, name))
         for name in os.listdir(os.path.join(folder, "records")):
             with open(os.path.join(folder, "records", name)) as file:

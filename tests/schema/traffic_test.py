@@ -17,6 +17,7 @@ class Traffic(unittest.TestCase):
         wanted += [f"server {kind}" for kind in ("hello", "welcome", "key", "delta", "ack", "error", "bye", "rooms", "map", "pong", "ping",
                                                  "records", "event joined", "event chat", "event respawned", "event round",
                                                  "event crumb", "event skip")]
+        wanted += [f"stream {kind}" for kind in ("header", "keyframe", "step")]
         wanted += [f"recording {kind}" for kind in ("header", "keyframe", "step", "index", "end")]
         self.assertEqual([kind for kind in wanted if not seen.counts[kind]], [], seen.counts)
         self.assertTrue({"stale_seq", "too_far", "no_louse", "bad_json", "missing_field"} <= set(seen.refusals), seen.refusals)
