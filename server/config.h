@@ -34,7 +34,7 @@ struct ServeConfig {
   std::vector<std::filesystem::path> maps;  ///< a room each and mode; 1 to kMaxRooms, none for a fork
   std::optional<ForkPoint> fork;            ///< one room, whose map, tick rate and seed are the recording's
   ListenAddress listen;
-  TrustedProxies trusted_proxies;  ///< who may say for whom a connection or a request is
+  TrustedProxies trusted_proxies;      ///< who may say for whom a connection or a request is
   std::optional<WebSettings> web;      ///< where the client speaks first; empty: nowhere
   std::optional<AdminSettings> admin;  ///< the operator's door; empty: there is none
   std::optional<std::filesystem::path> ban_file;

@@ -84,8 +84,8 @@ protocol::Hello hello_of(std::uint64_t session, std::string_view server, std::ve
   hello.server = server;
   hello.session = core::to_hex(session);
   hello.rooms = std::move(rooms);
-  hello.features = {"quantized", "exact", "fields",  "delta",    "get_map",
-                    "resume",    "rules", "records", "rotation", "view", "inputs"};
+  hello.features = {"quantized", "exact",   "fields",   "delta", "get_map", "resume",
+                    "rules",     "records", "rotation", "view",  "inputs"};
   hello.limits = limits;
   return hello;
 }

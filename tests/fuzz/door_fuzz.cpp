@@ -43,6 +43,7 @@ class NoRooms final : public server::Directory {
   [[nodiscard]] protocol::Rooms list() const override {
     return protocol::Rooms{{{"volcano", "volcano", 1, 2, 3}}};
   }
+  [[nodiscard]] bool is_too_late(server::Time) const override { return false; }
 };
 
 /// A web port with one connection, whose other end the input is written to.
@@ -55,7 +56,7 @@ struct WebPort {
   NoRooms directory;
   server::SessionEnvironment environment{directory,  live_limits, traffic,
                                          timekeeper, "woodlouse", std::make_shared<spdlog::logger>("fuzz")};
-  server::WebEnvironment web{{{"lice.example.org"}, {"https://lice.example.org"}}, 7777};
+  server::WebEnvironment web{{{"lice.example.org"}, {}}, 7777};
   std::shared_ptr<server::AddressAccount> account =
       std::make_shared<server::AddressAccount>(7, "127.0.0.1", limits, timekeeper.now());
 };

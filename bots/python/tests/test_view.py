@@ -97,8 +97,9 @@ class View(unittest.TestCase):
                 self.assertEqual((bob.welcome["view"], eye.welcome["view"]), ({"rows": 5},) * 2)
                 for game in (bob, eye):
                     for state in game.states():
-                        self.assertEqual(len(state.lice), 5)
+                        self.assertLessEqual(len(state.lice), 5)
                         if state.tick > game.welcome["tick"] + 60 and (state.me or not game.id):
+                            self.assertEqual(len(state.lice), 5)
                             break
 
     def test_who_sees_all_turns_to_a_part_and_back_without_a_gap(self):
