@@ -176,9 +176,8 @@ std::string Operator::rooms() const {
 }
 
 void Operator::reload(const Answered& answered) {
-  server_.reload([answered](const core::Expected<void>& reloaded) {
-    if (!reloaded) return answered(refused(admin_code::kFailed, reloaded.error().text()));
-    answered(done("limits, log level, certificate, passwords and bans are read again"));
+  server_.reload([answered](const core::Expected<std::string>& reloaded) {
+    answered(reloaded ? done(*reloaded) : refused(admin_code::kFailed, reloaded.error().text()));
   });
 }
 

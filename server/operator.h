@@ -30,12 +30,15 @@ class Operator final : public Control {
 
   static constexpr std::uint64_t kDrainSeconds = 60;  ///< where nothing is said
 
+  /// Told what was read again, or what could not be.
+  using Reloaded = std::function<void(const core::Expected<std::string>& what)>;
+
   /// What it needs of the server; each is called on the server's strand, and returns at once.
   struct Server {
     RoomControl& rooms;
     Moderation& people;
     Doorman& doorman;
-    std::function<void(std::function<void(core::Expected<void>)> done)> reload;
+    std::function<void(Reloaded done)> reload;
     std::function<void(const std::string& text, const std::string& reason)> stop;
     std::function<bool()> is_stopping;
   };

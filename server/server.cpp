@@ -18,7 +18,6 @@
 #include "server/commands/fork.h"
 #include "server/limit_options.h"
 #include "server/logging/events.h"
-#include "server/signals.h"
 #include "server/version.h"
 #include "shared/core/joined.h"
 #include "shared/core/printable.h"
@@ -197,10 +196,6 @@ core::Expected<void> Server::use_passwords(const ServeConfig& config) {
   return {};
 }
 
-void Server::take_signals() {
-  for (const int signal : taken_signals()) signals_.add(signal);
-}
-
 core::Expected<void> Server::open_room(const ServeConfig& config, const std::string& name, Start start) {
   auto room = opener_.make(config, name, std::move(start), rotation_ ? &*rotation_ : nullptr);
   if (!room) return tl::unexpected(room.error());
@@ -252,7 +247,7 @@ void Server::on_signal(int signal) {
   const bool lost_terminal = signal == SIGHUP && had_terminal_ && !has_terminal();
   if (signal == SIGUSR1 || (signal == SIGHUP && !lost_terminal)) {
     if (signal == SIGUSR1) reopen();
-    if (signal == SIGHUP) reload("SIGHUP", [](const core::Expected<void>&) {});  // the log says it
+    if (signal == SIGHUP) reload("SIGHUP", [](const auto&) {});  // the log says it
     return await_signal();
   }
   const std::string name = core::joined({"SIG", ::sigabbrev_np(signal)});
@@ -260,8 +255,8 @@ void Server::on_signal(int signal) {
   stop("the server stops", name);
 }
 
-/// What may change while games go on: limits and the log's level.
-void Server::reload(const std::string& who, std::function<void(core::Expected<void>)> done) {
+/// What may change while games go on. What can't be used is as it was, and nothing behind it is looked at.
+void Server::reload(const std::string& who, Operator::Reloaded done) {
   const auto refuse = [this, who, done](const core::Error& error, const std::string& what) {
     log_event(*log_, LogEvent::kReloadFailed,
               fmt::format("{}: {}: {}: {}", who, what, error.where, error.what));
@@ -269,23 +264,31 @@ void Server::reload(const std::string& who, std::function<void(core::Expected<vo
   };
   const auto config = outside_.reread();
   if (!config) return refuse(config.error(), "nothing is changed");
+  std::string read = "limits and log level";
+  if (config->web && config->web->tls) {
+    if (const auto tls = acceptor_.reread(*config->web); !tls)
+      return refuse(tls.error(), "nothing is changed, the old certificate serves on");
+    read += ", certificate";
+  }
   log_->set_level(spdlog::level::from_str(config->log_level));
   const protocol::Limits limits = limits_of(*config);
   limits_.replace(limits);
   for (const auto& room : lobby_.rooms()) room->use(limits);
-  if (config->web) acceptor_.reread(*config->web);
   if (const auto passwords = use_passwords(*config); !passwords)
-    return refuse(passwords.error(), "the passwords are as they were, and so are the bans");
-  log_event(
-      *log_, LogEvent::kReloaded,
-      fmt::format("{}: limits, log level and certificate are read again; limits of a session hold for who "
-                  "comes from now on",
-                  who));
-  if (!ban_desk_ || !ban_desk_->has_file()) return done({});
-  const bool is_taken = ban_desk_->reread([refuse, done](const core::Expected<void>& reread) {
-    reread ? done({}) : refuse(reread.error(), "the bans are as they were");
+    return refuse(passwords.error(),
+                  read + " are read again, the passwords are as they were, and so are the bans");
+  if (config->password_file) read += ", passwords";
+  const auto finish = [this, who, done](const std::string& all) {
+    const std::string text = all + " are read again; limits of a session hold for who comes from now on";
+    log_event(*log_, LogEvent::kReloaded, fmt::format("{}: {}", who, text));
+    done(text);
+  };
+  if (!ban_desk_ || !ban_desk_->has_file()) return finish(read);
+  const std::string but = read + " are read again, the bans are as they were";
+  const bool is_taken = ban_desk_->reread([refuse, finish, read, but](const core::Expected<void>& reread) {
+    reread ? finish(read + ", bans") : refuse(reread.error(), but);
   });
-  if (!is_taken) refuse({"--ban-file", "too many changes wait for the disk"}, "the bans are as they were");
+  if (!is_taken) refuse({"--ban-file", "too many changes wait for the disk"}, but);
 }
 
 void Server::reopen() {
@@ -296,11 +299,6 @@ void Server::reopen() {
                        : fmt::format("SIGUSR1: the recordings of {} rooms go on in new files from their next "
                                      "keyframe on",
                                      rooms));
-}
-
-void Server::room_ended(const std::string& name) {
-  rooms_running_.erase(name);
-  if (rooms_running_.empty()) stop("the game is over", "ticks done");
 }
 
 void Server::stop(const std::string& text, const std::string& reason) {

@@ -42,6 +42,7 @@
 #include "server/room/start.h"
 #include "server/room_control.h"
 #include "server/room_opener.h"
+#include "server/signals.h"
 #include "server/timing/figures.h"
 #include "server/timing/live_limits.h"
 #include "server/timing/steady_timekeeper.h"
@@ -101,7 +102,9 @@ class Server {
   core::Expected<void> open_fork_room(const ServeConfig& config, Start start);
   /// From here on a signal waits for run(), which writes down and says bye. Before, nothing is begun that it
   /// would cut short: maps, which may take long, are loaded, and no recording is created.
-  void take_signals();
+  void take_signals() {
+    for (const int signal : taken_signals()) signals_.add(signal);
+  }
   core::Expected<void> use_passwords(const ServeConfig& config);
   core::Expected<void> open_room(const ServeConfig& config, const std::string& name, Start start);
   /// False: there is one of its name, or it is too late. Before the threads run, or on the strand.
@@ -109,8 +112,11 @@ class Server {
   void await_signal();
   void on_signal(int signal);
   /// who: asks for it, for the log. done: called once, on some thread.
-  void reload(const std::string& who, std::function<void(core::Expected<void>)> done);
-  void room_ended(const std::string& name);
+  void reload(const std::string& who, Operator::Reloaded done);
+  void room_ended(const std::string& name) {
+    rooms_running_.erase(name);
+    if (rooms_running_.empty()) stop("the game is over", "ticks done");
+  }
   void stop(const std::string& text, const std::string& reason);
   void part_stopped();
   void give_up_waiting();

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Watches a room by inputs and saves what comes: a recording that woodlouse-server verify and woodlouse --replay take.
+"""Watches a room by inputs and saves what comes: a recording that woodlouse-server verify and woodlouse replay take.
 
 usage: save_stream.py HOST:PORT[/ROOM] FILE [SECONDS]
 

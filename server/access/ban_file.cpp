@@ -24,6 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostFileBytes = 1u << 20;
 constexpr json::Limits kBanLimits{2, 16};
+constexpr std::size_t kMostAddressBytes = 64;           // of IPv6, with how many bits of it count
 constexpr std::uint64_t kLastSecond = 253'402'300'799;  // of the year 9999
 
 WallTime wall_time(std::uint64_t seconds) {
@@ -40,10 +41,12 @@ core::Expected<Ban> read_ban(std::string_view text, const std::string& name, std
   const json::Fields fields(document->root(), {"address", "name", "since", "until"}, problems);
   const auto address = fields.find("address");
   const auto banned_name = fields.find("name");
-  if (problems.count() == 0 && address.has_value() == banned_name.has_value())
+  if (problems.count() != 0) return tl::unexpected(problems.errors().front());  // a misspelt name, above all
+  if (address.has_value() == banned_name.has_value())
     return core::fail(where, "a ban has an address or a name, one of them");
   Ban ban;
-  const auto who = json::text_in(address ? *address : *banned_name, 1, protocol::kMaxNameBytes, problems);
+  const auto who = address ? json::text_in(*address, 1, kMostAddressBytes, problems)
+                           : json::text_in(*banned_name, 1, protocol::kMaxNameBytes, problems);
   if (const auto since = fields.find("since"))
     ban.since = wall_time(json::integer_in(*since, 0, kLastSecond, problems).value_or(0));
   if (const auto until = fields.find("until"))

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "shared/core/joined.h"
+#include "shared/protocol/messages.h"
 
 namespace woodlouse::server {
 namespace {
@@ -52,6 +53,10 @@ core::Expected<Ban> Bans::parse(std::string_view who, WallTime now, std::optiona
   if (fault == AddressRange::Fault::kBadLength)
     return core::fail(std::string(who), "is no network, or one of too many",
                       "as 192.0.2.0/24 (8 to 32 bits) or 2001:db8::/48 (16 to 64)");
+  if (who.size() > protocol::kMaxNameBytes)
+    return core::fail(
+        std::string(who), "is no address, and longer than a name",
+        core::joined({"names have ", std::to_string(protocol::kMaxNameBytes), " bytes at most"}));
   ban.name = who;
   return ban;
 }

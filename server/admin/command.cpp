@@ -79,7 +79,7 @@ void read_name(FieldReader& reader, const Taken& taken, std::string& name, std::
 
 void read_taken(FieldReader& reader, const Taken& taken, Command& command) {
   const auto [name, presence] = taken;
-  if (name == "who") return read_name(reader, taken, command.who, protocol::kMaxNameBytes);
+  if (name == "who") return read_name(reader, taken, command.who, kMostWhoBytes);
   if (name == "room") return read_name(reader, taken, command.room, protocol::kMaxRoomBytes);
   if (name == "name") return reader.key_text(name, command.name, protocol::kMaxRoomBytes, presence);
   if (name == "text") return reader.cleaned_text(name, command.text, {1, protocol::kMaxChatBytes}, presence);

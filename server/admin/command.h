@@ -56,6 +56,7 @@ inline constexpr std::size_t kMostCommandBytes = 8192;  ///< of a line
 inline constexpr std::uint64_t kMostSeconds = 10'000ull * 86'400;
 inline constexpr std::uint64_t kMostDrainSeconds = 86'400;
 inline constexpr std::uint64_t kMostSteps = 36'000;
+inline constexpr std::size_t kMostWhoBytes = 64;  ///< an address of IPv6 with bits; a name has fewer
 inline constexpr std::size_t kMostPathBytes = 4096;
 
 [[nodiscard]] std::string_view to_text(Verb verb);

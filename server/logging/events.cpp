@@ -12,7 +12,7 @@ constexpr std::array<LogEventEntry, kLogEventCount> kEvents{{
     {"stopping", level::info, "a signal ends the server; everybody is told"},
     {"stop_incomplete", level::warn, "rooms or ports did not stop in time, it ends without them"},
     {"reloaded", level::warn, "limits, log level and certificate are read again"},
-    {"reload_failed", level::err, "they are not: the configuration has a fault, nothing is changed"},
+    {"reload_failed", level::err, "something of them can't be used and is as it was: the line says what"},
     {"reopened", level::info, "recordings go on in new files from their next keyframe on"},
     {"certificate_refused", level::err, "a new certificate can't be used, the old one serves on"},
     {"operator", level::info, "what else was done as the admin door was asked to"},

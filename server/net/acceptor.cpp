@@ -55,14 +55,16 @@ core::Expected<tcp::endpoint> Acceptor::open_web(const WebSettings& settings) {
   return web_.open(settings.listen);
 }
 
-void Acceptor::reread(const WebSettings& settings) {
-  if (!settings.tls) return;
+core::Expected<void> Acceptor::reread(const WebSettings& settings) {
+  assert(settings.tls.has_value());
   auto tls = load_tls(*settings.tls);
-  if (!tls)
-    return log_event(
-        *environment_.log, LogEvent::kCertificateRefused,
-        fmt::format("the old certificate serves on: {}: {}", tls.error().where, tls.error().what));
+  if (!tls) {
+    log_event(*environment_.log, LogEvent::kCertificateRefused,
+              fmt::format("the old certificate serves on: {}: {}", tls.error().where, tls.error().what));
+    return tl::unexpected(tls.error());
+  }
   asio::post(strand_, [this, fresh = std::move(*tls)]() mutable { tls_ = std::move(fresh); });
+  return {};
 }
 
 void Acceptor::start() {

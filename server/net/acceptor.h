@@ -42,9 +42,9 @@ class Acceptor {
 
   // Any thread:
   void start();
-  /// Reads certificate and key again, for who comes from now on; where there are none, nothing. If they can't
-  /// be used the old ones serve on, and the log says why.
-  void reread(const WebSettings& settings);
+  /// Reads certificate and key again, for who comes from now on. REQUIRES that there are some. If they can't
+  /// be used the old ones serve on, and the log says why, too.
+  core::Expected<void> reread(const WebSettings& settings);
   /// Ends those; `done` is called on some thread: how many sessions that were.
   using IsMeant = std::function<bool(SessionId session, const std::string& address)>;
   void expel(IsMeant is_meant, protocol::ErrorMessage why, std::function<void(std::size_t)> done);

@@ -187,7 +187,7 @@ class Whole(unittest.TestCase):
     def test_reload_reads_what_hup_reads(self):
         with AdminServer() as server:
             self.assertIn("read again", server.done("reload")["text"])
-            server.wait_for_log("admin: limits, log level and certificate are read again")
+            server.wait_for_log("admin: limits and log level are read again")
 
     def test_drained_it_takes_nobody_tells_all_and_stops(self):
         with AdminServer("--web", "127.0.0.1:0") as server:

@@ -50,7 +50,7 @@ TEST_CASE("bans are read back as they were written, by their owner alone") {
   CHECK(read_bans(file)->all().empty());
   Bans bans;
   REQUIRE(bans.add(*Bans::parse("192.0.2.0/24", kNow, kNow + seconds(60))));
-  REQUIRE(bans.add(*Bans::parse("2001:db8::1", kNow, {})));
+  REQUIRE(bans.add(*Bans::parse("2001:db8:1234:5678:9abc:def0:1234:5678", kNow, {})));
   REQUIRE(bans.add(*Bans::parse("\"ann\" \xc3\xa9", kNow, {})));
   REQUIRE(write_bans(file, bans));
   struct stat there {};
@@ -73,7 +73,8 @@ TEST_CASE("a ban's line that can't be taken is named, and no ban of the file hol
   for (const char* line :
        {R"({"address":"192.0.)", R"({"address":"ann"})", R"({"address":"0.0.0.0/0"})", R"({"name":""})", "[]",
         "7", R"({"name":"ann","address":"192.0.2.7"})", R"({"until":7})", R"({"name":"ann","until":-1})",
-        R"({"name":"ann","until":"soon"})", R"({"name":"ann","untill":7})", "\xff"}) {
+        R"({"name":"ann","until":"soon"})", R"({"name":"ann","untill":7})", R"({"adress":"192.0.2.7"})",
+        R"({"nmae":"ann"})", "{}", "\xff"}) {
     const fs::path file = folder.write("bans", std::string("{\"name\":\"bob\"}\n\n") + line + "\n");
     const auto bans = read_bans(file);
     INFO(line);

@@ -54,6 +54,12 @@ TEST_CASE("a network holds its addresses and no others") {
   CHECK_FALSE(holds("2001:db8::/32", "192.0.2.1"));
 }
 
+TEST_CASE("what is neither an address nor short enough for a name is no ban") {
+  CHECK(Bans::parse(std::string(24, 'a'), kNow, {}));
+  CHECK_FALSE(Bans::parse(std::string(25, 'a'), kNow, {}));
+  CHECK(ban("2001:db8:1234:5678:9abc:def0:1234:5678/64").range->text() == "2001:db8:1234:5678::/64");
+}
+
 TEST_CASE("a ban holds until it is over, and the longest of several is said") {
   Bans bans;
   REQUIRE(bans.add(ban("192.0.2.0/24", kNow + seconds(60))));
