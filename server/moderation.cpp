@@ -44,11 +44,14 @@ std::optional<WallTime> end_of(const Command& command, WallTime now) {
   return now + std::chrono::seconds(static_cast<std::int64_t>(*command.seconds));
 }
 
-/// That name, or the one that a second one of it was given: ann, ann#2.
-bool goes_by(const std::string& name, const std::string& banned) {
-  const std::size_t mark = name.rfind('#');
-  return is_same_name(name, banned) || (mark != std::string::npos && louse_of(name.substr(mark + 1)) &&
-                                        is_same_name(name.substr(0, mark), banned));
+/// A number is a louse of each room: who is put out must not hang on who else is called so. Empty: it is
+/// clear.
+std::string why_unclear(const std::string& who, std::size_t found) {
+  if (found < 2 || !louse_of(who)) return {};
+  return refused(admin_code::kNotNow,
+                 fmt::format("{} of the lice here may be meant by {}: say which room (--room), or a "
+                             "name; `rooms ROOM` lists them",
+                             found, who));
 }
 
 std::string nobody(const std::string& who) {
@@ -136,6 +139,7 @@ void Moderation::kick(const Command& command, Answered answered) {
                   fmt::format("\"{}\" is one of the house's own bots: --bots says how many there are",
                               core::printable(who))));
     if (found.empty()) return answered(nobody(who));
+    if (auto unclear = why_unclear(who, found.size()); !unclear.empty()) return answered(std::move(unclear));
     log_event(*log_, LogEvent::kKicked, fmt::format("admin: kicked \"{}\"", who));
     std::string text;
     for (const Found& one : found)
@@ -241,10 +245,13 @@ void Moderation::mute(const Command& command, const Answered& answered) {
        [this, who = command.who, until, now, answered](std::vector<Found> found) {
          std::erase_if(found, [](const Found& one) { return one.entry.kind != Kind::kSession; });
          if (found.empty()) return answered(nobody(who));
+         if (auto unclear = why_unclear(who, found.size()); !unclear.empty())
+           return answered(std::move(unclear));
          for (const Found& one : found) doorman_.mute({one.entry.session, std::nullopt, until}, now);
          log_event(*log_, LogEvent::kMuted, fmt::format("admin: \"{}\" is muted", who));
          answered(done(fmt::format("\"{}\" is muted {}", core::printable(who),
-                                   until ? until_text(until) : "as long as the connection lasts"),
+                                   until ? until_text(until) + ", or as long as the connection lasts"
+                                         : "as long as the connection lasts"),
                        [&found](json::ObjectText& object) { object.integer("count", found.size()); }));
        });
 }

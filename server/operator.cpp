@@ -22,6 +22,11 @@ double as_milliseconds(Duration duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
 }
 
+/// Of those that change something.
+bool has_no_other_event(Verb verb) {
+  return verb == Verb::kUnmute || verb == Verb::kSay || verb == Verb::kStep || verb == Verb::kRecord;
+}
+
 }  // namespace
 
 Operator::Operator(const Strand& strand, Lobby& lobby, const TrafficMetrics& traffic, Timekeeper& timekeeper,
@@ -56,6 +61,11 @@ WebAnswer Operator::page(std::string_view path) const {
 
 void Operator::dispatch(const Command& command, Answered answered) {
   if (server_.is_stopping()) return answered(refused(protocol::code::kShutdown, "the server stops"));
+  if (has_no_other_event(command.verb)) {
+    std::string line = encode({command, {}});
+    line.pop_back();
+    log_event(*log_, LogEvent::kOperator, "admin: " + line);
+  }
   switch (command.verb) {
     case Verb::kStatus:
       return answered(status());

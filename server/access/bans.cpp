@@ -45,6 +45,13 @@ bool is_same_name(std::string_view a, std::string_view b) {
                     [](char x, char y) { return small(x) == small(y); });
 }
 
+bool goes_by(std::string_view name, std::string_view banned) {
+  const std::size_t mark = name.rfind('#');
+  const bool is_counted = mark != std::string_view::npos && mark + 1 < name.size() &&
+                          name.find_first_not_of("0123456789", mark + 1) == std::string_view::npos;
+  return is_same_name(name, banned) || (is_counted && is_same_name(name.substr(0, mark), banned));
+}
+
 core::Expected<Ban> Bans::parse(std::string_view who, WallTime now, std::optional<WallTime> until) {
   assert(!who.empty());
   auto fault = AddressRange::Fault::kNoAddress;
@@ -53,6 +60,10 @@ core::Expected<Ban> Bans::parse(std::string_view who, WallTime now, std::optiona
   if (fault == AddressRange::Fault::kBadLength)
     return core::fail(std::string(who), "is no network, or one of too many",
                       "as 192.0.2.0/24 (8 to 32 bits) or 2001:db8::/48 (16 to 64)");
+  if (who.find_first_not_of("0123456789./:") == std::string_view::npos &&
+      who.find_first_of("./:") != who.npos)
+    return core::fail(std::string(who), "looks like an address, and is none",
+                      "as 192.0.2.7, 192.0.2.0/24 or 2001:db8::/48");
   if (who.size() > protocol::kMaxNameBytes)
     return core::fail(
         std::string(who), "is no address, and longer than a name",
@@ -95,7 +106,7 @@ const Ban* Bans::of(const boost::asio::ip::address& address, WallTime now) const
 
 const Ban* Bans::of(std::string_view name, WallTime now) const {
   for (const Ban& ban : bans_)
-    if (!ban.range && !ban.is_over(now) && is_same_name(ban.name, name)) return &ban;
+    if (!ban.range && !ban.is_over(now) && goes_by(name, ban.name)) return &ban;
   return nullptr;
 }
 

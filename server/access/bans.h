@@ -40,6 +40,9 @@ struct Ban {
 /// Names are compared without regard to the case of ASCII letters.
 [[nodiscard]] bool is_same_name(std::string_view a, std::string_view b);
 
+/// That name, or the one that a second one of it was given: ann, ann#2.
+[[nodiscard]] bool goes_by(std::string_view name, std::string_view banned);
+
 class Bans {
  public:
   static constexpr std::size_t kMost = 4096;

@@ -1,6 +1,7 @@
 #include "server/admin/admin_request.h"
 
 #include <boost/asio/buffer.hpp>
+#include <boost/beast/core/string.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/field.hpp>
 #include <boost/beast/http/parser.hpp>
@@ -35,7 +36,8 @@ tl::expected<AdminRequest, WebAnswer> read_request(std::string_view head) {
   const auto field = request[http::field::authorization];
   const std::string_view credentials(field.data(), field.size());
   constexpr std::string_view kBearer = "Bearer ";
-  if (credentials.starts_with(kBearer)) result.token = credentials.substr(kBearer.size());
+  if (boost::beast::iequals(credentials.substr(0, kBearer.size()), kBearer))
+    result.token = credentials.substr(kBearer.size());
   return result;
 }
 

@@ -48,7 +48,8 @@ void AdminTalk::end() {
   if (state_ == State::kReading) return close();
   if (state_ == State::kWorking) write(refused(protocol::code::kShutdown, "the server stops"), true);
   is_last_ = true;
-  end_at(timekeeper_.now() + kShutdownLinger);
+  linger_ = kShutdownLinger;
+  end_at(timekeeper_.now() + linger_);
 }
 
 void AdminTalk::read() {
@@ -115,6 +116,9 @@ void AdminTalk::take_request() {
   if (!request) return write(response_text(request.error(), false), true);
   // Whether it serves at all may be asked by who has no token.
   if (!is_trusted_ && request->path != "/healthz") {
+    if (request->token.empty())  // no guess: a page that a browser shows may ask so
+      return write(response_text(refusal(401, "Authorization: Bearer TOKEN is needed"), request->is_head),
+                   true);
     const auto verdict = watch_.judge(request->token, timekeeper_.now());
     if (verdict == AdminWatch::Verdict::kLimited)
       return write(response_text(refusal(429, kTooOften), request->is_head), true);
@@ -151,7 +155,7 @@ void AdminTalk::drain() {
   error_code gone;
   socket_.shutdown(AdminPort::Socket::shutdown_send, gone);
   if (gone) return close();
-  end_at(timekeeper_.now() + kLinger);
+  end_at(timekeeper_.now() + linger_);
   read();
 }
 

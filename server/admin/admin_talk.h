@@ -71,6 +71,7 @@ class AdminTalk : public std::enable_shared_from_this<AdminTalk> {
   State state_ = State::kReading;
   bool is_trusted_ = false;  ///< said a token that is right, or needs none
   bool is_last_ = false;     ///< of what is written
+  Duration linger_ = kLinger;
   std::array<char, 4096> incoming_{};
   std::string unread_;
   std::string outgoing_;

@@ -15,7 +15,7 @@ constexpr std::array<LogEventEntry, kLogEventCount> kEvents{{
     {"reload_failed", level::err, "something of them can't be used and is as it was: the line says what"},
     {"reopened", level::info, "recordings go on in new files from their next keyframe on"},
     {"certificate_refused", level::err, "a new certificate can't be used, the old one serves on"},
-    {"operator", level::info, "what else was done as the admin door was asked to"},
+    {"operator", level::info, "what else was asked for at the admin door, or done"},
     {"moderator", level::info, "what a moderator has asked for in a game"},
     {"draining", level::info, "nobody is let in any more, by an operator's word; the server ends then"},
     {"kicked", level::info, "an operator has put somebody out"},

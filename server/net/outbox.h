@@ -41,6 +41,9 @@ class Outbox {
   /// Another game begins: the map, the frames and the stream that wait are of the one before.
   void begin_anew();
 
+  /// What waits rests on a key that holds other lice than the one of the same tick that comes.
+  void forget_frames() { frames_ = FrameSlots(); }
+
   /// A key or a delta. kStale also after the last line.
   FrameSlots::Outcome offer(Frame frame);
 

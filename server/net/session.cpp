@@ -173,9 +173,9 @@ void Session::deliver(Line line) {
 
 void Session::show_again(const Frame& frame) {
   asio::post(lane_, [self = shared_from_this(), frame] {
-    if (self->state_ != State::kOpen) return;
-    const auto seen = self->seen(frame);
+    const auto seen = self->state_ == State::kOpen ? self->seen(frame) : std::nullopt;
     if (!seen) return;
+    if (frame.sheet && seen->kind == FrameKind::kKey) self->sender_.outbox().forget_frames();
     if (seen->kind == FrameKind::kKey) self->key_bytes_ = seen->text->size();
     self->sender_.outbox().offer(*seen);
     self->sender_.write_soon();

@@ -268,7 +268,10 @@ class WebWire final : public Wire {
     assert(size < into.size());
     if (size > 0) last_byte_ = into[size - 1];
     if (link_->socket.is_message_done() && std::exchange(last_byte_, '\0') != '\n') into[size++] = '\n';
-    if (size == 0) return read_some(into, handler);  // an empty part
+    if (size == 0) {  // an empty part, of which many are no better than pings
+      link_->on_control(websocket::frame_type::ping);
+      return read_some(into, handler);
+    }
     handler({}, size);
   }
 

@@ -132,7 +132,7 @@ void try_proxy_header(std::string_view bytes) {
 
 void try_operator(std::string_view said) {
   if (const auto request = server::read_request(said)) {
-    demand(request->path.starts_with('/') || request->path.empty(), "a path is one", request->path);
+    demand(request->path.find('?') == std::string::npos, "a path has no query", request->path);
   } else {
     demand(request.error().body.find(kWord) == std::string::npos,
            "nothing that was asked stands in an answer");

@@ -62,7 +62,7 @@ TEST_CASE("bans are read back as they were written, by their owner alone") {
   REQUIRE(back->all().size() == 3);
   CHECK(back->all()[0].who() == "192.0.2.0/24");
   CHECK(back->all()[0].until == kNow + seconds(60));
-  CHECK(back->all()[1].who() == "2001:db8::/64");
+  CHECK(back->all()[1].who() == "2001:db8:1234:5678::/64");
   CHECK_FALSE(back->all()[1].until);
   CHECK(back->all()[2].name == "\"ann\" \xc3\xa9");
   CHECK(back->all()[2].since == kNow);

@@ -57,6 +57,9 @@ TEST_CASE("a network holds its addresses and no others") {
 TEST_CASE("what is neither an address nor short enough for a name is no ban") {
   CHECK(Bans::parse(std::string(24, 'a'), kNow, {}));
   CHECK_FALSE(Bans::parse(std::string(25, 'a'), kNow, {}));
+  for (const char* slip : {"1.2.3/8", "192.0.2.256", "192.0.2.7:5000", "10.0.0", "::1::", "/24"})
+    CHECK_FALSE(Bans::parse(slip, kNow, {}));
+  CHECK(ban("2024").name == "2024");
   CHECK(ban("2001:db8:1234:5678:9abc:def0:1234:5678/64").range->text() == "2001:db8:1234:5678::/64");
 }
 
@@ -81,6 +84,9 @@ TEST_CASE("a name is banned in any case, and one ban takes another's place") {
   REQUIRE(bans.all().size() == 1);
   CHECK(bans.of("ann", kNow) != nullptr);
   CHECK(bans.of("anna", kNow) == nullptr);
+  CHECK(bans.of("ann#2", kNow) != nullptr);
+  CHECK(bans.of("ann#", kNow) == nullptr);
+  CHECK(bans.of("ann#2b", kNow) == nullptr);
   CHECK(bans.of("ann", kNow + seconds(5)) == nullptr);
   CHECK(bans.remove(ban("aNN")));
   CHECK_FALSE(bans.remove(ban("ann")));

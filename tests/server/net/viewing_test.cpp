@@ -60,6 +60,38 @@ TEST_CASE("a view is asked for in the join, changed by a message, and kept for t
   CHECK(stage.last_line().find("[8,") != std::string::npos);
 }
 
+TEST_CASE("a key that comes again for another view takes the delta that waits for the one before with it") {
+  Stage stage;
+  stage.start();
+  stage.send(kJoinLooking);
+  stage.session->welcome(welcome(3), 1);
+  test::Scenery scenery(4);
+  SheetEncoder encoder(kLayout);
+  const Frame key = encoder.key(scenery.scene());
+  stage.session->show_again(key);
+  stage.run();
+  stage.far->holds_writes = true;
+  stage.send("{\"type\":\"ping\",\"t\":1}\n");  // its answer is on its way, and what follows waits
+  scenery.change();
+  const Frame delta = encoder.delta(scenery.scene());
+  stage.session->show(delta);
+  stage.run();
+  stage.send("{\"type\":\"view\",\"rows\":20}\n");
+  stage.session->show_again(key);
+  stage.session->show_again(delta);
+  stage.run();
+  stage.far->let_go();
+  stage.run();
+  const auto lines = stage.lines();
+  REQUIRE(lines.size() >= 2);
+  CHECK(rows_of(lines[lines.size() - 2]) == 20);
+  CHECK(lines.back().find(R"("type":"delta")") != std::string::npos);
+  // Rows of those in view who are not as in the key, whoever was in view before.
+  Viewer fresh({{}, {}, {}, 20u}, 3, protocol::kEveryRow);
+  fresh.frame(key);
+  CHECK(lines.back() == *fresh.frame(delta)->text);
+}
+
 TEST_CASE("the room is told when all becomes a part, and a part all, and of nothing between") {
   Stage stage;
   stage.start();
