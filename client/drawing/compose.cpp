@@ -9,13 +9,13 @@
 #include "client/drawing/badges.h"
 #include "client/drawing/hud.h"
 #include "client/drawing/layout.h"
-#include "client/drawing/map_camera.h"
-#include "client/drawing/oblique_camera.h"
 #include "client/drawing/overlays.h"
-#include "client/drawing/relief.h"
 #include "client/drawing/terrain_contour_view.h"
 #include "client/drawing/terrain_oblique_view.h"
 #include "client/drawing/terrain_top_view.h"
+#include "client/ground/map_camera.h"
+#include "client/ground/oblique_camera.h"
+#include "client/ground/relief.h"
 
 namespace woodlouse::client {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "client/drawing/cell_buffer.h"
+#include "client/cells/cell_buffer.h"
 #include "client/drawing/scene.h"
 
 namespace woodlouse::client {

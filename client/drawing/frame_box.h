@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "client/drawing/cell_buffer.h"
+#include "client/cells/cell_buffer.h"
 #include "client/drawing/layout.h"
 #include "client/drawing/palette.h"
 #include "client/drawing/scene.h"

@@ -3,8 +3,8 @@
 
 #include <string>
 
+#include "client/cells/cell_buffer.h"
 #include "client/drawing/badges.h"
-#include "client/drawing/cell_buffer.h"
 #include "client/drawing/layout.h"
 #include "client/drawing/scene.h"
 

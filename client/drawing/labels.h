@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "client/cells/cell_buffer.h"
 #include "client/drawing/badges.h"
-#include "client/drawing/cell_buffer.h"
 #include "client/drawing/layout.h"
 #include "client/drawing/scene.h"
 

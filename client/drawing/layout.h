@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "client/drawing/cell_buffer.h"
+#include "client/cells/cell_buffer.h"
 #include "client/drawing/scene.h"
 
 namespace woodlouse::client {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "client/drawing/vec3.h"
+#include "client/ground/vec3.h"
 #include "shared/physics/attitude.h"
 
 namespace woodlouse::client {

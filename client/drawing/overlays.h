@@ -1,8 +1,8 @@
 // What lies over the play screen, and what replaces it.
 #pragma once
 
+#include "client/cells/cell_buffer.h"
 #include "client/drawing/badges.h"
-#include "client/drawing/cell_buffer.h"
 #include "client/drawing/scene.h"
 
 namespace woodlouse::client {

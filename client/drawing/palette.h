@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "client/drawing/cell_buffer.h"
-#include "client/drawing/color.h"
+#include "client/cells/cell_buffer.h"
+#include "client/cells/color.h"
 #include "client/drawing/scene.h"
 
 namespace woodlouse::client {

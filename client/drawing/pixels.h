@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "client/drawing/cell_buffer.h"
-#include "client/drawing/color.h"
+#include "client/cells/cell_buffer.h"
+#include "client/cells/color.h"
 #include "client/drawing/layout.h"
 
 namespace woodlouse::client {

@@ -2,7 +2,7 @@
 // keys.
 #pragma once
 
-#include "client/drawing/cell_buffer.h"
+#include "client/cells/cell_buffer.h"
 #include "client/drawing/layout.h"
 #include "client/drawing/scene.h"
 

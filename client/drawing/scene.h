@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "client/drawing/cell_buffer.h"
-#include "client/drawing/color.h"
+#include "client/cells/cell_buffer.h"
+#include "client/cells/color.h"
 #include "shared/core/vec2.h"
 #include "shared/physics/attitude.h"
 #include "shared/terrain/terrain.h"

@@ -7,12 +7,12 @@
 #include <optional>
 #include <utility>
 
-#include "client/drawing/ground_caster.h"
 #include "client/drawing/labels.h"
 #include "client/drawing/louse_shape.h"
 #include "client/drawing/palette.h"
 #include "client/drawing/pixels.h"
 #include "client/drawing/terrain_top_view.h"
+#include "client/ground/ground_caster.h"
 
 namespace woodlouse::client {
 namespace {

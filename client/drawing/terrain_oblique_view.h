@@ -4,12 +4,12 @@
 
 #include <vector>
 
+#include "client/cells/cell_buffer.h"
 #include "client/drawing/badges.h"
-#include "client/drawing/cell_buffer.h"
 #include "client/drawing/layout.h"
-#include "client/drawing/oblique_camera.h"
-#include "client/drawing/relief.h"
 #include "client/drawing/scene.h"
+#include "client/ground/oblique_camera.h"
+#include "client/ground/relief.h"
 
 namespace woodlouse::client {
 

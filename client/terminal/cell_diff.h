@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "client/drawing/cell_buffer.h"
-#include "client/drawing/color.h"
+#include "client/cells/cell_buffer.h"
+#include "client/cells/color.h"
 
 namespace woodlouse::client {
 

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "client/drawing/cell_buffer.h"
+#include "client/cells/cell_buffer.h"
 
 namespace woodlouse::client {
 

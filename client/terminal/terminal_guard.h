@@ -7,7 +7,7 @@
 
 #include <memory>
 
-#include "client/drawing/cell_buffer.h"
+#include "client/cells/cell_buffer.h"
 #include "shared/core/error.h"
 
 namespace woodlouse::client {

@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "client/drawing/cell_buffer.h"
-#include "client/drawing/color.h"
+#include "client/cells/cell_buffer.h"
+#include "client/cells/color.h"
 #include "client/terminal/cell_diff.h"
 #include "client/terminal/screen.h"
 

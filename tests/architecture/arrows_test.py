@@ -40,11 +40,13 @@ ARROWS |= {
     "server/admin": SHARED | {"server/access", "server/logging", "server/net", "server/timing"},
     "server/metrics": SHARED | {"server/room", "server/timing", "server/watchers"},
     "server/commands": SHARED | {"server/admin", "server/net", "server/records", "server/room"},
-    "client/drawing": SHARED,
-    "client/terminal": SHARED | {"client/drawing"},
+    "client/cells": SHARED,
+    "client/ground": SHARED | {"client/cells"},
+    "client/drawing": SHARED | {"client/cells", "client/ground"},
+    "client/terminal": SHARED | {"client/cells", "client/drawing"},
     "client/net": SHARED,
-    "client/play": SHARED | {"client/drawing", "client/terminal", "client/net"},
-    "client/watch": SHARED | {"client/drawing", "client/terminal", "client/play"},
+    "client/play": SHARED | {"client/cells", "client/drawing", "client/terminal", "client/net"},
+    "client/watch": SHARED | {"client/cells", "client/drawing", "client/terminal", "client/play"},
 }
 for program in ("server", "client"):
     ARROWS[program] = SHARED | {room for room in ARROWS if room.startswith(program + "/")}
@@ -54,7 +56,7 @@ ARROWS["bench"] = LIBRARY | PROGRAMS
 
 # outside header: the rooms or files that may include it. tests may include everything.
 OUTSIDE = {
-    "boost/": {room for room in PROGRAMS if room != "client/drawing"} | {"bots", "bench"},
+    "boost/": {room for room in PROGRAMS if room not in ("client/cells", "client/ground", "client/drawing")} | {"bots", "bench"},
     "boost/beast/": {"server/net", "server/admin"},
     "boost/asio/ssl": {"server/net"},
     "openssl/": {"server/net", "server/access"},

@@ -1,4 +1,4 @@
-#include "client/drawing/cell_buffer.h"
+#include "client/cells/cell_buffer.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "client/drawing/color.h"
+#include "client/cells/color.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

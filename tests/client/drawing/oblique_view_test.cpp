@@ -4,10 +4,10 @@
 #include "client/drawing/badges.h"
 #include "client/drawing/layout.h"
 #include "client/drawing/louse_shape.h"
-#include "client/drawing/oblique_camera.h"
-#include "client/drawing/relief.h"
 #include "client/drawing/terrain_oblique_view.h"
 #include "client/drawing/terrain_top_view.h"
+#include "client/ground/oblique_camera.h"
+#include "client/ground/relief.h"
 #include "tests/client/drawing/staged_game.h"
 
 using namespace woodlouse;

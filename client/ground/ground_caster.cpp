@@ -1,4 +1,4 @@
-#include "client/drawing/ground_caster.h"
+#include "client/ground/ground_caster.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "client/drawing/relief.h"
+#include "client/ground/relief.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "client/drawing/cell_buffer.h"
+#include "client/cells/cell_buffer.h"
 #include "shared/core/vec2.h"
 #include "shared/terrain/surface.h"
 

@@ -7,9 +7,9 @@
 
 #include <optional>
 
-#include "client/drawing/oblique_camera.h"
-#include "client/drawing/relief.h"
-#include "client/drawing/vec3.h"
+#include "client/ground/oblique_camera.h"
+#include "client/ground/relief.h"
+#include "client/ground/vec3.h"
 
 namespace woodlouse::client {
 

@@ -1,4 +1,4 @@
-#include "client/drawing/oblique_camera.h"
+#include "client/ground/oblique_camera.h"
 
 #include <algorithm>
 #include <cmath>

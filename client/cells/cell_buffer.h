@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "client/drawing/color.h"
+#include "client/cells/color.h"
 
 namespace woodlouse::client {
 

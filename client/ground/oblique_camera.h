@@ -6,9 +6,9 @@
 
 #include <optional>
 
-#include "client/drawing/cell_buffer.h"
-#include "client/drawing/relief.h"
-#include "client/drawing/vec3.h"
+#include "client/cells/cell_buffer.h"
+#include "client/ground/relief.h"
+#include "client/ground/vec3.h"
 
 namespace woodlouse::client {
 
