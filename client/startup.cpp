@@ -14,10 +14,10 @@
 #include <utility>
 
 #include "client/local_server.h"
+#include "client/opened_terminal.h"
 #include "client/play/game.h"
 #include "client/play/session.h"
 #include "client/play/text_game.h"
-#include "client/terminal/descriptor.h"
 #include "client/terminal/outcome.h"
 #include "client/watch_recording.h"
 #include "shared/map/map_search_file.h"
@@ -60,42 +60,46 @@ void introduce(const Config& config, const Session& session, const Look& look) {
             << std::flush;
 }
 
-/// Lets the introduction stand until a key or for a while; the key, or 0. What else was typed goes with it.
-char await_key(boost::asio::io_context& context, int keys) {
+/// Lets the introduction stand until a key or for a while; the key. What else was typed goes with it.
+std::optional<TerminalInput> await_key(boost::asio::io_context& context, KeySource& keys) {
   const auto end = steady_clock::now() + kIntroduction;
-  while (steady_clock::now() < end) {
-    pollfd key{keys, POLLIN, 0};
+  while (keys.typed.empty() && steady_clock::now() < end) {
+    pollfd key{keys.fd, POLLIN, 0};
     if (poll(&key, 1, 20) > 0) {
       std::array<char, 256> typed{};
-      return read(keys, typed.data(), typed.size()) > 0 ? typed[0] : 'q';  // nothing to read: hung up
+      const ssize_t size = read(keys.fd, typed.data(), typed.size());
+      if (size <= 0) return Key{.character = U'q'};  // hung up
+      keys.keyboard.feed({typed.data(), static_cast<std::size_t>(size)}, steady_clock::now(), keys.typed);
+      std::erase_if(keys.typed,
+                    [](const TerminalInput& input) { return !std::holds_alternative<Key>(input); });
     }
+    keys.keyboard.expire(steady_clock::now(), keys.typed);
     context.restart();
     context.poll();
   }
-  return 0;
+  const auto typed = std::exchange(keys.typed, {});
+  return typed.empty() ? std::nullopt : std::optional(typed.front());
 }
 
 Outcome play(boost::asio::io_context& context, Session& session, const Config& config, LocalServer* local) {
-  auto keys = open_terminal_for_keys(STDIN_FILENO);
-  if (!keys)
-    return {kExitIo, "woodlouse: " + keys.error().where + ": " + keys.error().what + "\n      " +
-                         keys.error().hint + "\n"};
-  Descriptor key_terminal(*keys);
-  const Look look = choose_look(config.color, config.glyphs, hints_of_environment());
-  char first = 0;
+  const auto terminal = OpenedTerminal::open(config.color, config.glyphs);
+  if (!terminal)
+    return {kExitIo, "woodlouse: " + terminal.error().where + ": " + terminal.error().what + "\n      " +
+                         terminal.error().hint + "\n"};
+  const Look look = (*terminal)->look();
+  GameSettings settings{look, config.view, config.fps, Overlay::kNone};
   if (local != nullptr) {
     introduce(config, session, look);
-    const auto guard = TerminalGuard::enter(key_terminal.get(), STDOUT_FILENO, TerminalUse::kKeysOnly);
-    if (guard) first = await_key(context, key_terminal.get());
-    if (first == 'q' || first == 'Q') return {};
+    const auto guard = (*terminal)->enter(TerminalUse::kKeysOnly);
+    const auto first = guard ? await_key(context, (*terminal)->keys()) : std::nullopt;
+    const Key* const key = first ? std::get_if<Key>(&*first) : nullptr;
+    if (key != nullptr && is_leaving(*key)) return {};
+    if (key != nullptr && picture_action(*key) == Action::kHelp) settings.first = Overlay::kHelp;
   }
-  Descriptor frames(open_terminal_for_frames(STDOUT_FILENO));
-  const Descriptor modes(dup(key_terminal.get()));  // the guard's: outlives the game, which closes its own
-  auto guard = TerminalGuard::enter(modes.get(), STDOUT_FILENO, TerminalUse::kFullScreen);
+  auto guard = (*terminal)->enter(TerminalUse::kFullScreen);
   if (!guard) return {kExitIo, "woodlouse: " + guard.error().text() + "\n"};
-  TerminalScreen screen(frames.get() >= 0 ? frames.get() : STDOUT_FILENO, look.color);
-  Game game(context, session, **guard, key_terminal.release(), screen,
-            {look, config.view, config.fps, first == '?' ? Overlay::kHelp : Overlay::kNone},
+  TerminalScreen screen = (*terminal)->screen();
+  Game game(context, session, **guard, (*terminal)->take_keys(), screen, settings,
             local != nullptr ? [local] { return local->alive(); } : std::function<bool()>());
   return game.run();
 }

@@ -1,13 +1,11 @@
 #include "client/watch_recording.h"
 
-#include <unistd.h>
-
 #include <boost/asio/io_context.hpp>
 #include <filesystem>
 #include <memory>
 #include <string>
 
-#include "client/terminal/descriptor.h"
+#include "client/opened_terminal.h"
 #include "client/watch/recording_view.h"
 #include "client/watch/replay_viewer.h"
 #include "shared/replay/source_file.h"
@@ -23,18 +21,15 @@ Outcome no_recording(const core::Error& error) {
 }
 
 Outcome show(const Config& config, RecordingView& recording) {
-  auto keys = open_terminal_for_keys(STDIN_FILENO);
-  if (!keys) return {kExitIo, "woodlouse: " + keys.error().text() + "\n"};
-  Descriptor key_terminal(*keys);
-  const Look look = choose_look(config.color, config.glyphs, hints_of_environment());
-  const Descriptor frames(open_terminal_for_frames(STDOUT_FILENO));
-  const Descriptor modes(dup(key_terminal.get()));  // the guard's: outlives the viewer, which closes its own
-  auto guard = TerminalGuard::enter(modes.get(), STDOUT_FILENO, TerminalUse::kFullScreen);
+  const auto terminal = OpenedTerminal::open(config.color, config.glyphs);
+  if (!terminal) return {kExitIo, "woodlouse: " + terminal.error().text() + "\n"};
+  const Look look = (*terminal)->look();
+  auto guard = (*terminal)->enter(TerminalUse::kFullScreen);
   if (!guard) return {kExitIo, "woodlouse: " + guard.error().text() + "\n"};
-  TerminalScreen screen(frames.get() >= 0 ? frames.get() : STDOUT_FILENO, look.color);
+  TerminalScreen screen = (*terminal)->screen();
   boost::asio::io_context context(1);
   const std::string name = std::filesystem::path(config.recording).filename().string();
-  return ReplayViewer(context, recording, name, **guard, key_terminal.release(), screen,
+  return ReplayViewer(context, recording, name, **guard, (*terminal)->take_keys(), screen,
                       {look, config.view, config.fps, Overlay::kNone})
       .run();
 }

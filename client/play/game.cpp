@@ -17,14 +17,14 @@ constexpr std::chrono::milliseconds kServerCheck{500};
 
 }  // namespace
 
-Game::Game(boost::asio::io_context& context, Session& session, TerminalGuard& guard, int keys,
+Game::Game(boost::asio::io_context& context, Session& session, TerminalGuard& guard, KeySource keys,
            TerminalScreen& screen, const GameSettings& settings, std::function<bool()> server_alive)
     : session_(session),
       guard_(guard),
       screen_(screen),
       settings_(settings),
       server_alive_(std::move(server_alive)),
-      loop_(context, guard, keys, screen, settings.fps, *this) {}
+      loop_(context, guard, std::move(keys), screen, settings.fps, *this) {}
 
 Outcome Game::run() {
   interface_.view = settings_.view.value_or(default_view(settings_.look, terminal_size(STDOUT_FILENO)));

@@ -29,7 +29,7 @@ class Game final : private Performance {
  public:
   /// keys: the terminal to read, taken over. screen: where frames go. All but keys outlive the game.
   /// server_alive: whether the server we started ourselves still runs; empty when it is somebody else's.
-  Game(boost::asio::io_context& context, Session& session, TerminalGuard& guard, int keys,
+  Game(boost::asio::io_context& context, Session& session, TerminalGuard& guard, KeySource keys,
        TerminalScreen& screen, const GameSettings& settings, std::function<bool()> server_alive);
 
   /// Until the player leaves or something ends it.

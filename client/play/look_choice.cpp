@@ -1,5 +1,8 @@
 #include "client/play/look_choice.h"
 
+#include <algorithm>
+#include <array>
+#include <cassert>
 #include <cstdlib>
 #include <string_view>
 
@@ -13,6 +16,16 @@ std::string environment(const char* name) {
 
 bool contains(std::string_view text, std::string_view part) {
   return text.find(part) != std::string_view::npos;
+}
+
+/// Of terminals that answer no question about colours.
+ColorMode color_by_name(const TerminalHints& hints) {
+  constexpr std::array<std::string_view, 8> kTruecolor = {"direct",  "alacritty", "foot",    "kitty",
+                                                          "wezterm", "ghostty",   "contour", "konsole"};
+  if (hints.colorterm == "truecolor" || hints.colorterm == "24bit") return ColorMode::kTruecolor;
+  const auto is_named = [&hints](std::string_view name) { return contains(hints.term, name); };
+  if (std::any_of(kTruecolor.begin(), kTruecolor.end(), is_named)) return ColorMode::kTruecolor;
+  return contains(hints.term, "256") ? ColorMode::k256 : ColorMode::k16;
 }
 
 }  // namespace
@@ -30,15 +43,15 @@ TerminalHints hints_of_environment() {
   return hints;
 }
 
-Look choose_look(ColorChoice color, GlyphChoice glyphs, const TerminalHints& hints) {
-  const auto detected = [&hints] {
+Look choose_look(ColorChoice color, GlyphChoice glyphs, const TerminalHints& hints,
+                 const TerminalAnswers& answers) {
+  assert(glyphs != GlyphChoice::kText);
+  const auto detected = [&] {
     if (hints.no_color || hints.term.empty() || hints.term == "dumb" || hints.term.starts_with("vt")) {
       return ColorMode::kMono;
     }
-    if (hints.colorterm == "truecolor" || hints.colorterm == "24bit" || contains(hints.term, "direct")) {
-      return ColorMode::kTruecolor;
-    }
-    return contains(hints.term, "256") || contains(hints.term, "kitty") ? ColorMode::k256 : ColorMode::k16;
+    if (answers.truecolor()) return *answers.truecolor() ? ColorMode::kTruecolor : ColorMode::k256;
+    return color_by_name(hints);
   };
   Look look;
   switch (color) {
@@ -59,8 +72,9 @@ Look choose_look(ColorChoice color, GlyphChoice glyphs, const TerminalHints& hin
       break;
   }
   const bool colourful = look.color == ColorMode::k256 || look.color == ColorMode::kTruecolor;
-  const bool half =
-      glyphs == GlyphChoice::kHalfBlocks || (glyphs == GlyphChoice::kAuto && hints.utf8 && colourful);
+  const bool half = glyphs == GlyphChoice::kHalfBlocks ||
+                    (glyphs == GlyphChoice::kAuto && colourful && answers.utf8().value_or(hints.utf8) &&
+                     answers.narrow_blocks().value_or(true));
   look.glyphs = half ? GlyphSet::kHalfBlocks : GlyphSet::kAscii;
   return look;
 }

@@ -1,10 +1,12 @@
-// What a terminal is drawn with: what the player chose, else what the environment tells.
+// What a terminal is drawn with: what the player chose, else what it answered, else what the environment
+// tells.
 #pragma once
 
 #include <cstdint>
 #include <string>
 
 #include "client/drawing/scene.h"
+#include "client/terminal/terminal_answers.h"
 
 namespace woodlouse::client {
 
@@ -20,7 +22,8 @@ struct TerminalHints {
 };
 TerminalHints hints_of_environment();
 
-/// The look that choices and hints come to. REQUIRES glyphs other than kText.
-Look choose_look(ColorChoice color, GlyphChoice glyphs, const TerminalHints& hints);
+/// The look that choices, answers and hints come to. REQUIRES glyphs other than kText.
+Look choose_look(ColorChoice color, GlyphChoice glyphs, const TerminalHints& hints,
+                 const TerminalAnswers& answers);
 
 }  // namespace woodlouse::client

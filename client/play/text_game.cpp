@@ -83,7 +83,7 @@ TextGame::TextGame(boost::asio::io_context& context, Session& session, int keys,
       timer_(context) {
   if (keys < 0) return;
   keys_.emplace(
-      context, keys,
+      context, KeySource{keys, {}, {}},
       [this](const TerminalInput& input) {
         if (const Key* key = std::get_if<Key>(&input)) on_key(*key);
         if (const Paste* paste = std::get_if<Paste>(&input); paste != nullptr && chatting_)

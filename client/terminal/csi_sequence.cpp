@@ -109,6 +109,14 @@ std::optional<KeyCode> named_code_point(unsigned code) {
   }
 }
 
+/// Of the number pad in kitty's numbers, where num lock has them type.
+char32_t kitty_keypad_character(unsigned code) {
+  constexpr unsigned kZero = 57399;
+  constexpr std::u32string_view kTyped = U"0123456789./*-+";
+  if (code >= kZero && code < kZero + kTyped.size()) return kTyped[code - kZero];
+  return code == 57415 ? U'=' : code == 57416 ? U',' : 0;
+}
+
 bool is_typed(unsigned code) {
   const bool functional =
       code >= 57344 && code <= 63743;  // kitty's private-use numbers: modifiers, F-keys, media
@@ -130,8 +138,13 @@ void decode_kitty(const Parameters& parameters, std::vector<TerminalInput>& out)
     out.push_back(special(*name, held));
     return;
   }
-  if (code != 0 && !is_typed(code)) return;
   Key key = special(KeyCode::kCharacter, held);
+  if (const char32_t typed = kitty_keypad_character(code)) {
+    key.character = typed;
+    out.push_back(key);
+    return;
+  }
+  if (code != 0 && !is_typed(code)) return;
   key.physical = is_typed(parameters.value[0][2]) ? parameters.value[0][2] : 0;
   // The associated text is what the keyboard layout made of it; an input method may send several.
   const bool has_text = parameters.fields > 2 && is_typed(parameters.value[2][0]);
@@ -168,10 +181,26 @@ std::optional<KeyCode> cursor_key(char final) {
   }
 }
 
+char32_t keypad_character(char final) {
+  constexpr std::u32string_view kTyped = U"*+,-./0123456789";
+  if (final == 'X') return U'=';
+  return final >= 'j' && final <= 'y' ? kTyped[static_cast<std::size_t>(final - 'j')] : 0;
+}
+
+void decode_dcs(std::string_view text, std::vector<TerminalInput>& out) {
+  const bool is_known = text.starts_with("1$r");
+  if (is_known || text.starts_with("0$r"))
+    out.push_back(SettingReport{is_known, std::string(text.substr(3))});
+}
+
 void decode_csi(std::string_view text, char final, std::vector<TerminalInput>& out) {
   if (!text.empty() && text.front() == '?') {
     if (final == 'u') out.push_back(KittyFlags{split(text.substr(1)).value[0][0]});
     if (final == 'c') out.push_back(DeviceAttributes{});
+    if (final == 'y' && text.back() == '$') {
+      const Parameters report = split(text.substr(1));
+      out.push_back(ModeReport{report.value[0][0], report.value[1][0]});
+    }
     return;
   }
   if (!text.empty() && (text.front() < '0' || text.front() > ';'))
@@ -185,6 +214,8 @@ void decode_csi(std::string_view text, char final, std::vector<TerminalInput>& o
     }
   } else if (final == 'u') {
     decode_kitty(parameters, out);
+  } else if (final == 'R' && parameters.fields == 2) {
+    out.push_back(CursorReport{parameters.value[0][0], parameters.value[1][0]});
   } else if (final == 'Z') {
     out.push_back(Key{.code = KeyCode::kTab});
   } else if (text.empty() && (final == 'I' || final == 'O')) {

@@ -23,12 +23,21 @@ core::Expected<int> open_terminal_for_keys(int fd) {
   return core::fail("keyboard", std::strerror(errno), "start it from a terminal");
 }
 
-KeyInput::KeyInput(boost::asio::io_context& context, int fd, Handler on_input,
+KeyInput::KeyInput(boost::asio::io_context& context, KeySource keys, Handler on_input,
                    std::function<void()> on_hangup)
-    : terminal_(context, fd),
+    : terminal_(context, keys.fd),
       expiry_(context),
       on_input_(std::move(on_input)),
-      on_hangup_(std::move(on_hangup)) {}
+      on_hangup_(std::move(on_hangup)),
+      keyboard_(std::move(keys.keyboard)),
+      inputs_(std::move(keys.typed)) {}
+
+void KeyInput::start() {
+  hand_on();
+  if (!terminal_.is_open()) return;
+  await_expiry();
+  read();
+}
 
 void KeyInput::read() {
   terminal_.async_read_some(boost::asio::buffer(bytes_), [this](error_code error, std::size_t size) {

@@ -18,14 +18,23 @@ namespace woodlouse::client {
 /// none: non-blocking, which on `fd` itself would be shared with the shell. The caller closes it.
 core::Expected<int> open_terminal_for_keys(int fd);
 
+/// A terminal that keys come from, with what was read of it before it was handed on.
+struct KeySource {
+  int fd = -1;        ///< readable without blocking
+  Keyboard keyboard;  ///< in the middle of a sequence, may be
+  std::vector<TerminalInput> typed;
+};
+
 class KeyInput {
  public:
   using Handler = std::function<void(const TerminalInput&)>;
 
-  /// Takes over `fd`. `on_input` gets every key; `on_hangup` is called once when the terminal is gone.
-  KeyInput(boost::asio::io_context& context, int fd, Handler on_input, std::function<void()> on_hangup);
+  /// Takes over `keys.fd`. `on_input` gets every key; `on_hangup` is called once when the terminal is gone.
+  KeyInput(boost::asio::io_context& context, KeySource keys, Handler on_input,
+           std::function<void()> on_hangup);
 
-  void start() { read(); }
+  /// Begins with what was typed before.
+  void start();
   void stop();
 
  private:

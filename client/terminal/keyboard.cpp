@@ -58,27 +58,77 @@ void Keyboard::take(unsigned char byte, std::vector<TerminalInput>& out) {
       state_ = State::kGround;
       break;
     case State::kSs3:
-      state_ = State::kGround;
-      if (const auto key = cursor_key(static_cast<char>(byte)))
-        out.push_back(Key{.code = *key});
-      else if (byte == 'M')
-        out.push_back(Key{.code = KeyCode::kEnter});
-      else if (byte == kEscapeByte)
-        state_ = State::kEscape;
+      take_ss3(byte, out);
       break;
     case State::kEscape:
-      if (byte == '[') {
-        sequence_.clear();
-        overlong_ = false;
-        state_ = State::kCsi;
-      } else if (byte == 'O') {
-        state_ = State::kSs3;
-      } else {  // the key itself, then another one: nothing here is bound to Alt
+      take_escaped(byte, out);
+      break;
+    case State::kString:
+      take_string(byte, out);
+      break;
+    case State::kStringEscape:
+      if (byte == '\\') {
         state_ = State::kGround;
-        out.push_back(Key{.code = KeyCode::kEscape});
-        take_ground(byte, out);
+        if (is_dcs_) decode_dcs(sequence_, out);
+      } else {  // no end of a string: another sequence begins
+        state_ = State::kEscape;
+        take_escaped(byte, out);
       }
       break;
+  }
+}
+
+void Keyboard::take_escaped(unsigned char byte, std::vector<TerminalInput>& out) {
+  switch (byte) {
+    case '[':
+      sequence_.clear();
+      overlong_ = false;
+      state_ = State::kCsi;
+      break;
+    case 'O':
+      state_ = State::kSs3;
+      break;
+    case 'P':  // DCS
+    case ']':  // OSC
+    case '_':  // APC
+    case '^':  // PM
+      sequence_.clear();
+      is_dcs_ = byte == 'P';
+      state_ = State::kString;
+      break;
+    default:  // the key itself, then another one: nothing here is bound to Alt
+      state_ = State::kGround;
+      out.push_back(Key{.code = KeyCode::kEscape});
+      take_ground(byte, out);
+      break;
+  }
+}
+
+void Keyboard::take_ss3(unsigned char byte, std::vector<TerminalInput>& out) {
+  state_ = State::kGround;
+  if (const auto key = cursor_key(static_cast<char>(byte)))
+    out.push_back(Key{.code = *key});
+  else if (const char32_t typed = keypad_character(static_cast<char>(byte)))
+    out.push_back(Key{.character = typed});
+  else if (byte == 'M')
+    out.push_back(Key{.code = KeyCode::kEnter});
+  else if (byte == kEscapeByte)
+    state_ = State::kEscape;
+}
+
+void Keyboard::take_string(unsigned char byte, std::vector<TerminalInput>& out) {
+  constexpr unsigned char kBell = 0x07;  // ends an OSC, as some terminals write it
+  if (byte == kEscapeByte) {
+    state_ = State::kStringEscape;
+  } else if (byte == kBell) {
+    state_ = State::kGround;
+  } else if (byte < 0x20) {  // no string of a terminal has one: a key, which counts
+    state_ = State::kGround;
+    take_ground(byte, out);
+  } else if (sequence_.size() < kMaxStringBytes) {
+    sequence_.push_back(static_cast<char>(byte));
+  } else {
+    state_ = State::kGround;
   }
 }
 

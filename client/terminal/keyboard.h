@@ -3,8 +3,8 @@
 //
 // Understood: UTF-8; C0 controls; ESC [ and ESC O cursor keys; the kitty keyboard protocol (CSI code:shifted:
 // base ; modifiers:event ; text u, and the same modifiers on CSI 1;m:e A); bracketed paste; focus reports;
-// the answers to the kitty query and to primary device attributes. Every other sequence is swallowed whole.
-// A lone ESC can't be told from the beginning of a sequence but by waiting: expire() does that.
+// the answers to what terminal_answers.h asks. Every other sequence is swallowed whole, strings (DCS, OSC,
+// APC) too. A lone ESC can't be told from the beginning of a sequence but by waiting: expire() does that.
 #pragma once
 
 #include <chrono>
@@ -64,13 +64,33 @@ struct KittyFlags {
 struct DeviceAttributes {
   friend bool operator==(const DeviceAttributes&, const DeviceAttributes&) = default;
 };
+/// The answer to CSI 6 n: where the cursor stands, from 1.
+struct CursorReport {
+  unsigned row = 0;
+  unsigned column = 0;
+  friend bool operator==(const CursorReport&, const CursorReport&) = default;
+};
+/// The answer to CSI ? mode $ p. state: 0 unknown, 1 set, 2 reset, 3 and 4 the same for ever.
+struct ModeReport {
+  unsigned mode = 0;
+  unsigned state = 0;
+  friend bool operator==(const ModeReport&, const ModeReport&) = default;
+};
+/// The answer to DCS $ q: a setting as the sequence that makes it, or that it is not known.
+struct SettingReport {
+  bool is_known = false;
+  std::string setting;
+  friend bool operator==(const SettingReport&, const SettingReport&) = default;
+};
 enum class Focus : std::uint8_t { kGained, kLost };
 
-using TerminalInput = std::variant<Key, Paste, KittyFlags, DeviceAttributes, Focus>;
+using TerminalInput =
+    std::variant<Key, Paste, KittyFlags, DeviceAttributes, CursorReport, ModeReport, SettingReport, Focus>;
 
 class Keyboard {
  public:
   static constexpr std::size_t kMaxSequenceBytes = 64;  ///< longer ones are swallowed
+  static constexpr std::size_t kMaxStringBytes = 256;   ///< after so many what began as a string is none
   static constexpr std::size_t kMaxPasteBytes = 1024;
   static constexpr std::chrono::milliseconds kEscapeTimeout{30};  ///< a lone ESC is the key after this
   static constexpr std::chrono::milliseconds kSequenceTimeout{
@@ -84,17 +104,31 @@ class Keyboard {
   [[nodiscard]] std::optional<core::Time> deadline() const;
 
  private:
-  enum class State : std::uint8_t { kGround, kEscape, kCsi, kLinuxFunctionKey, kSs3, kUtf8, kPaste };
+  enum class State : std::uint8_t {
+    kGround,
+    kEscape,
+    kCsi,
+    kLinuxFunctionKey,
+    kSs3,
+    kUtf8,
+    kPaste,
+    kString,
+    kStringEscape
+  };
 
   void take(unsigned char byte, std::vector<TerminalInput>& out);
   void take_ground(unsigned char byte, std::vector<TerminalInput>& out);
+  void take_escaped(unsigned char byte, std::vector<TerminalInput>& out);
+  void take_ss3(unsigned char byte, std::vector<TerminalInput>& out);
+  void take_string(unsigned char byte, std::vector<TerminalInput>& out);
   void take_utf8(unsigned char byte, std::vector<TerminalInput>& out);
   void take_csi(unsigned char byte, std::vector<TerminalInput>& out);
   void take_paste(unsigned char byte, std::vector<TerminalInput>& out);
 
   State state_ = State::kGround;
   core::Time last_byte_{};
-  std::string sequence_;  ///< parameters of the CSI under way
+  std::string sequence_;  ///< parameters of the CSI, or the string, under way
+  bool is_dcs_ = false;   ///< the string is one that may answer
   bool overlong_ = false;
   std::string paste_;
   char32_t code_point_ = 0;  ///< UTF-8 under way

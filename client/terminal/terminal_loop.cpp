@@ -16,7 +16,7 @@ constexpr std::chrono::milliseconds kHurriedGap{10};  // between frames that key
 
 }  // namespace
 
-TerminalLoop::TerminalLoop(boost::asio::io_context& context, TerminalGuard& guard, int keys,
+TerminalLoop::TerminalLoop(boost::asio::io_context& context, TerminalGuard& guard, KeySource keys,
                            TerminalScreen& screen, int fps, Performance& performance)
     : context_(context),
       guard_(guard),
@@ -24,7 +24,7 @@ TerminalLoop::TerminalLoop(boost::asio::io_context& context, TerminalGuard& guar
       performance_(performance),
       frames_a_second_(fps),
       keys_(
-          context, keys, [this](const TerminalInput& input) { on_input(input); },
+          context, std::move(keys), [this](const TerminalInput& input) { on_input(input); },
           [this] {
             finish({kExitIo, "woodlouse: the terminal is gone\n"});
           }),
@@ -32,7 +32,6 @@ TerminalLoop::TerminalLoop(boost::asio::io_context& context, TerminalGuard& guar
       output_(context, dup(screen.fd())) {}
 
 Outcome TerminalLoop::run() {
-  guard_.query_kitty();
   keys_.start();
   second_began_ = next_frame_ = steady_clock::now();
   frame();
@@ -50,7 +49,9 @@ void TerminalLoop::finish(Outcome outcome) {
 }
 
 void TerminalLoop::on_input(const TerminalInput& input) {
+  // Answers that came too late for the look.
   if (std::holds_alternative<KittyFlags>(input)) guard_.push_kitty();
+  if (std::holds_alternative<DeviceAttributes>(input)) guard_.note_answer();
   performance_.on_input(input);
 }
 

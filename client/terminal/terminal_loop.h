@@ -30,7 +30,7 @@ class Performance {
 class TerminalLoop {
  public:
   /// keys: the terminal to read, taken over. All but keys outlive the loop.
-  TerminalLoop(boost::asio::io_context& context, TerminalGuard& guard, int keys, TerminalScreen& screen,
+  TerminalLoop(boost::asio::io_context& context, TerminalGuard& guard, KeySource keys, TerminalScreen& screen,
                int fps, Performance& performance);
 
   /// Until finish().

@@ -3,20 +3,21 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <utility>
 #include <variant>
 
 namespace woodlouse::client {
 
 ReplayViewer::ReplayViewer(boost::asio::io_context& context, RecordingView& recording,
-                           const std::string& name, TerminalGuard& guard, int keys, TerminalScreen& screen,
-                           const GameSettings& settings)
+                           const std::string& name, TerminalGuard& guard, KeySource keys,
+                           TerminalScreen& screen, const GameSettings& settings)
     : recording_(recording),
       guard_(guard),
       screen_(screen),
       settings_(settings),
       screening_(recording, name,
                  settings.view.value_or(default_view(settings.look, terminal_size(STDOUT_FILENO)))),
-      loop_(context, guard, keys, screen, settings.fps, *this) {}
+      loop_(context, guard, std::move(keys), screen, settings.fps, *this) {}
 
 void ReplayViewer::on_input(const TerminalInput& input) {
   const Key* key = std::get_if<Key>(&input);

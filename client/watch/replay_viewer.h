@@ -16,7 +16,7 @@ class ReplayViewer final : private Performance {
   /// keys: the terminal to read, taken over. screen: where frames go. All but keys outlive the viewer. name:
   /// of the recording's file.
   ReplayViewer(boost::asio::io_context& context, RecordingView& recording, const std::string& name,
-               TerminalGuard& guard, int keys, TerminalScreen& screen, const GameSettings& settings);
+               TerminalGuard& guard, KeySource keys, TerminalScreen& screen, const GameSettings& settings);
 
   /// Until who watches leaves.
   Outcome run() { return loop_.run(); }
