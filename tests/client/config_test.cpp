@@ -137,7 +137,7 @@ TEST_CASE("addresses are read as people write them") {
 
 TEST_CASE("the terminal's hints decide the look, choices overrule them, NO_COLOR is obeyed") {
   const auto look = [](TerminalHints hints) {
-    return choose_look(ColorChoice::kAuto, GlyphChoice::kAuto, hints);
+    return choose_look(ColorChoice::kAuto, GlyphChoice::kAuto, hints, {});
   };
   REQUIRE(look({"xterm-256color", "truecolor", false, true}) ==
           Look{ColorMode::kTruecolor, GlyphSet::kHalfBlocks});
@@ -147,7 +147,7 @@ TEST_CASE("the terminal's hints decide the look, choices overrule them, NO_COLOR
   REQUIRE(look({"linux", "", false, true}) == Look{ColorMode::k16, GlyphSet::kAscii});
   REQUIRE(look({"vt100", "", false, false}) == Look{ColorMode::kMono, GlyphSet::kAscii});
   REQUIRE(look({"xterm-256color", "truecolor", true, true}) == Look{ColorMode::kMono, GlyphSet::kAscii});
-  REQUIRE(choose_look(ColorChoice::k16, GlyphChoice::kHalfBlocks, {"xterm", "", true, true}) ==
+  REQUIRE(choose_look(ColorChoice::k16, GlyphChoice::kHalfBlocks, {"xterm", "", true, true}, {}) ==
           Look{ColorMode::k16, GlyphSet::kHalfBlocks});
 }
 
