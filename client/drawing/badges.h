@@ -12,12 +12,12 @@
 namespace woodlouse::client {
 
 struct Badge {
-  char letter = '?';  ///< '@' is you, a..z the others
+  char letter = '?';  ///< '@' is you, a..z and A..Z the others, '+' whoever comes behind these
   Rgb color;
 };
 
-/// Letters go by id, so that a louse keeps its own while others come and go; among more than 26 lice they
-/// repeat.
+/// Letters go by id, so that a louse keeps its own while others come and go; none is given twice: behind 52
+/// lice there are no letters any more.
 class Badges {
  public:
   explicit Badges(const Scene& scene) : mode_(scene.look.color) {
@@ -33,19 +33,26 @@ class Badges {
  private:
   void add(std::uint32_t id, bool is_you) {
     if (badges_.contains(id)) return;
-    std::uint32_t letter = (id + 25) % 26;  // ids begin at 1
-    if (!is_you && used_ != kAllUsed) {
-      while ((used_ >> letter & 1u) != 0) letter = (letter + 1) % 26;
-      used_ |= 1u << letter;
-    }
-    badges_[id] = {is_you ? '@' : static_cast<char>('a' + letter),
+    badges_[id] = {is_you ? '@' : free_letter(id),
                    louse_color(id, is_you ? Owner::kYou : Owner::kOther, mode_)};
+  }
+
+  char free_letter(std::uint32_t id) {
+    for (const char first : {'a', 'A'}) {
+      std::uint32_t& used = first == 'a' ? used_small_ : used_capital_;
+      if (used == kAllUsed) continue;
+      std::uint32_t letter = (id + 25) % 26;  // ids begin at 1
+      while ((used >> letter & 1u) != 0) letter = (letter + 1) % 26;
+      used |= 1u << letter;
+      return static_cast<char>(first + static_cast<char>(letter));
+    }
+    return '+';
   }
 
   static constexpr std::uint32_t kAllUsed = (1u << 26) - 1;
   ColorMode mode_;
   std::map<std::uint32_t, Badge> badges_;
-  std::uint32_t used_ = 0;
+  std::uint32_t used_small_ = 0, used_capital_ = 0;  ///< a bit a letter
 };
 
 /// The lice as they are to be painted one over the other: yours last. Those that are nowhere near the map are

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "client/drawing/badges.h"
+#include "client/drawing/course/board.h"
+#include "client/drawing/course/course_marks.h"
 #include "client/drawing/hud.h"
 #include "client/drawing/layout.h"
 #include "client/drawing/overlays.h"
@@ -125,12 +127,26 @@ void Composer::Layers::draw_map(const Scene& scene, const Badges& badges, const 
   }
   prepare(scene, viewport.size);
   copy_layer(cells, viewport, out);
-  if (oblique_camera)
+  GroundCanvas canvas = oblique_camera
+                            ? GroundCanvas(*relief, *oblique_camera, oblique, scene.look, viewport, out)
+                            : GroundCanvas(camera, scene.look, viewport, out);
+  if (canvas.has_pixels()) draw_marks(scene, badges, canvas);
+  if (oblique_camera) {
     draw_lice_obliquely(scene, badges, *relief, *oblique_camera, oblique, viewport, out);
-  else if (paints_pixels(scene.look))
+  } else if (canvas.has_pixels()) {
     draw_lice_on_map(scene, badges, camera, viewport, out);
-  else
+  } else {  // over trails, which are as wide as the marks are there
     draw_lice_as_letters(scene, badges, camera, viewport, out);
+    for (const LouseMark& louse : scene.lice) {
+      const int column = static_cast<int>(std::floor(camera.column_of(louse.position)));
+      const int row = static_cast<int>(std::floor(camera.row_of(louse.position)));
+      const HeadingGlyph heading = heading_glyph(louse.heading);
+      canvas.keep(column, row);
+      canvas.keep(column + heading.columns, row + heading.rows);
+    }
+    draw_marks(scene, badges, canvas);
+  }
+  draw_mark_labels(scene, canvas);
 }
 
 Composer::Composer() : layers_(std::make_unique<Layers>()) {}
@@ -152,7 +168,7 @@ void Composer::draw(const Scene& scene, CellBuffer& cells) {
   layers_->draw_map(scene, badges, layout.map, cells);
   draw_panel(scene, badges, layout.panel, cells);
   draw_status_line(scene, cells);
-  draw_goal(scene, layout, cells);
+  draw_course_board(scene, badges, layout.map, cells);
   draw_key_line(scene, layout, cells);
   draw_overlay(scene, badges, cells);
 }

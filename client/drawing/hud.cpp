@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/drawing/course/profile.h"
 #include "client/drawing/formatted.h"
 #include "client/drawing/frame_box.h"
 #include "client/drawing/labels.h"
@@ -38,21 +39,30 @@ std::string slope_text(double degrees) {
 void draw_players(const Scene& scene, const Badges& badges, const Styles& styles, PanelWriter& out,
                   int rows) {
   const int width = out.width();
-  // rank, letter, name, metres
-  const int name_width = std::max(4, width - 3 - 2 - 9);
-  int rank = 0;
-  for (const ScoreRow& row : scene.scores) {
-    if (rank++ == rows) break;
+  constexpr int kMeasure = 8;
+  constexpr int kBar = 8;
+  for (const ScoreRow* shown : shown_rows(scene.scores, rows)) {
+    const ScoreRow& row = *shown;
+    // rank, letter, name, bar, measure
+    const bool has_bar = row.share >= 0.0 && width >= 3 + 2 + 6 + kBar + kMeasure;
+    const int name_width = std::max(4, width - 3 - 2 - kMeasure - 1 - (has_bar ? kBar : 0));
     const Badge badge = badges.of(row.id);
     Style style = row.is_you ? styles.strong : styles.text;
     if (scene.look.color != ColorMode::kMono && scene.look.color != ColorMode::k16)
       style.foreground = Color::of(badge.color);
     const std::u32string name = shown_name(row.name, row.kind, row.is_you, scene.look.glyphs, name_width);
     out.begin_row();
-    out.text(0, formatted("%2d ", rank), styles.dim);
+    if (row.rank > 0) out.text(0, formatted("%2d ", row.rank), styles.dim);
     out.text(3, std::string(1, badge.letter), style);
     out.text(5, name, style);
-    out.text(width - 8, formatted("%6.0f m", row.distance), row.is_you ? styles.strong : styles.text);
+    if (has_bar) {
+      const int full = static_cast<int>(std::lround(std::clamp(row.share, 0.0, 1.0) * (kBar - 1)));
+      const int left = width - kMeasure - kBar;
+      out.text(left, std::string(static_cast<std::size_t>(full), '='), style);
+      out.text(left + full, std::string(static_cast<std::size_t>(kBar - 1 - full), '.'), styles.dim);
+    }
+    const std::string measure = row.measure.empty() ? formatted("%.0f m", row.distance) : row.measure;
+    out.text(width - static_cast<int>(measure.size()), measure, row.is_you ? styles.strong : styles.text);
   }
 }
 
@@ -79,6 +89,18 @@ void draw_room(const Scene& scene, const Styles& styles, PanelWriter& out) {
   out.line(formatted("bots   %d", scene.hud.bots), styles.text);
   const int others = scene.hud.spectators - 1;
   out.line(others > 0 ? formatted("you and %d more are watching", others) : "you are watching", styles.dim);
+}
+
+/// The ground before your louse, where half of a big panel is free for it.
+void draw_ahead(const Scene& scene, const Styles& styles, int room, PanelWriter& out) {
+  constexpr int kRows = 10;  // with the title
+  if (room < kRows || scene.terrain == nullptr || out.width() < 24) return;
+  const auto you =
+      std::find_if(scene.lice.begin(), scene.lice.end(), [](const LouseMark& louse) { return louse.is_you; });
+  if (you == scene.lice.end() || !scene.terrain->domain().contains(you->position.x, you->position.y)) return;
+  out.title(formatted("AHEAD %.0f m", profile_reach(scene)) +
+            (scene.course.climbs ? "  ^ needs a run-up" : ""));
+  draw_profile(scene, *you, styles, kRows - 1, out);
 }
 
 /// Whose numbers a recording shows: "a ada".
@@ -134,6 +156,17 @@ const char* keys_text(const Scene& scene, int columns) {
 }
 
 }  // namespace
+
+std::vector<const ScoreRow*> shown_rows(const std::vector<ScoreRow>& scores, int rows) {
+  std::vector<const ScoreRow*> shown;
+  for (const ScoreRow& row : scores) {
+    if (static_cast<int>(shown.size()) < rows)
+      shown.push_back(&row);
+    else if (row.is_you && !shown.empty())
+      shown.back() = &row;
+  }
+  return shown;
+}
 
 std::string proof_text(const StateProof& proof) {
   if (proof.differs) return "state DIFFERS at tick " + std::to_string(*proof.differs);
@@ -202,18 +235,6 @@ void draw_key_line(const Scene& scene, const Layout& layout, CellBuffer& cells) 
   cells.put(end, row, U' ', styles.warning);
 }
 
-void draw_goal(const Scene& scene, const Layout& layout, CellBuffer& cells) {
-  const Styles styles = styles_for(scene.look);
-  int row = layout.map.row;
-  for (const std::string& line : scene.goal) {
-    if (row >= layout.map.row + layout.map.size.rows) return;
-    cells.put(0, row, U' ', styles.bar);
-    const int end =
-        cells.text(1, row, printable(line, scene.look.glyphs), styles.bar, layout.map.size.columns - 2);
-    cells.put(end, row++, U' ', styles.bar);
-  }
-}
-
 void draw_panel(const Scene& scene, const Badges& badges, const Viewport& panel, CellBuffer& cells) {
   const Styles styles = styles_for(scene.look);
   PanelWriter out(panel, scene.look, styles, cells);
@@ -231,6 +252,7 @@ void draw_panel(const Scene& scene, const Badges& badges, const Viewport& panel,
   if (watchers_rows > 0) out.line(formatted("%3d watching", scene.hud.spectators), styles.dim);
   out.title(shows_room ? "THE ROOM" : scene.replay ? followed_text(scene, badges) : "YOU");
   shows_room ? draw_room(scene, styles, out) : draw_you(scene, styles, out);
+  draw_ahead(scene, styles, panel.size.rows - out.rows_used() - kLeastChat - 2, out);
   out.title(scene.replay ? "CHAT" : "CHAT  (T to talk)");
   draw_chat(scene, styles, out, panel.size.rows - out.rows_used() - 1);
   out.finish();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "client/cells/cell_buffer.h"
 #include "client/drawing/badges.h"
@@ -20,8 +21,8 @@ void draw_status_line(const Scene& scene, CellBuffer& cells);
 /// The keys; while chatting the line being typed; a notice, when there is one, in the row above.
 void draw_key_line(const Scene& scene, const Layout& layout, CellBuffer& cells);
 
-/// What the rules of play want, over the map's first rows.
-void draw_goal(const Scene& scene, const Layout& layout, CellBuffer& cells);
+/// The first `rows` of the scores; yours is the last of these where it would be further down.
+std::vector<const ScoreRow*> shown_rows(const std::vector<ScoreRow>& scores, int rows);
 
 /// PLAYERS, YOU (THE ROOM for a spectator) and CHAT.
 void draw_panel(const Scene& scene, const Badges& badges, const Viewport& panel, CellBuffer& cells);

@@ -19,7 +19,9 @@ void draw_label(const LouseMark& louse, const Badge& badge, int column, int row,
                 const Viewport& viewport, LabelPlacer& labels, CellBuffer& cells) {
   constexpr int kLongest = 12;
   const std::u32string name = shown_name(louse.name, louse.kind, louse.is_you, look.glyphs, kLongest);
-  const auto place = labels.place(column, row, static_cast<int>(name.size()), reach);
+  const int width = static_cast<int>(name.size());
+  const auto place =
+      louse.is_you ? labels.force(column, row, width, reach) : labels.place(column, row, width, reach);
   if (!place) return;
   int at = place->column;
   for (const char32_t c : name) put_over(cells, viewport, at++, place->row, c, Color::of(badge.color));

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "client/cells/cell_buffer.h"
@@ -25,6 +26,16 @@ class LabelPlacer {
 
   /// Keeps a rectangle free of labels.
   void reserve(int column, int row, Size size) { taken_.push_back({column, row, size}); }
+
+  /// The same for who must be shown: where all are taken the first that is inside.
+  std::optional<Place> force(int column, int row, int width, Size reach) {
+    if (const auto free = place(column, row, width, reach)) return free;
+    std::vector<Viewport> taken = std::move(taken_);
+    taken_.clear();
+    const auto any = place(column, row, width, reach);
+    taken_.insert(taken_.end(), taken.begin(), taken.end());
+    return any;
+  }
 
   /// A place for `width` columns near a louse that covers `reach` cells each way around (column, row): above,
   /// below, right, left; none when all are taken or outside. The place is reserved.

@@ -8,6 +8,7 @@
 
 #include "client/drawing/formatted.h"
 #include "client/drawing/frame_box.h"
+#include "client/drawing/hud.h"
 #include "client/drawing/labels.h"
 #include "client/drawing/palette.h"
 
@@ -91,27 +92,32 @@ void draw_scoreboard(const Scene& scene, const Badges& badges, const Styles& sty
   const int most = std::max(1, cells.size().rows - 8);
   const int rows = std::clamp(static_cast<int>(scene.scores.size()), 1, most);
   const Viewport box = centred({56, rows + 4}, cells.size());
-  draw_box(box, "SCORES  distance travelled", scene.look, styles, cells);
+  const bool by_distance = scene.measured.empty();
+  draw_box(box, "SCORES  " + (by_distance ? "distance travelled" : scene.measured), scene.look, styles,
+           cells);
   const int left = box.column + 2;
   constexpr int kKind = 29;
   constexpr int kSpeed = 34;
-  constexpr int kDistance = 44;
+  constexpr int kMeasure = 53;  // its right end
+  const auto to_the_right = [&](int y, const std::string& text, const Style& style) {
+    cells.text(left + kMeasure - static_cast<int>(text.size()), y, text, style);
+  };
   cells.text(left, box.row + 1, " #  louse", styles.dim);
   cells.text(left + kKind - 1, box.row + 1, "kind", styles.dim);
   cells.text(left + kSpeed + 5, box.row + 1, "speed", styles.dim);
-  cells.text(left + kDistance + 3, box.row + 1, "metres", styles.dim);
-  for (int i = 0; i < std::min(rows, static_cast<int>(scene.scores.size())); ++i) {
-    const ScoreRow& row = scene.scores[static_cast<std::size_t>(i)];
-    const int y = box.row + 2 + i;
+  to_the_right(box.row + 1, by_distance ? "metres" : "score", styles.dim);
+  int y = box.row + 2;
+  for (const ScoreRow* shown : shown_rows(scene.scores, rows)) {
+    const ScoreRow& row = *shown;
     const Style style = row.is_you ? styles.strong : styles.text;
     Style colored = style;
     if (scene.look.color != ColorMode::kMono) colored.foreground = Color::of(badges.of(row.id).color);
-    cells.text(left, y, formatted("%2d", i + 1), styles.dim);
+    if (row.rank > 0) cells.text(left, y, formatted("%2d", row.rank), styles.dim);
     cells.text(left + 4, y, std::string(1, badges.of(row.id).letter), colored);
     cells.text(left + 6, y, shown_name(row.name, row.kind, row.is_you, scene.look.glyphs, 21), colored);
     cells.text(left + kKind - 1, y, row.kind == LouseKind::kBot ? "bot" : "human", style);
     cells.text(left + kSpeed, y, formatted("%6.2f m/s", row.speed), style);
-    cells.text(left + kDistance, y, formatted("%9.1f", row.distance), style);
+    to_the_right(y++, row.measure.empty() ? formatted("%.1f", row.distance) : row.measure, style);
   }
   const int hidden = static_cast<int>(scene.scores.size()) - rows;
   if (hidden > 0) cells.text(left, box.row + rows + 2, formatted("and %d more", hidden), styles.dim);

@@ -10,6 +10,7 @@
 
 #include "client/cells/cell_buffer.h"
 #include "client/cells/color.h"
+#include "client/drawing/course/course.h"
 #include "shared/core/vec2.h"
 #include "shared/physics/attitude.h"
 #include "shared/terrain/terrain.h"
@@ -81,6 +82,9 @@ struct ScoreRow {
   bool is_you = false;
   double distance = 0.0;  ///< travelled [m]
   double speed = 0.0;     ///< [m/s]
+  int rank = 0;           ///< 1 = first; 0: nobody knows
+  std::string measure{};  ///< what the mode ranks by, in words; empty: the distance
+  double share = -1.0;    ///< of what wins, 0..1, as a bar; below 0: none
 };
 
 /// A line of the chat box, oldest first.
@@ -140,7 +144,8 @@ struct Scene {
   std::vector<ChatLine> chat;          ///< the newest 50 or so
   std::string chat_entry;              ///< what is being typed, UTF-8 (Mode::kChatEntry)
   std::string notice;                  ///< one line over the key line; empty: none
-  std::vector<std::string> goal;       ///< what the rules of play want of you: lines over the map's top
+  Course course;                       ///< what a mode of play shows besides
+  std::string measured;                ///< what the scores are, for the scoreboard's title
   std::optional<ConnectionLost> lost;  ///< empty: the line is up
   std::optional<StateProof> proof;     ///< empty: nothing is verified
   std::optional<ReplayBar> replay;     ///< a recording is watched; empty: a game

@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "client/play/goal.h"
+#include "client/play/modes/goal.h"
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
 #include "shared/map/map_text.h"
@@ -67,7 +67,9 @@ core::Expected<void> RoomView::on_message(const protocol::ServerMessage& message
           [&](const protocol::Frame& m) -> core::Expected<void> {
             return take(m, now), core::Expected<void>();
           },
-          [&](const protocol::Event& m) -> core::Expected<void> { return take(m), core::Expected<void>(); },
+          [&](const protocol::Event& m) -> core::Expected<void> {
+            return take(m, now), core::Expected<void>();
+          },
           [&](const protocol::Pong& m) -> core::Expected<void> {
             return take(m, now), core::Expected<void>();
           },
@@ -104,6 +106,7 @@ void RoomView::take(const protocol::Welcome& welcome, core::Time now) {
   }
   was_here_ = false;
   welcome_ = welcome;
+  own_run_.forget();
   roster_.welcome(welcome);
   clock_.emplace(welcome.tick_hz);
   view_.emplace(welcome.tick_hz, welcome.fields);
@@ -199,9 +202,10 @@ void RoomView::measure_rate(std::uint64_t tick, core::Time now) {
   rate_tick_ = tick;
 }
 
-void RoomView::take(const protocol::Event& event) {
+void RoomView::take(const protocol::Event& event, core::Time now) {
   roster_.event(event);
   if (protocol::is_of_rules(event.kind) && welcome_) {
+    own_run_.event(event, welcome_->id, welcome_->tick_hz, now);
     const std::string told = describe_ruling(event, welcome_->id, welcome_->tick_hz);
     if (!told.empty()) roster_.note(told);
   }
@@ -255,13 +259,19 @@ void RoomView::on_lost() {
   looked_ = {};
 }
 
-void RoomView::draw_goal(core::Time now) {
-  goal_.clear();
-  const Snapshot* newest = view_->newest();
-  if (newest == nullptr || !newest->game || !clock_->running()) return;
-  const auto own = newest->lice.find(welcome_->id);
-  goal_ = goal_lines({*welcome_, map_.get(), *newest->game, roster_,
-                      own != newest->lice.end() ? &own->second : nullptr, clock_->tick(now)});
+Sight RoomView::sight() const {
+  Sight sight{map_.get(), lice_, trails_, pilot()};
+  sight.is_part = sees_part();
+  sight.name_of = [this](std::uint32_t id) {
+    const Resident* resident = roster_.find(id);
+    return resident != nullptr ? resident->name : core::joined({"#", std::to_string(id)});
+  };
+  const Snapshot* newest = view_ ? view_->newest() : nullptr;
+  if (!welcome_ || newest == nullptr || !newest->game) return sight;
+  sight.ruling = {state::mode_from_text(welcome_->mode).value_or(state::Mode::kRoam), &*newest->game,
+                  shown_tick_, welcome_->tick_hz};
+  if (sight.ruling.mode == state::Mode::kRoam) sight.ruling.game = nullptr;  // rules that are not known here
+  return sight;
 }
 
 void RoomView::update(core::Time now) {
@@ -281,7 +291,7 @@ void RoomView::update(core::Time now) {
       outgoing_.emplace_back(*input);
   }
   draw_lice(now);
-  draw_goal(now);
+  if (clock_->running()) shown_tick_ = clock_->tick(now);
 }
 
 void RoomView::draw_lice(core::Time now) {
@@ -294,7 +304,13 @@ void RoomView::draw_lice(core::Time now) {
     lice_[id].sample = sample;
   }
   if (pilot_) {
-    if (const auto own = pilot_->sample()) lice_[pilot_->id()].sample = *own;
+    if (auto own = pilot_->sample()) {  // what the rules say of it only the server knows
+      const auto newest = view_->newest()->lice.find(pilot_->id());
+      if (newest != view_->newest()->lice.end()) own->standing = newest->second.standing;
+      lice_[pilot_->id()].sample = *own;
+    }
+    if (const auto own = lice_.find(pilot_->id()); own != lice_.end())
+      own_run_.observe(own->second.sample.standing);
   }
   const double width = welcome_->extent[2] - welcome_->extent[0];
   for (auto& [id, louse] : lice_) {

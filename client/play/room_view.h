@@ -14,6 +14,7 @@
 
 #include "client/net/server_clock.h"
 #include "client/play/keyframe_verifier.h"
+#include "client/play/modes/own_run.h"
 #include "client/play/pilot.h"
 #include "client/play/roster.h"
 #include "client/play/stream_view.h"
@@ -59,8 +60,8 @@ class RoomView {
   /// Whether that is not everybody.
   [[nodiscard]] bool sees_part() const { return !looked_.is_whole(); }
   void respawn() { outgoing_.emplace_back(protocol::Respawn{}); }
-  /// What the rules of play want of you, in a line or two; empty where there are none.
-  [[nodiscard]] const std::vector<std::string>& goal() const { return goal_; }
+  /// What the rules of play have said of your louse.
+  [[nodiscard]] const OwnRun& own_run() const { return own_run_; }
   /// A line over the key line for kNoticeFor.
   void notice(std::string text, core::Time now);
 
@@ -72,7 +73,7 @@ class RoomView {
   [[nodiscard]] const Pilot* pilot() const { return pilot_ ? &*pilot_ : nullptr; }
   /// Every louse as of the last update, by id.
   [[nodiscard]] const std::map<std::uint32_t, Present>& lice() const { return lice_; }
-  [[nodiscard]] Sight sight() const { return {map_.get(), lice_, trails_, pilot()}; }
+  [[nodiscard]] Sight sight() const;
   /// The smallest of the last kRoundTrips: the others waited for something besides the network.
   [[nodiscard]] std::optional<double> rtt_seconds() const;
   /// The server's tick rate as its frames show it [Hz]; 0 before it can be known.
@@ -87,13 +88,12 @@ class RoomView {
   void take(const protocol::Welcome& welcome, core::Time now);
   core::Expected<void> take(const protocol::MapMessage& message);
   void take(const protocol::Frame& frame, core::Time now);
-  void take(const protocol::Event& event);
+  void take(const protocol::Event& event, core::Time now);
   void take(const protocol::Pong& pong, core::Time now);
   void take(const protocol::Rooms& rooms);
   void measure_rate(std::uint64_t tick, core::Time now);
   void begin_piloting();
   void draw_lice(core::Time now);
-  void draw_goal(core::Time now);
 
   std::optional<protocol::Welcome> welcome_;
   bool was_here_ = false;  ///< the line was cut since the last welcome
@@ -107,7 +107,8 @@ class RoomView {
   Roster roster_;
   std::map<std::uint32_t, Present> lice_;
   std::map<std::uint32_t, Trail> trails_;
-  std::vector<std::string> goal_;
+  OwnRun own_run_;
+  double shown_tick_ = 0.0;  ///< the server's, as of the last update
   std::vector<protocol::ClientMessage> outgoing_;
   protocol::View looked_;           ///< asked for last on this connection
   std::deque<double> round_trips_;  ///< [s], the newest last

@@ -1,6 +1,7 @@
 // Who is in the room and what was said: names from welcome and events, the chat and the game's own notices.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -37,6 +38,11 @@ class Roster {
   /// The resident of that id; null for ids not announced.
   [[nodiscard]] const Resident* find(std::uint32_t id) const;
   [[nodiscard]] std::size_t lice() const { return residents_.size(); }
+  [[nodiscard]] std::size_t bots() const {
+    return static_cast<std::size_t>(
+        std::count_if(residents_.begin(), residents_.end(),
+                      [](const auto& resident) { return resident.second.role == protocol::Role::kBot; }));
+  }
   /// As last counted.
   [[nodiscard]] std::uint32_t spectators() const { return spectators_; }
   [[nodiscard]] const std::deque<Utterance>& chat() const { return chat_; }

@@ -6,18 +6,14 @@
 #include <numbers>
 #include <utility>
 
+#include "client/drawing/layout.h"
+#include "client/play/modes/course_builder.h"
+
 namespace woodlouse::client {
 namespace {
 
 constexpr std::size_t kShortTrail = 30;  // points
 constexpr double kStill = 0.05;          // [m/s] below it a louse's body points along its heading
-
-terrain::SurfaceSample ground_under(const Sight& sight, core::Vec2 position) {
-  if (sight.map == nullptr) return {};
-  const terrain::Rectangle& domain = sight.map->terrain->domain();
-  return sight.map->terrain->sample(std::clamp(position.x, domain.x_min, domain.x_max),
-                                    std::clamp(position.y, domain.y_min, domain.y_max));
-}
 
 core::Vec2 direction_of_travel(const LouseSample& louse) {
   const double speed = std::hypot(louse.velocity.x, louse.velocity.y);
@@ -51,7 +47,7 @@ LouseMark mark(const Sight& sight, std::uint32_t id, const Present& louse, Trail
 
 int rank_of(const std::vector<ScoreRow>& scores, std::uint32_t id) {
   const auto row = std::find_if(scores.begin(), scores.end(), [id](const ScoreRow& r) { return r.id == id; });
-  return row == scores.end() ? 0 : static_cast<int>(row - scores.begin()) + 1;
+  return row == scores.end() ? 0 : row->rank;
 }
 
 void fill_steering_numbers(const Steering& steering, core::Time now, HudNumbers& hud) {
@@ -99,6 +95,13 @@ Mode mode_of(const Interface& interface) {
 
 }  // namespace
 
+terrain::SurfaceSample ground_under(const Sight& sight, core::Vec2 position) {
+  if (sight.map == nullptr) return {};
+  const terrain::Rectangle& domain = sight.map->terrain->domain();
+  return sight.map->terrain->sample(std::clamp(position.x, domain.x_min, domain.x_max),
+                                    std::clamp(position.y, domain.y_min, domain.y_max));
+}
+
 double slope_degrees(const terrain::SurfaceSample& ground, core::Vec2 direction) {
   return std::atan(ground.zx * direction.x + ground.zy * direction.y) * (180.0 / std::numbers::pi);
 }
@@ -107,24 +110,17 @@ double speed_in_space(const terrain::SurfaceSample& ground, core::Vec2 v) {
   return std::hypot(v.x, v.y, ground.zx * v.x + ground.zy * v.y);
 }
 
-std::vector<ScoreRow> score_rows(const Sight& sight) {
-  std::vector<ScoreRow> rows;
-  for (const auto& [id, louse] : sight.lice) {
-    const double speed = speed_in_space(ground_under(sight, louse.sample.position), louse.sample.velocity);
-    rows.push_back({id, louse.name, louse.is_bot ? LouseKind::kBot : LouseKind::kPlayer, louse.is_you,
-                    louse.sample.distance, speed});
-  }
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const ScoreRow& a, const ScoreRow& b) { return a.distance > b.distance; });
-  return rows;
-}
-
 std::uint32_t followed(const Sight& sight, std::uint32_t chosen) {
   if (chosen != 0 && sight.lice.contains(chosen)) return chosen;
   const auto leader = std::max_element(
       sight.lice.begin(), sight.lice.end(),
       [](const auto& a, const auto& b) { return a.second.sample.distance < b.second.sample.distance; });
   return leader == sight.lice.end() ? 0 : leader->first;
+}
+
+const LouseSample* sample_of(const Sight& sight, std::uint32_t id) {
+  const auto louse = sight.lice.find(id);
+  return louse == sight.lice.end() ? nullptr : &louse->second.sample;
 }
 
 std::uint32_t next_louse(const Sight& sight, std::uint32_t id) {
@@ -163,8 +159,12 @@ Scene picture(const Sight& sight, const Interface& interface, const FrameFacts& 
     scene.map_name = sight.map->definition.name;
     scene.terrain = sight.map->terrain;
   }
-  for (const auto& [id, louse] : sight.lice) scene.lice.push_back(mark(sight, id, louse, interface.trails));
+  const bool has_crumbs = sight.ruling.mode == state::Mode::kForage && sight.ruling.game != nullptr;
+  const bool hides_trails = has_crumbs && !paints_pixels(facts.look);  // dots of characters, as crumbs are
+  for (const auto& [id, louse] : sight.lice)
+    scene.lice.push_back(mark(sight, id, louse, hides_trails ? TrailLength::kOff : interface.trails));
   scene.scores = score_rows(sight);
+  scene.measured = measured_by(sight);
   scene.hud.fps = facts.fps;
   scene.hud.players = static_cast<int>(scene.scores.size());
   scene.hud.bots = static_cast<int>(std::count_if(
@@ -185,9 +185,9 @@ Scene build_scene(const Session& session, const Interface& interface, const Chat
   scene.spectating = own_id == 0;
   if (room.welcome() != nullptr) scene.room = room.welcome()->room;
   fill_louse_numbers(room.sight(), scene.spectating ? scene.follow_id : own_id, scene);
-  if (room.sees_part()) {  // nobody knows how far the others have come
-    scene.hud.rank = 0;
+  if (room.sees_part()) {
     scene.hud.players = static_cast<int>(room.roster().lice());
+    scene.hud.bots = static_cast<int>(room.roster().bots());
   }
   if (room.pilot() != nullptr) fill_steering_numbers(room.pilot()->steering(), facts.now, scene.hud);
   fill_connection_numbers(room, scene.hud);
@@ -195,7 +195,10 @@ Scene build_scene(const Session& session, const Interface& interface, const Chat
   for (const Utterance& line : room.roster().chat()) scene.chat.push_back({line.from, line.text});
   scene.chat_entry = entry.text();
   scene.notice = room.notice_line();
-  scene.goal = room.goal();
+  scene.course = course_of({room.sight(), scene.spectating ? scene.follow_id : own_id,
+                            sample_of(room.sight(), scene.spectating ? scene.follow_id : own_id),
+                            !scene.spectating, &room.own_run(), scene.hud.rank});
+  scene.course.splash = room.own_run().splash(facts.now);
   scene.proof = proof_of(room);
   if (room.verifier().difference()) scene.notice = to_text(*room.verifier().difference());
   if (const auto seconds = session.connection().seconds_left(facts.now))

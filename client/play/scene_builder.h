@@ -27,8 +27,11 @@ Scene build_scene(const Session& session, const Interface& interface, const Chat
 /// scores and how many they are. Numbers of a single louse, chat and mode are the caller's.
 Scene picture(const Sight& sight, const Interface& interface, const FrameFacts& facts);
 
-/// The lice by distance travelled, best first; the scoreboard.
-std::vector<ScoreRow> score_rows(const Sight& sight);
+/// A louse of the sight; null: it is not there.
+const LouseSample* sample_of(const Sight& sight, std::uint32_t id);
+
+/// The ground below a place, which is moved onto the map.
+terrain::SurfaceSample ground_under(const Sight& sight, core::Vec2 position);
 
 /// Whom a spectator follows: the chosen one while there is one of that id, else the leader; 0: nobody.
 std::uint32_t followed(const Sight& sight, std::uint32_t chosen);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <variant>
 
+#include "client/play/modes/course_builder.h"
 #include "client/play/scene_builder.h"
 
 namespace woodlouse::client {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -9,6 +10,8 @@
 #include "client/play/trail.h"
 #include "client/play/view_state.h"
 #include "shared/map/map_definition.h"
+#include "shared/protocol/game.h"
+#include "shared/state/mode.h"
 
 namespace woodlouse::client {
 
@@ -20,12 +23,24 @@ struct Present {
   bool is_you = false;
 };
 
+/// What the rules of play show, and when.
+struct Ruling {
+  state::Mode mode = state::Mode::kRoam;
+  const protocol::Game* game = nullptr;  ///< whole; null: there are no rules, or nothing was shown yet
+  double tick = 0.0;                     ///< now
+  std::uint32_t tick_hz = 60;
+};
+
 /// Refers to what a room view or a recording's view holds; valid until that runs on.
 struct Sight {
   const map::Map* map = nullptr;                 ///< null until it has come
   const std::map<std::uint32_t, Present>& lice;  ///< by id
   const std::map<std::uint32_t, Trail>& trails;
   const Pilot* pilot = nullptr;  ///< of your own louse; null without one
+  Ruling ruling{};
+  std::function<std::string(std::uint32_t)>
+      name_of{};         ///< of any louse, seen or not; set where there are rules
+  bool is_part = false;  ///< there are lice that are not seen
 };
 
 }  // namespace woodlouse::client

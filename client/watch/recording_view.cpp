@@ -70,6 +70,18 @@ void RecordingView::prove(core::Time deadline) {
   }
 }
 
+Sight RecordingView::sight() const {
+  Sight sight{archive_->map().get(), lice_, trails_, nullptr};
+  sight.name_of = [this](std::uint32_t id) {
+    const auto label = labels_.find(id);
+    return name_of(label == labels_.end() ? nullptr : &label->second, id);
+  };
+  if (shown_.game)
+    sight.ruling = {archive_->header().mode, &*shown_.game, static_cast<double>(tick()),
+                    archive_->header().tick_hz};
+  return sight;
+}
+
 void RecordingView::extend_trails() {
   const terrain::Rectangle& domain = archive_->map()->terrain->domain();
   const double spacing = std::max(domain.x_max - domain.x_min, 1.0) / kTrailSpacings;
@@ -79,13 +91,11 @@ void RecordingView::extend_trails() {
 
 void RecordingView::take_lice() {
   lice_.clear();
-  for (const state::Louse& louse : playback_->match().world().lice()) {
-    const auto label = labels_.find(louse.id);
+  shown_ = snapshot_of(playback_->match());
+  for (const auto& [id, sample] : shown_.lice) {
+    const auto label = labels_.find(id);
     const match::PlayerLabel* known = label == labels_.end() ? nullptr : &label->second;
-    lice_[louse.id] = {{louse.position, louse.velocity, louse.heading, louse.distance, {}},
-                       name_of(known, louse.id),
-                       known != nullptr && known->role == protocol::Role::kBot,
-                       false};
+    lice_[id] = {sample, name_of(known, id), known != nullptr && known->role == protocol::Role::kBot, false};
   }
   std::erase_if(trails_, [this](const auto& entry) { return !lice_.contains(entry.first); });
 }

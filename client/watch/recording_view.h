@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "client/drawing/scene.h"
+#include "client/play/stream_view.h"
 #include "client/play/visible_lice.h"
 #include "client/watch/recorded_chat.h"
 #include "client/watch/recording_proof.h"
@@ -34,7 +35,7 @@ class RecordingView {
   void prove(core::Time deadline);
 
   [[nodiscard]] std::uint64_t tick() const { return playback_->tick(); }
-  [[nodiscard]] Sight sight() const { return {archive_->map().get(), lice_, trails_, nullptr}; }
+  [[nodiscard]] Sight sight() const;
   /// The exact louse; null when it is not there.
   [[nodiscard]] const state::Louse* louse(std::uint32_t id) const {
     return playback_->match().world().find(id);
@@ -56,6 +57,7 @@ class RecordingView {
   std::unique_ptr<replay::Playback> playback_;  ///< what is shown
   std::unique_ptr<replay::Playback> prover_;    ///< null once there is nothing more to learn
   std::map<std::uint32_t, match::PlayerLabel> labels_;
+  Snapshot shown_;  ///< at tick()
   std::map<std::uint32_t, Present> lice_;
   std::map<std::uint32_t, Trail> trails_;
   RecordedChat chat_;

@@ -49,7 +49,7 @@ Scene still_life() {
     louse.heading = heading;
     for (int i = 8; i > 0; --i) louse.trail.push_back(position - (0.9 * i) * heading);
     scene.lice.push_back(louse);
-    scene.scores.push_back({id, name, kind, louse.is_you, 40.0 - 7.0 * id, 2.0});
+    scene.scores.push_back({id, name, kind, louse.is_you, 40.0 - 7.0 * id, 2.0, static_cast<int>(id)});
   };
   add(1, "ada", LouseKind::kPlayer, {-9.0, 4.0}, {0.0, 1.0});
   add(2, "mara", LouseKind::kPlayer, {3.0, -7.0}, {1.0, 0.0});

@@ -42,7 +42,7 @@ class StagedGame {
       mark.kind = id % 3 == 0 ? LouseKind::kBot : LouseKind::kPlayer;
       mark.is_you = id == 1;
       scene_.lice.push_back(mark);
-      scene_.scores.push_back({id, mark.name, mark.kind, mark.is_you, 0.0, 0.0});
+      scene_.scores.push_back({id, mark.name, mark.kind, mark.is_you, 0.0, 0.0, static_cast<int>(id)});
       trails_.emplace_back((d.x_max - d.x_min) / 200.0);
       directions_.push_back(6.3 * random_.uniform());
     }

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "client/play/modes/course_builder.h"
 #include "client/play/scene_builder.h"
 #include "client/play/text_game.h"
 #include "shared/core/stable_hash.h"

@@ -1,0 +1,226 @@
+#include "client/drawing/course/course_marks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "client/drawing/course/course.h"
+#include "client/drawing/formatted.h"
+#include "client/drawing/terrain_contour_view.h"
+
+namespace woodlouse::client {
+namespace {
+
+constexpr Rgb kOtherGate{176, 184, 206};
+constexpr Rgb kCrumb{255, 250, 225};
+constexpr Rgb kFreeRing{240, 242, 250};
+constexpr Rgb kGhost{214, 222, 255};
+constexpr double kPost = 1.2;  ///< height of a gate's posts [m]
+constexpr double kGhostStrength = 0.4;
+
+using Spot = GroundCanvas::Spot;
+
+std::u32string wide(std::string_view ascii) { return {ascii.begin(), ascii.end()}; }
+
+int whole(double dots) { return static_cast<int>(std::floor(dots)); }
+
+/// A post stands up where height is seen, at least three dots; from above it is a spot.
+void draw_post(core::Vec2 foot, const Ink& ink, GroundCanvas& canvas) {
+  const auto at = canvas.spot(foot);
+  if (!at) return;
+  const int x = whole(at->x);
+  const int y = whole(at->y);
+  if (!canvas.has_height()) {
+    canvas.dot(x, y, ink);
+    if (canvas.has_pixels()) canvas.dot(x, y ^ 1, ink);  // the whole cell
+    return;
+  }
+  if (at->is_hidden) return;
+  const auto top = canvas.spot(foot, kPost);
+  const int dots = std::max(3, top ? static_cast<int>(std::lround(at->y - top->y)) : 0);
+  for (int k = 0; k < dots; ++k) canvas.dot(x, y - k, ink);
+}
+
+void draw_gate(const GateMark& gate, GroundCanvas& canvas) {
+  const Rgb color = gate.is_next ? kGoalColor : kOtherGate;
+  canvas.line(gate.a, gate.b, {color, gate.is_next ? U':' : U'.', gate.is_next ? 1.0 : 0.55, kBold},
+              canvas.has_pixels() ? 2 : 1);
+  const Ink post{color, gate.is_next ? U'#' : U'+', gate.is_next ? 1.0 : 0.75, kBold};
+  draw_post(gate.a, post, canvas);
+  draw_post(gate.b, post, canvas);
+}
+
+void draw_crumb(const CrumbMark& crumb, GroundCanvas& canvas) {
+  const auto at = canvas.spot(crumb.position);
+  if (!at || at->is_hidden) return;
+  const bool is_dear = crumb.value > 1;
+  const Ink ink{is_dear ? kGoalColor : kCrumb, is_dear ? U'*' : U'.', 1.0, kBold};
+  const int x = whole(at->x);
+  const int y = whole(at->y);
+  canvas.dot(x, y, ink);
+  if (!canvas.has_pixels() || !is_dear) return;
+  for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{0, -1}, std::pair{1, -1}})
+    canvas.dot(x + dx, y + dy, ink);
+}
+
+void draw_ring(const RingMark& ring, const Badges& badges, GroundCanvas& canvas) {
+  const bool is_held = ring.state == RingMark::State::kHeld;
+  Ink ink{is_held && ring.holder != 0 ? badges.of(ring.holder).color : kFreeRing, U'o', 1.0, kBold};
+  int dash = 0;
+  if (ring.state == RingMark::State::kContested) ink = {kGoalColor, U'x', 1.0, kBold}, dash = 2;
+  if (ring.state == RingMark::State::kComing) ink.glyph = U'.', ink.strength = 0.4, dash = 1;
+  if (is_held) ink.glyph = U'@' == badges.of(ring.holder).letter ? U'@' : U'#';
+  canvas.ellipse(ring.at, {1.0, 0.0}, ring.radius, ring.radius, ink, dash);
+}
+
+/// Metres that a dot covers around a place.
+double metres_per_dot(core::Vec2 place, const GroundCanvas& canvas) {
+  const auto here = canvas.spot(place);
+  const auto east = canvas.spot(place + core::Vec2{1.0, 0.0});
+  if (!here || !east) return 1.0;
+  return 1.0 / std::max(1e-3, std::hypot(east->x - here->x, east->y - here->y));
+}
+
+void draw_ghost(const GhostMark& ghost, GroundCanvas& canvas) {
+  if (!canvas.has_pixels()) {
+    const auto at = canvas.spot(ghost.position);
+    if (!at) return;
+    canvas.dot(whole(at->x), whole(at->y), {kGhost, U'(', kGhostStrength});
+    canvas.dot(whole(at->x) + 1, whole(at->y), {kGhost, U')', kGhostStrength});
+    return;
+  }
+  // As long as the lice of this picture.
+  const double half =
+      (canvas.has_height() ? std::clamp(canvas.viewport().size.columns / 32.0, 2.2, 5.0) : 2.6) *
+      metres_per_dot(ghost.position, canvas);
+  const double across = canvas.has_height() ? 0.75 * half : half;
+  canvas.ellipse(ghost.position, ghost.heading, half, across, {kGhost, U'(', kGhostStrength}, 0);
+  canvas.line(ghost.position + (0.6 * half) * ghost.heading, ghost.position + half * ghost.heading,
+              {kGhost, U'(', 2.0 * kGhostStrength}, 0);
+}
+
+/// Writes near a cell: in it, above, below.
+void write_near(int column, int row, std::u32string_view text, Rgb color, Attributes attributes,
+                GroundCanvas& canvas) {
+  const int left = column - static_cast<int>(text.size()) / 2;
+  for (const int y : {row, row - 1, row + 1, row + 2})
+    if (canvas.write(left, y, text, color, attributes)) return;
+}
+
+/// The glyph of a direction on the screen, and how many cells it leads on.
+HeadingGlyph screen_glyph(const Spot& from, const Spot& to, const GroundCanvas& canvas) {
+  const double down = (to.y - from.y) * 2.0 / canvas.dots_per_row();  // in columns
+  return heading_glyph({to.x - from.x, -down});
+}
+
+void label_gate(const GateMark& gate, GroundCanvas& canvas) {
+  const core::Vec2 middle = 0.5 * (gate.a + gate.b);
+  const auto at = canvas.spot(middle);
+  if (!at || at->is_hidden) return;
+  std::u32string text = wide((gate.is_next ? "[" : "(") + gate.label + (gate.is_next ? "]" : ")"));
+  const int column = whole(at->x);
+  const int row = whole(at->y) / canvas.dots_per_row() - (canvas.has_height()   ? 2
+                                                          : canvas.has_pixels() ? 1
+                                                                                : 0);
+  write_near(column, row, text, gate.is_next ? kGoalColor : kOtherGate, gate.is_next ? kBold : kPlain,
+             canvas);
+  if (!gate.is_next) return;
+  // Which way it is driven through: over the line, well off the posts.
+  const core::Vec2 along = gate.b - gate.a;
+  const double length = std::hypot(along.x, along.y);
+  if (!(length > 0.0)) return;
+  const core::Vec2 through{-along.y / length, along.x / length};
+  const auto ahead = canvas.spot(middle + through);
+  if (!ahead) return;
+  const HeadingGlyph glyph = screen_glyph(*at, *ahead, canvas);
+  const int half = static_cast<int>(text.size() + 1) / 2;
+  canvas.write(column + glyph.columns * (half + 1), row + glyph.rows,
+               std::u32string(1, static_cast<char32_t>(glyph.glyph)), kGoalColor);
+}
+
+void label_ghost(const GhostMark& ghost, GroundCanvas& canvas) {
+  constexpr std::size_t kLongest = 16;
+  const auto at = canvas.spot(ghost.position);
+  if (!at || at->is_hidden) return;
+  std::u32string name = printable(ghost.name, canvas.look().glyphs);
+  if (name.size() > kLongest) name.resize(kLongest);
+  const int row = whole(at->y) / canvas.dots_per_row();
+  const int left = whole(at->x) - static_cast<int>(name.size()) / 2;
+  const int off = canvas.has_pixels() ? 2 : 1;
+  if (!canvas.write(left, row + off, name, scaled(kGhost, 0.75), kPlain))
+    canvas.write(left, row - off, name, scaled(kGhost, 0.75), kPlain);
+}
+
+/// Beside your louse, towards what is wanted; where that is out of the picture also at its edge, with the
+/// way.
+void draw_pointer(const LouseMark& you, core::Vec2 target, GroundCanvas& canvas) {
+  const auto here = canvas.spot(you.position);
+  const auto there = canvas.spot(target);
+  if (!here || !there) return;
+  const double rows = canvas.dots_per_row();
+  const double dx = there->x - here->x;
+  const double dy = (there->y - here->y) * 2.0 / rows;  // in columns, as dx
+  const double length = std::hypot(dx, dy);
+  const HeadingGlyph glyph = screen_glyph(*here, *there, canvas);
+  const std::u32string arrow(1, static_cast<char32_t>(glyph.glyph));
+  const int column = whole(here->x);
+  const int row = whole(here->y) / canvas.dots_per_row();
+  constexpr double kReach = 7.0;  ///< [columns] between louse and arrow
+  const double reach = canvas.has_pixels() ? kReach : 4.0;
+  if (length > 1.5 * reach)
+    canvas.write(column + static_cast<int>(std::lround(reach * dx / length)),
+                 row + static_cast<int>(std::lround(reach * dy / length / 2.0)), arrow, kGoalColor);
+  const Size size = canvas.viewport().size;
+  const int to_column = whole(there->x);
+  const int to_row = static_cast<int>(std::floor(there->y / rows));
+  if (canvas.viewport().holds(to_column, to_row)) return;
+  const core::Vec2 way = target - you.position;
+  const std::u32string metres = wide(formatted("%.0f m", std::hypot(way.x, way.y)));
+  const int text = static_cast<int>(metres.size());
+  // Where the straight way leaves the picture, two lines off the top, where the mode's lines stand.
+  double t = 1.0;
+  const auto limit = [&t](double at, double by, double low, double high) {
+    if (by > 0.0) t = std::min(t, (high - at) / by);
+    if (by < 0.0) t = std::min(t, (low - at) / by);
+  };
+  constexpr int kTop = 3;
+  limit(here->x, dx, 1.0, size.columns - 2.0);
+  limit(here->y / rows, dy / 2.0, kTop, size.rows - 3.0);
+  const int edge_column = std::clamp(static_cast<int>(here->x + std::max(0.0, t) * dx), 1, size.columns - 2);
+  const int edge_row =
+      std::clamp(static_cast<int>(here->y / rows + std::max(0.0, t) * dy / 2.0), kTop, size.rows - 3);
+  canvas.write(edge_column, edge_row, arrow, kGoalColor);
+  const int left = edge_column + 2 + text < size.columns ? edge_column + 2 : edge_column - 1 - text;
+  canvas.write(left, edge_row, metres, kGoalColor);
+}
+
+}  // namespace
+
+void draw_marks(const Scene& scene, const Badges& badges, GroundCanvas& canvas) {
+  for (const RingMark& ring : scene.course.rings) draw_ring(ring, badges, canvas);
+  for (const GateMark& gate : scene.course.gates)
+    if (!gate.is_next) draw_gate(gate, canvas);
+  for (const GateMark& gate : scene.course.gates)
+    if (gate.is_next) draw_gate(gate, canvas);
+  for (const CrumbMark& crumb : scene.course.crumbs) draw_crumb(crumb, canvas);
+  for (const GhostMark& ghost : scene.course.ghosts) draw_ghost(ghost, canvas);
+}
+
+void draw_mark_labels(const Scene& scene, GroundCanvas& canvas) {
+  const auto you = std::find_if(scene.lice.begin(), scene.lice.end(), [&scene](const LouseMark& louse) {
+    return louse.is_you || (scene.spectating && louse.id == scene.follow_id);
+  });
+  for (const GateMark& gate : scene.course.gates)
+    if (gate.is_next) label_gate(gate, canvas);
+  if (you != scene.lice.end() && you->is_you && scene.course.target)
+    draw_pointer(*you, *scene.course.target, canvas);
+  for (const GateMark& gate : scene.course.gates)
+    if (!gate.is_next) label_gate(gate, canvas);
+  if (!scene.labels) return;
+  for (const GhostMark& ghost : scene.course.ghosts) label_ghost(ghost, canvas);
+}
+
+}  // namespace woodlouse::client

@@ -1,0 +1,83 @@
+// Where a mode's marks go in a picture, whichever camera looks: dots on the ground and characters over them.
+// A dot is a half-block pixel where the terrain is painted in those, else a cell.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "client/cells/cell_buffer.h"
+#include "client/cells/color.h"
+#include "client/drawing/layout.h"
+#include "client/drawing/terrain_oblique_view.h"
+#include "client/ground/map_camera.h"
+#include "shared/core/vec2.h"
+
+namespace woodlouse::client {
+
+/// What a dot or a character is drawn with.
+struct Ink {
+  Rgb color;
+  char32_t glyph = U'.';  ///< where a dot is a cell
+  double strength = 1.0;  ///< 0..1 of what lies below; where a dot is a cell everything below 0.7 is plain
+  Attributes attributes = 0;  ///< of a cell
+};
+
+class GroundCanvas {
+ public:
+  /// A place in dots from the viewport's corner.
+  struct Spot {
+    double x = 0.0;
+    double y = 0.0;
+    bool is_hidden = false;  ///< behind a hill
+  };
+  using Projector = std::function<std::optional<Spot>(core::Vec2 place, double height)>;
+
+  /// From above.
+  GroundCanvas(const MapCamera& camera, const Look& look, const Viewport& viewport, CellBuffer& cells);
+  /// From a height. All but the look outlive the canvas.
+  GroundCanvas(const Relief& relief, const ObliqueCamera& camera, const ObliqueLayer& layer, const Look& look,
+               const Viewport& viewport, CellBuffer& cells);
+
+  [[nodiscard]] bool has_pixels() const { return has_pixels_; }
+  /// Whether height is seen.
+  [[nodiscard]] bool has_height() const { return has_height_; }
+  [[nodiscard]] const Viewport& viewport() const { return viewport_; }
+  [[nodiscard]] const Look& look() const { return look_; }
+  [[nodiscard]] int dots_per_row() const { return has_pixels_ ? 2 : 1; }
+
+  /// Where a place `height` [m] over the ground is seen; empty behind the camera.
+  [[nodiscard]] std::optional<Spot> spot(core::Vec2 place, double height = 0.0) const {
+    return projector_(place, height);
+  }
+  void dot(int x, int y, const Ink& ink);
+  /// Where dots are cells: nothing is drawn over this one any more.
+  void keep(int column, int row) { kept_.emplace_back(column, row); }
+  /// A straight line over the ground; of `dash` dots every second ones are left out (0: none).
+  void line(core::Vec2 from, core::Vec2 to, const Ink& ink, int dash);
+  /// The outline of an ellipse on the ground, `axis` its half axis along the unit vector `along`.
+  void ellipse(core::Vec2 middle, core::Vec2 along, double axis, double across, const Ink& ink, int dash);
+
+  /// Writes over the picture, whole or not at all: never outside, nor over other characters of a picture of
+  /// pixels. (column, row) from the viewport's corner.
+  bool write(int column, int row, std::u32string_view text, Rgb color, Attributes attributes = kBold);
+
+ private:
+  [[nodiscard]] Style style_of(const Ink& ink) const;
+  [[nodiscard]] bool is_kept(int column, int row) const {
+    return std::find(kept_.begin(), kept_.end(), std::pair(column, row)) != kept_.end();
+  }
+
+  Look look_;
+  Viewport viewport_;
+  CellBuffer& cells_;
+  bool has_pixels_;
+  bool has_height_;
+  Projector projector_;
+  std::vector<std::pair<int, int>> kept_;
+};
+
+}  // namespace woodlouse::client
