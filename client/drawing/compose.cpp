@@ -10,11 +10,13 @@
 #include "client/drawing/course/board.h"
 #include "client/drawing/course/course_marks.h"
 #include "client/drawing/hud.h"
+#include "client/drawing/landmarks.h"
 #include "client/drawing/layout.h"
 #include "client/drawing/overlays.h"
 #include "client/drawing/terrain_contour_view.h"
 #include "client/drawing/terrain_oblique_view.h"
 #include "client/drawing/terrain_top_view.h"
+#include "client/ground/follow_camera.h"
 #include "client/ground/map_camera.h"
 #include "client/ground/oblique_camera.h"
 #include "client/ground/relief.h"
@@ -46,77 +48,77 @@ struct Composer::Layers {
   /// What the layer in `cells` (and `oblique`) was computed for.
   struct Key {
     std::shared_ptr<const terrain::Terrain> terrain;
+    Landmarks landmarks;
     Look look;
-    View view = View::kMap;
+    bool by_steepness = false;
     Size size;
-    core::Vec2 centre;  ///< View::kFollow only
-    double zoom = 1.0;  ///< View::kFollow only
+    std::optional<MapCamera> above;        ///< one of both
+    std::optional<ObliqueCamera> oblique;  ///< ...
     friend bool operator==(const Key&, const Key&) = default;
   };
 
   std::optional<Relief> relief;
+  std::optional<FollowCamera> follower;
   std::optional<Key> key;
-  std::optional<core::Vec2> centre;  ///< where a following camera stands until its louse nears the edge
-  MapCamera camera;
   std::vector<Cell> cells;
-  std::optional<ObliqueCamera> oblique_camera;
   ObliqueLayer oblique;
 
-  void follow(const Scene& scene, Size size);
+  void see(const Scene& scene, Size size);
+  [[nodiscard]] Key wanted(const Scene& scene, Size size);
   void prepare(const Scene& scene, Size size);
   void draw_map(const Scene& scene, const Badges& badges, const Viewport& viewport, CellBuffer& cells);
 };
 
-/// Moves the camera in leaps: a map that scrolls with the louse would be written whole every frame.
-void Composer::Layers::follow(const Scene& scene, Size size) {
-  const LouseMark* louse = followed(scene);
-  if (louse == nullptr) return;
-  const terrain::Rectangle& d = relief->terrain().domain();
-  const MapCamera whole = camera_for(d, size);
+/// Makes the relief and the follower those of this map and size.
+void Composer::Layers::see(const Scene& scene, Size size) {
+  if (!relief || relief->shared_terrain() != scene.terrain) {
+    follower.reset();
+    relief.emplace(scene.terrain);
+  }
+  if (!follower || follower->size() != size) follower.emplace(*relief, size);
+}
+
+Composer::Layers::Key Composer::Layers::wanted(const Scene& scene, Size size) {
+  const bool pixels = paints_pixels(scene.look);
+  const Margin margin = pixels ? kPixelMargin : kCharacterMargin;
+  const LouseMark* louse = scene.view == View::kFollow ? followed(scene) : nullptr;
   const double zoom = follow_zoom(scene.zoom);
-  const double half_width = whole.column * size.columns / (2.0 * zoom);
-  const double half_height = whole.row * size.rows / (2.0 * zoom);
-  // Each way by itself: along the map's edge the louse stays off the middle for long.
-  const auto next = [](double at, std::optional<double> now, double half, double low, double high) {
-    constexpr double kNearEdge = 0.6;
-    if (now && std::abs(at - *now) < kNearEdge * half) return *now;
-    return high - low <= 2.0 * half ? (low + high) / 2.0 : std::clamp(at, low + half, high - half);
-  };
-  const auto x = centre ? std::optional(centre->x) : std::nullopt;
-  const auto y = centre ? std::optional(centre->y) : std::nullopt;
-  centre = core::Vec2{next(louse->position.x, x, half_width, d.x_min, d.x_max),
-                      next(louse->position.y, y, half_height, d.y_min, d.y_max)};
+  Key result{scene.terrain, scene.landmarks, scene.look, scene.view == View::kSlope, size, {}, {}};
+  if (pixels && louse != nullptr)
+    result.oblique =
+        follower->before({louse->position.x, louse->position.y,
+                          (relief->sample(louse->position).z + louse->above) * relief->exaggeration()},
+                         zoom);
+  else if (pixels && (scene.view == View::kOblique || scene.view == View::kFollow))
+    result.oblique = follower->whole();
+  else if (louse != nullptr)
+    result.above = follower->over(louse->position, zoom, margin);
+  else
+    result.above = camera_for(relief->terrain().domain(), size, margin);
+  return result;
 }
 
 void Composer::Layers::prepare(const Scene& scene, Size size) {
-  if (!relief || relief->shared_terrain() != scene.terrain) {
-    relief.emplace(scene.terrain);
-    centre.reset();
-  }
+  see(scene, size);
+  Key next = wanted(scene, size);
+  if (key == next) return;
+  key = std::move(next);
   const bool pixels = paints_pixels(scene.look);
-  const bool is_follow = scene.view == View::kFollow;
-  if (is_follow) follow(scene, size);
-  const core::Vec2 middle = is_follow && centre ? *centre : core::Vec2{};
-  Key wanted{scene.terrain, scene.look, scene.view, size, middle, is_follow ? scene.zoom : 1.0};
-  if (key == wanted) return;
-  key = std::move(wanted);
-  oblique_camera.reset();
-  const double zoom = follow_zoom(scene.zoom);
-  if (pixels && (scene.view == View::kOblique || is_follow)) {
-    oblique_camera = is_follow && centre ? oblique_camera_around(*relief, *centre, zoom, size)
-                                         : oblique_camera_for(*relief, size);
-    oblique = oblique_layer(*relief, *oblique_camera, size, scene.look.color);
-    cells = oblique.cells;
+  const terrain::Rectangle& domain = relief->terrain().domain();
+  if (key->oblique) {
+    oblique = oblique_layer(*relief, *key->oblique, size, scene.look.color);
+    mark_obliquely(scene.landmarks, *relief, *key->oblique, oblique);
     return;
   }
-  const MapCamera whole = camera_for(relief->terrain().domain(), size);
-  camera = is_follow && centre ? camera_around(*centre, whole.row / zoom, size) : whole;
-  if (pixels)
-    cells = top_layer(*relief, camera, size, scene.look.color,
-                      scene.view == View::kSlope ? Paint::kSteepness : Paint::kElevation);
-  else
-    cells = scene.view == View::kSlope ? slope_character_layer(*relief, camera, size, scene.look)
-                                       : contour_layer(*relief, camera, size, scene.look);
+  if (pixels) {
+    cells = top_layer(*relief, *key->above, size, scene.look.color,
+                      key->by_steepness ? Paint::kSteepness : Paint::kElevation);
+    mark_in_pixels(scene.landmarks, domain, *key->above, size, cells);
+    return;
+  }
+  cells = key->by_steepness ? slope_character_layer(*relief, *key->above, size, scene.look)
+                            : contour_layer(*relief, *key->above, size, scene.look);
+  mark_in_characters(scene.landmarks, domain, *key->above, size, scene.look, cells);
 }
 
 void Composer::Layers::draw_map(const Scene& scene, const Badges& badges, const Viewport& viewport,
@@ -126,23 +128,22 @@ void Composer::Layers::draw_map(const Scene& scene, const Badges& badges, const 
     return;
   }
   prepare(scene, viewport.size);
-  copy_layer(cells, viewport, out);
-  GroundCanvas canvas = oblique_camera
-                            ? GroundCanvas(*relief, *oblique_camera, oblique, scene.look, viewport, out)
-                            : GroundCanvas(camera, scene.look, viewport, out);
+  const bool is_oblique = key->oblique.has_value();
+  copy_layer(is_oblique ? oblique.cells : cells, viewport, out);
+  GroundCanvas canvas = is_oblique ? GroundCanvas(*relief, *key->oblique, oblique, scene.look, viewport, out)
+                                   : GroundCanvas(*key->above, scene.look, viewport, out);
   if (canvas.has_pixels()) draw_marks(scene, badges, canvas);
-  if (oblique_camera) {
-    draw_lice_obliquely(scene, badges, *relief, *oblique_camera, oblique, viewport, out);
+  if (is_oblique) {
+    draw_lice_obliquely(scene, badges, *relief, *key->oblique, oblique, viewport, out);
   } else if (canvas.has_pixels()) {
-    draw_lice_on_map(scene, badges, camera, viewport, out);
+    draw_lice_on_map(scene, badges, *key->above, viewport, out);
   } else {  // over trails, which are as wide as the marks are there
-    draw_lice_as_letters(scene, badges, camera, viewport, out);
+    draw_lice_as_letters(scene, badges, *key->above, viewport, out);
     for (const LouseMark& louse : scene.lice) {
-      const int column = static_cast<int>(std::floor(camera.column_of(louse.position)));
-      const int row = static_cast<int>(std::floor(camera.row_of(louse.position)));
+      const Place at = key->above->cell_of(louse.position, scene.terrain->domain());
       const HeadingGlyph heading = heading_glyph(louse.heading);
-      canvas.keep(column, row);
-      canvas.keep(column + heading.columns, row + heading.rows);
+      canvas.keep(at.column, at.row);
+      canvas.keep(at.column + heading.columns, at.row + heading.rows);
     }
     draw_marks(scene, badges, canvas);
   }

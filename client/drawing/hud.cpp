@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,19 +22,29 @@
 namespace woodlouse::client {
 namespace {
 
-std::string thrust_text(const HudNumbers& hud) {
+/// The first that fits, else the last: a word cut off in the middle says something else.
+std::string fitting(int width, std::initializer_list<std::string> choices) {
+  for (const std::string& choice : choices)
+    if (static_cast<int>(choice.size()) <= width) return choice;
+  return *(choices.end() - 1);
+}
+
+std::string thrust_text(const HudNumbers& hud, int width) {
   const int strength = static_cast<int>(std::lround(3.0 * std::min(1.0, std::abs(hud.thrust))));
   const std::string signs(static_cast<std::size_t>(strength), hud.thrust < 0.0 ? '-' : '+');
   std::string text = formatted("push   %-3s", signs.c_str());
   if (strength == 0 && !hud.cruise) return "push   none";
   if (hud.cruise) return text + " cruise";
-  if (hud.thrust < 0.0) text += " brake ";
-  return hud.push_seconds > 0.0 ? text + formatted(" %.1f s", hud.push_seconds) : text;
+  const std::string word = hud.thrust < 0.0 ? " brake" : "";
+  if (hud.push_seconds <= 0.0) return text + word;
+  const std::string left = formatted(" %.1f s", hud.push_seconds);
+  return fitting(width, {text + word + (word.empty() ? "" : " ") + left, text + left});
 }
 
-std::string slope_text(double degrees) {
-  const char* way = degrees > 1.0 ? "uphill" : degrees < -1.0 ? "downhill" : "level";
-  return formatted("slope  %+d deg %s", static_cast<int>(std::lround(degrees)), way);
+std::string slope_text(double degrees, int width) {
+  const std::string number = formatted("slope  %+d deg ", static_cast<int>(std::lround(degrees)));
+  const std::string way = degrees > 1.0 ? "up" : degrees < -1.0 ? "down" : "level";
+  return fitting(width, {number + way + (way == "level" ? "" : "hill"), number + way});
 }
 
 void draw_players(const Scene& scene, const Badges& badges, const Styles& styles, PanelWriter& out,
@@ -78,8 +89,8 @@ void draw_you(const Scene& scene, const Styles& styles, PanelWriter& out) {
     out.text(17 + full, std::string(static_cast<std::size_t>(bar - full), '-'), styles.dim);
     out.text(17 + bar, "]", styles.dim);
   }
-  out.line(slope_text(hud.slope_degrees), styles.text);
-  out.line(thrust_text(hud), styles.text);
+  out.line(slope_text(hud.slope_degrees, out.width()), styles.text);
+  out.line(thrust_text(hud, out.width()), styles.text);
   out.line(formatted("way   %6.1f m", hud.distance), styles.text);
   out.line(formatted("height %5.1f m", hud.height), styles.text);
 }
@@ -88,7 +99,11 @@ void draw_room(const Scene& scene, const Styles& styles, PanelWriter& out) {
   out.line(formatted("lice   %d", scene.hud.players), styles.text);
   out.line(formatted("bots   %d", scene.hud.bots), styles.text);
   const int others = scene.hud.spectators - 1;
-  out.line(others > 0 ? formatted("you and %d more are watching", others) : "you are watching", styles.dim);
+  const std::string alone = "you are watching";
+  out.line(others > 0 ? fitting(out.width(), {formatted("you and %d more are watching", others),
+                                              formatted("%d watch with you", others)})
+                      : alone,
+           styles.dim);
 }
 
 /// The ground before your louse, where half of a big panel is free for it.

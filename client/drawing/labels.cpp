@@ -1,5 +1,6 @@
 #include "client/drawing/labels.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "client/drawing/pixels.h"
@@ -25,6 +26,14 @@ void draw_label(const LouseMark& louse, const Badge& badge, int column, int row,
   if (!place) return;
   int at = place->column;
   for (const char32_t c : name) put_over(cells, viewport, at++, place->row, c, Color::of(badge.color));
+}
+
+void mark_outside(const Badge& badge, Place at, const Viewport& viewport, CellBuffer& cells) {
+  if (viewport.holds(at.column, at.row)) return;
+  const Place edge{std::clamp(at.column, 0, viewport.size.columns - 1),
+                   std::clamp(at.row, 0, viewport.size.rows - 1)};
+  cells.put(viewport.column + edge.column, viewport.row + edge.row, static_cast<char32_t>(badge.letter),
+            {Color::of({16, 16, 20}), Color::of(badge.color), kBold});
 }
 
 }  // namespace woodlouse::client

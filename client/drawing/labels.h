@@ -11,6 +11,7 @@
 #include "client/drawing/badges.h"
 #include "client/drawing/layout.h"
 #include "client/drawing/scene.h"
+#include "client/ground/map_camera.h"
 
 namespace woodlouse::client {
 
@@ -18,11 +19,6 @@ namespace woodlouse::client {
 class LabelPlacer {
  public:
   explicit LabelPlacer(const Viewport& viewport) : viewport_(viewport) {}
-
-  struct Place {
-    int column = 0;
-    int row = 0;
-  };
 
   /// Keeps a rectangle free of labels.
   void reserve(int column, int row, Size size) { taken_.push_back({column, row, size}); }
@@ -71,6 +67,9 @@ class LabelPlacer {
 /// Writes a louse's name over the picture near (column, row) of the viewport, where there is room.
 void draw_label(const LouseMark& louse, const Badge& badge, int column, int row, Size reach, const Look& look,
                 const Viewport& viewport, LabelPlacer& labels, CellBuffer& cells);
+
+/// Where yours would be outside the picture, a letter at its edge shows the way; inside nothing happens.
+void mark_outside(const Badge& badge, Place at, const Viewport& viewport, CellBuffer& cells);
 
 /// The name as it may be shown: printable, `you` for your own, bots marked with a star, at most `width`
 /// columns.

@@ -37,13 +37,15 @@ inline void put_pixel(CellBuffer& cells, const Viewport& viewport, int x, int y,
   (y % 2 == 0 ? cell.style.foreground : cell.style.background) = color;
 }
 
+/// How a colour looks; an entry of the palette as xterm has it.
+inline Rgb rgb_of(Color color) {
+  return color.kind == Color::Kind::kRgb ? color.rgb : palette_color(color.index());
+}
+
 /// The background for a character over what a cell shows: its pixels mixed and darkened, so that the
 /// character stands out from its own louse's trail.
 inline Color ground_of(const Cell& cell) {
-  const Color upper = cell.style.foreground;
-  const Color lower = cell.style.background;
-  const auto rgb = [](Color c) { return c.kind == Color::Kind::kRgb ? c.rgb : palette_color(c.index()); };
-  return Color::of(scaled(mix(rgb(upper), rgb(lower), 0.5), 0.5));
+  return Color::of(scaled(mix(rgb_of(cell.style.foreground), rgb_of(cell.style.background), 0.5), 0.5));
 }
 
 /// Writes a character over the picture. In a cell that shows a character already nothing happens.

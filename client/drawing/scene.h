@@ -13,6 +13,7 @@
 #include "client/drawing/course/course.h"
 #include "shared/core/vec2.h"
 #include "shared/physics/attitude.h"
+#include "shared/state/parameters.h"
 #include "shared/terrain/terrain.h"
 
 namespace woodlouse::client {
@@ -53,6 +54,7 @@ struct LouseMark {
   core::Vec2 heading{1.0, 0.0};   ///< unit; yours: where the next thrust goes
   physics::Attitude attitude;     ///< physics::attitude(direction of travel, gradient)
   double speed = 0.0;             ///< [m/s]
+  double above = 0.0;             ///< height over the ground under it [m], >= 0; 0: on it
   std::vector<core::Vec2> trail;  ///< points of the world, oldest first; see trail.h
 };
 
@@ -120,6 +122,13 @@ struct ReplayBar {
   std::shared_ptr<const std::vector<EventMark>> marks;  ///< null: none
 };
 
+/// What a map has besides its ground.
+struct Landmarks {
+  state::Edges edges = state::Edges::kWalls;  ///< what a louse meets there
+  double core_radius = 0.0;                   ///< of what pulls towards (0, 0) [m]; 0: nothing does
+  friend constexpr bool operator==(const Landmarks&, const Landmarks&) = default;
+};
+
 struct ConnectionLost {
   std::string reason;       ///< one line
   double seconds_left = 0;  ///< for which coming back is still tried
@@ -138,7 +147,8 @@ struct Scene {
   std::string map_name;
   std::string room;
   std::shared_ptr<const terrain::Terrain> terrain;  ///< null until the map has come: "waiting for the map"
-  std::vector<LouseMark> lice;                      ///< ascending id
+  Landmarks landmarks;
+  std::vector<LouseMark> lice;  ///< ascending id
   HudNumbers hud;
   std::vector<ScoreRow> scores;
   std::vector<ChatLine> chat;          ///< the newest 50 or so

@@ -92,6 +92,7 @@ char contour_glyph(const Ground& ground, const Facet& f, int column, int row, do
   const auto crosses = [&](int c0, int r0, int c1, int r1) {
     return Ground::crosses(ground.height(c0, r0), ground.height(c1, r1), interval);
   };
+  if (std::hypot(f.per_column, f.per_row) < kLeastRise * interval) return ' ';
   constexpr double kFlatter = 0.5;
   if (std::abs(f.per_column) < kFlatter * std::abs(f.per_row)) {
     // '-' stands at half height, '_' at the foot; a line along the top belongs to the cell above.
@@ -102,6 +103,13 @@ char contour_glyph(const Ground& ground, const Facet& f, int column, int row, do
     return crosses(c, r + 2, c + 2, r + 2) ? '|' : ' ';
   if (f.per_column * f.per_row > 0.0) return crosses(c, r, c + 2, r + 4) ? '/' : ' ';
   return crosses(c, r + 4, c + 2, r) ? '\\' : ' ';
+}
+
+/// Whether lines of a grid cross in a cell.
+bool is_crossing(const MapCamera& camera, int column, int row, double tile) {
+  const core::Vec2 a = camera.world(column, row);
+  const core::Vec2 b = camera.world(column + 1, row + 1);
+  return std::floor(a.x / tile) != std::floor(b.x / tile) && std::floor(a.y / tile) != std::floor(b.y / tile);
 }
 
 Style contour_style(const Relief& relief, double z, const Look& look) {
@@ -154,6 +162,7 @@ std::vector<Cell> contour_layer(const Relief& relief, const MapCamera& camera, S
         const double rows_apart = interval / std::max(1e-12, std::hypot(2.0 * f.per_column, f.per_row));
         for (int part = 2; glyph == ' ' && part <= 4 && rows_apart > kLonely * part / 2; part *= 2)
           if (part == 2 || column % 2 == 0) glyph = contour_glyph(ground, f, column, row, interval / part);
+        if (relief.is_flat() && is_crossing(camera, column, row, relief.tile())) glyph = '+';
         cell.glyph = static_cast<char32_t>(glyph);
       }
       layer.push_back(cell);
@@ -202,8 +211,7 @@ HeadingGlyph heading_glyph(core::Vec2 heading) {
 void draw_lice_as_letters(const Scene& scene, const Badges& badges, const MapCamera& camera,
                           const Viewport& viewport, CellBuffer& cells) {
   const auto place = [&](const LouseMark& louse) {
-    return std::pair(static_cast<int>(std::floor(camera.column_of(louse.position))),
-                     static_cast<int>(std::floor(camera.row_of(louse.position))));
+    return camera.cell_of(louse.position, scene.terrain->domain());
   };
   const auto put = [&](int column, int row, char32_t glyph, const Style& style) {
     if (viewport.holds(column, row)) cells.put(viewport.column + column, viewport.row + row, glyph, style);
@@ -226,6 +234,15 @@ void draw_lice_as_letters(const Scene& scene, const Badges& badges, const MapCam
     plain.attributes = kBold;
     put(column + heading.columns, row + heading.rows, static_cast<char32_t>(heading.glyph), plain);
     put(column, row, static_cast<char32_t>(badge.letter), style);
+    if (louse.above > 0.0) {  // its shadow, as far to the south-east as it flies high
+      const core::Vec2 under = louse.position + louse.above * kShadowWay;
+      const Place shade = camera.cell_of(under, scene.terrain->domain());
+      if (shade != Place{column, row}) put(shade.column, shade.row, U',', plain);
+    }
+    if (!louse.is_you || viewport.holds(column, row)) continue;
+    const Place edge{std::clamp(column, 0, viewport.size.columns - 1),
+                     std::clamp(row, 0, viewport.size.rows - 1)};
+    put(edge.column, edge.row, static_cast<char32_t>(badge.letter), style);
   }
 }
 

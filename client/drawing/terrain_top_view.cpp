@@ -27,12 +27,23 @@ void draw_trail(const LouseMark& louse, Rgb color, ColorMode mode, const MapCame
   }
 }
 
+/// Of a louse that flies, as far to the south-east as it flies high.
+void draw_shadow(const LouseMark& louse, const MapCamera& camera, const Viewport& viewport,
+                 CellBuffer& cells) {
+  if (louse.above <= 0.0) return;
+  const core::Vec2 under = louse.position + louse.above * kShadowWay;
+  const int x = static_cast<int>(std::floor(camera.column_of(under)));
+  const int y = static_cast<int>(std::floor(2.0 * camera.row_of(under)));
+  for (const int beside : {0, 1}) put_pixel(cells, viewport, x + beside, y, Color::of({8, 9, 14}));
+}
+
 }  // namespace
 
 double contour_shade(double z, double z_right, double z_below, double interval) {
   constexpr double kDarker = 0.68;
   constexpr double kPixelsApart = 3.0;
   const double rise = std::hypot(z_right - z, z_below - z);
+  if (rise < kLeastRise * interval) return 1.0;
   constexpr double kLonely = 14.0;  // pixels between lines beyond which a line half-way helps
   while (rise * kPixelsApart > interval) interval *= 2.0;
   if (rise * kLonely < interval) interval /= 2.0;
@@ -61,7 +72,8 @@ std::vector<Cell> top_layer(const Relief& relief, const MapCamera& camera, Size 
       }
       const double shade = contour_shade(s.z, relief.sample(p + core::Vec2{pixel, 0.0}).z,
                                          relief.sample(p - core::Vec2{0.0, pixel}).z, interval);
-      pixels.push_back(terrain_color(relief.tone(s.z), relief.brightness(p, s) * shade, mode));
+      pixels.push_back(
+          terrain_color(relief.tone(s.z), relief.brightness(p, s) * relief.tile_shade(p) * shade, mode));
     }
   }
   return cells_of_pixels(pixels, size);
@@ -70,22 +82,19 @@ std::vector<Cell> top_layer(const Relief& relief, const MapCamera& camera, Size 
 void draw_lice_on_map(const Scene& scene, const Badges& badges, const MapCamera& camera,
                       const Viewport& viewport, CellBuffer& cells) {
   const auto order = in_drawing_order(scene);
-  const auto column_of = [&](const LouseMark& l) {
-    return static_cast<int>(std::floor(camera.column_of(l.position)));
-  };
-  const auto row_of = [&](const LouseMark& l) {
-    return static_cast<int>(std::floor(camera.row_of(l.position)));
-  };
+  const terrain::Rectangle& domain = scene.terrain->domain();
+  const auto place_of = [&](const LouseMark& louse) { return camera.cell_of(louse.position, domain); };
   LabelPlacer labels(viewport);
   for (const LouseMark* louse : order) {
     draw_trail(*louse, badges.of(louse->id).color, scene.look.color, camera, viewport, cells);
-    labels.reserve(column_of(*louse) - 1, row_of(*louse), {3, 1});
+    draw_shadow(*louse, camera, viewport, cells);
+    labels.reserve(place_of(*louse).column - 1, place_of(*louse).row, {3, 1});
   }
   for (auto at = order.rbegin(); at != order.rend(); ++at) {  // yours first: put_over() keeps what stands
     const LouseMark& louse = **at;
     const Badge badge = badges.of(louse.id);
-    const int column = column_of(louse);
-    const int row = row_of(louse);
+    const auto [column, row] = place_of(louse);
+    if (louse.is_you) mark_outside(badge, {column, row}, viewport, cells);
     if (!viewport.holds(column, row)) continue;
     Cell& cell = cells.at(viewport.column + column, viewport.row + row);
     if (cell.glyph == kUpperHalfBlock)
@@ -98,9 +107,9 @@ void draw_lice_on_map(const Scene& scene, const Badges& badges, const MapCamera&
   if (!scene.labels || viewport.size.columns < kColumnsForLabels) return;
   for (auto at = order.rbegin(); at != order.rend(); ++at) {
     const LouseMark& louse = **at;
-    if (!viewport.holds(column_of(louse), row_of(louse))) continue;
-    draw_label(louse, badges.of(louse.id), column_of(louse), row_of(louse), {1, 1}, scene.look, viewport,
-               labels, cells);
+    const auto [column, row] = place_of(louse);
+    if (!viewport.holds(column, row)) continue;
+    draw_label(louse, badges.of(louse.id), column, row, {1, 1}, scene.look, viewport, labels, cells);
   }
 }
 

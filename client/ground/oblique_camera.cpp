@@ -73,12 +73,12 @@ ObliqueCamera oblique_camera_for(const Relief& relief, Size size) {
   return camera;
 }
 
-ObliqueCamera oblique_camera_around(const Relief& relief, core::Vec2 centre, double zoom, Size size) {
-  ObliqueCamera camera = oblique_camera_for(relief, size);
+ObliqueCamera oblique_camera_around(const ObliqueCamera& whole, Vec3 centre, double zoom, Size size) {
+  ObliqueCamera camera = whole;
   camera.focal_ *= zoom;
   camera.middle_x_ = camera.middle_y_ = 0.0;
-  const auto at = camera.project({centre.x, centre.y, relief.sample(centre).z * relief.exaggeration()});
-  if (!at) return camera;
+  const auto at = camera.project(centre);
+  if (!at) return whole;  // behind the eye: nothing that is played on
   camera.middle_x_ = size.columns / 2.0 - at->x;
   camera.middle_y_ = size.rows - at->y;
   return camera;

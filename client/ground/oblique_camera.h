@@ -33,7 +33,7 @@ class ObliqueCamera {
 
  private:
   friend ObliqueCamera oblique_camera_for(const Relief& relief, Size size);
-  friend ObliqueCamera oblique_camera_around(const Relief& relief, core::Vec2 centre, double zoom, Size size);
+  friend ObliqueCamera oblique_camera_around(const ObliqueCamera& whole, Vec3 centre, double zoom, Size size);
   ObliqueCamera(const Relief& relief, double tilt, double distance);
 
   Vec3 eye_;
@@ -52,7 +52,7 @@ double camera_tilt(const Relief& relief);
 /// The whole map in size.columns x 2 size.rows pixels.
 ObliqueCamera oblique_camera_for(const Relief& relief, Size size);
 
-/// `zoom` times nearer than the whole map, with the ground at `centre` in the middle.
-ObliqueCamera oblique_camera_around(const Relief& relief, core::Vec2 centre, double zoom, Size size);
+/// `zoom` times nearer than `whole`, oblique_camera_for() the same size, with `centre` in the middle.
+ObliqueCamera oblique_camera_around(const ObliqueCamera& whole, Vec3 centre, double zoom, Size size);
 
 }  // namespace woodlouse::client

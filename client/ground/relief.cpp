@@ -1,6 +1,7 @@
 #include "client/ground/relief.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -50,7 +51,9 @@ Relief::Relief(std::shared_ptr<const terrain::Terrain> terrain) : terrain_(std::
   steep_ = std::max(slopes[slopes.size() * 95 / 100], 1e-9);
   heights_ = grid.heights;
   std::sort(heights_.begin(), heights_.end());
-  if (highest() - lowest() < 1e-9) heights_.back() = lowest() + 1e-9;
+  is_flat_ = highest() - lowest() < 1e-9 * (extent(terrain_->domain()) + std::abs(highest()));
+  if (is_flat_) heights_.back() = lowest() + 1e-9 * (1.0 + std::abs(lowest()));
+  tile_ = round_step(extent(terrain_->domain()) / 12.0);
   const double range = highest() - lowest();
   exaggeration_ = std::clamp(0.3 * extent(terrain_->domain()) / range, 1.0, 2.0);
   potness_ = std::clamp(rim_above_middle(grid, range), -1.0, 1.0);
@@ -62,6 +65,8 @@ terrain::SurfaceSample Relief::sample(core::Vec2 p) const {
 }
 
 double Relief::tone(double z) const {
+  constexpr double kMeadow = 0.4;
+  if (is_flat_) return kMeadow;
   const double by_height = std::clamp((z - lowest()) / (highest() - lowest()), 0.0, 1.0);
   const auto above = std::upper_bound(heights_.begin(), heights_.end(), z);
   const double by_area = static_cast<double>(above - heights_.begin()) / static_cast<double>(heights_.size());
@@ -102,11 +107,19 @@ double Relief::unshadowed(core::Vec2 p, double z) const {
   return std::clamp(least + 0.5, 0.0, 1.0);
 }
 
-double Relief::contour_interval(double distance) const {
-  const double smallest = steep_ * distance;
-  const double power = std::pow(10.0, std::floor(std::log10(smallest)));
+double Relief::tile_shade(core::Vec2 p) const {
+  if (!is_flat_) return 1.0;
+  const double parity = std::floor(p.x / tile_) + std::floor(p.y / tile_);
+  return std::fmod(std::abs(parity), 2.0) < 0.5 ? 1.0 : 0.94;
+}
+
+double Relief::contour_interval(double distance) const { return round_step(steep_ * distance); }
+
+double round_step(double least) {
+  assert(least > 0.0);
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
   for (const double digit : {1.0, 2.0, 5.0})
-    if (digit * power >= smallest) return digit * power;
+    if (digit * power >= least) return digit * power;
   return 10.0 * power;
 }
 

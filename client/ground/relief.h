@@ -40,6 +40,12 @@ class Relief {
   [[nodiscard]] double tone(double z) const;
   /// kAmbient..1, shadow included.
   [[nodiscard]] double brightness(core::Vec2 p, const terrain::SurfaceSample& s) const;
+  /// A map without heights: what of them differs is rounding. It has no contours, and tiles instead.
+  [[nodiscard]] bool is_flat() const { return is_flat_; }
+  /// The width of a flat map's tiles [m].
+  [[nodiscard]] double tile() const { return tile_; }
+  /// How much darker the tile at a point is; 1 where the map is not flat.
+  [[nodiscard]] double tile_shade(core::Vec2 p) const;
   /// The step between contour lines, 1, 2 or 5 times a power of ten, such that where it is steep they are
   /// `distance` metres of the map apart or more.
   [[nodiscard]] double contour_interval(double distance) const;
@@ -55,7 +61,18 @@ class Relief {
   double steep_ = 0.0;
   double exaggeration_ = 1.0;
   double potness_ = 0.0;
+  bool is_flat_ = false;
+  double tile_ = 1.0;
 };
+
+/// The least of 1, 2, 5, 10, ... times a power of ten that is `least` or more. REQUIRES least > 0.
+double round_step(double least);
+
+/// What rises less than this part of the interval a step has no contours: they would be of its rounding.
+inline constexpr double kLeastRise = 1e-6;
+
+/// Where the shadow of what flies a metre high lies, seen from above: away from the light [m].
+inline constexpr core::Vec2 kShadowWay{0.62 / 0.62, -0.48 / 0.62};
 
 /// Between which two contour lines a height lies. The lines lie off the round heights: maps made of whole
 /// metres have plains at those, on which a line would wander.

@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "client/drawing/layout.h"
 #include "client/play/outlook.h"
 
 namespace woodlouse::client {
@@ -28,6 +29,7 @@ Game::Game(boost::asio::io_context& context, Session& session, TerminalGuard& gu
 
 Outcome Game::run() {
   interface_.view = settings_.view.value_or(default_view(settings_.look, terminal_size(STDOUT_FILENO)));
+  interface_.has_oblique = paints_pixels(settings_.look);
   interface_.overlay = settings_.first;
   return loop_.run();
 }

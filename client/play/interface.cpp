@@ -5,10 +5,10 @@
 namespace woodlouse::client {
 namespace {
 
-View after(View view) {
+View after(View view, bool has_oblique) {
   switch (view) {
     case View::kMap:
-      return View::kOblique;
+      return has_oblique ? View::kOblique : View::kFollow;
     case View::kOblique:
       return View::kFollow;
     case View::kFollow:
@@ -51,7 +51,7 @@ void zoom_out(Interface& interface) {
 bool Interface::apply(Action action) {
   switch (action) {
     case Action::kView:
-      view = after(view);
+      view = after(view, has_oblique);
       return true;
     case Action::kZoomIn:
       zoom_in(*this);

@@ -13,7 +13,8 @@ enum class TrailLength : std::uint8_t { kOff, kShort, kLong };
 
 struct Interface {
   View view = View::kMap;
-  double zoom = 1.0;  ///< of View::kFollow; zoomed out beyond kFarthest it is the map again
+  bool has_oblique = true;  ///< the look shows it otherwise than the map; else V passes it over
+  double zoom = 1.0;        ///< of View::kFollow; zoomed out beyond kFarthest it is the map again
   Overlay overlay = Overlay::kNone;
   bool chatting = false;
   bool labels = true;

@@ -112,6 +112,8 @@ std::optional<LouseSample> Pilot::sample() const {
   result.velocity = louse->velocity;
   result.heading = louse->heading;
   result.distance = louse->distance;
+  if (louse->phase == state::Phase::kFlying)
+    result.flight_z = louse->flight_z + part * prediction_->step_seconds() * louse->flight_vz;
   return result;
 }
 

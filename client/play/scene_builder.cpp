@@ -39,7 +39,10 @@ LouseMark mark(const Sight& sight, std::uint32_t id, const Present& louse, Trail
   result.position = louse.sample.position;
   const core::Vec2 travel = direction_of_travel(louse.sample);
   result.heading = louse.is_you && sight.pilot != nullptr ? sight.pilot->steering().heading() : travel;
-  result.attitude = physics::attitude(travel, {ground.zx, ground.zy});
+  if (louse.sample.flight_z != 0.0) result.above = std::max(0.0, louse.sample.flight_z - ground.z);
+  // In the air no ground turns it.
+  const bool flies = result.above > 0.0;
+  result.attitude = physics::attitude(travel, flies ? core::Vec2{} : core::Vec2{ground.zx, ground.zy});
   result.speed = speed_in_space(ground, louse.sample.velocity);
   result.trail = trail_of(sight, id, trails);
   return result;
@@ -143,7 +146,7 @@ void fill_louse_numbers(const Sight& sight, std::uint32_t id, Scene& scene) {
   scene.hud.speed = speed_in_space(ground, sample.velocity);
   scene.hud.slope_degrees = slope_degrees(ground, direction_of_travel(sample));
   scene.hud.distance = sample.distance;
-  scene.hud.height = ground.z;
+  scene.hud.height = sample.flight_z != 0.0 ? sample.flight_z : ground.z;
   scene.hud.rank = rank_of(scene.scores, id);
 }
 
@@ -158,6 +161,8 @@ Scene picture(const Sight& sight, const Interface& interface, const FrameFacts& 
   if (sight.map != nullptr) {
     scene.map_name = sight.map->definition.name;
     scene.terrain = sight.map->terrain;
+    const state::Parameters& physics = sight.map->definition.physics;
+    scene.landmarks = {physics.edges, physics.central_gravity > 0.0 ? physics.core_radius : 0.0};
   }
   const bool has_crumbs = sight.ruling.mode == state::Mode::kForage && sight.ruling.game != nullptr;
   const bool hides_trails = has_crumbs && !paints_pixels(facts.look);  // dots of characters, as crumbs are

@@ -18,6 +18,7 @@ Snapshot snapshot_of(const match::Match& match) {
     sample.velocity = louse.velocity;
     sample.heading = louse.heading;
     sample.distance = louse.distance;
+    sample.flight_z = louse.flight_z;
     if (rules == nullptr) continue;
     const rules::Standing standing = rules->standing(louse.id);
     sample.standing = {standing.score, standing.gate, standing.lap,

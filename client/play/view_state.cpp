@@ -38,6 +38,7 @@ LouseSample read_row(const double* row, const std::vector<std::size_t>& places) 
   sample.velocity = {row[places[3]], row[places[4]]};
   sample.heading = unit_or({row[places[5]], row[places[6]]}, sample.heading);
   sample.distance = row[places[7]];
+  sample.flight_z = row[places[8]];
   return sample;
 }
 
@@ -65,9 +66,9 @@ std::vector<std::size_t> places_of(std::span<const Column> wanted_ones, const st
 }  // namespace
 
 const std::vector<Column>& wanted_columns() {
-  static const std::vector<Column> columns = {Column::kId,       Column::kX,       Column::kY,
-                                              Column::kVx,       Column::kVy,      Column::kHeadingX,
-                                              Column::kHeadingY, Column::kDistance};
+  static const std::vector<Column> columns = {Column::kId,       Column::kX,        Column::kY,
+                                              Column::kVx,       Column::kVy,       Column::kHeadingX,
+                                              Column::kHeadingY, Column::kDistance, Column::kFlightZ};
   return columns;
 }
 
@@ -88,6 +89,11 @@ LouseSample between(const LouseSample& from, const LouseSample& target, double s
   sample.velocity = (1.0 - t) * from.velocity + t * to.velocity;
   sample.heading = unit_or((1.0 - t) * from.heading + t * to.heading, to.heading);
   sample.distance = from.distance + t * (to.distance - from.distance);
+  // Where it leaves or touches the ground between both, the nearer one says whether it flies.
+  if (from.flight_z != 0.0 && to.flight_z != 0.0)
+    sample.flight_z = from.flight_z + t * (to.flight_z - from.flight_z);
+  else
+    sample.flight_z = t < 0.5 ? from.flight_z : to.flight_z;
   sample.standing = from.standing;
   return sample;
 }

@@ -34,6 +34,7 @@ struct LouseSample {
   core::Vec2 velocity;           ///< [m/s]
   core::Vec2 heading{1.0, 0.0};  ///< unit
   double distance = 0.0;         ///< travelled [m]
+  double flight_z = 0.0;         ///< height while flying [m]; 0 on the ground, as on the wire
   Standing standing;
 };
 

@@ -37,12 +37,13 @@ void fill_thrust_numbers(const state::Louse& louse, double tick_hz, HudNumbers& 
 
 }  // namespace
 
-Screening::Screening(RecordingView& recording, std::string name, View view)
+Screening::Screening(RecordingView& recording, std::string name, View view, bool has_oblique)
     : recording_(recording),
       name_(std::move(name)),
       clock_(recording.archive().first_tick(), recording.archive().last_tick(),
              recording.archive().header().tick_hz) {
   interface_.view = view;
+  interface_.has_oblique = has_oblique;
   std::vector<EventMark> marks;
   for (const replay::Mark& mark : recording.archive().marks()) {
     const std::uint64_t tick = std::clamp(shown_at(mark), clock_.first(), clock_.last());

@@ -20,8 +20,8 @@ class Screening {
  public:
   static constexpr double kSkipSeconds = 5.0;
 
-  /// name: of the file, for the status line. The recording outlives it.
-  Screening(RecordingView& recording, std::string name, View view);
+  /// name: of the file, for the status line. The recording outlives it. has_oblique: as Interface has it.
+  Screening(RecordingView& recording, std::string name, View view, bool has_oblique = true);
 
   /// What the key asks of whoever runs the terminal (leave, suspend, draw anew), if anything.
   std::optional<Action> on_key(const Key& key);

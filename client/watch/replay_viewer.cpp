@@ -6,6 +6,8 @@
 #include <utility>
 #include <variant>
 
+#include "client/drawing/layout.h"
+
 namespace woodlouse::client {
 
 ReplayViewer::ReplayViewer(boost::asio::io_context& context, RecordingView& recording,
@@ -16,7 +18,8 @@ ReplayViewer::ReplayViewer(boost::asio::io_context& context, RecordingView& reco
       screen_(screen),
       settings_(settings),
       screening_(recording, name,
-                 settings.view.value_or(default_view(settings.look, terminal_size(STDOUT_FILENO)))),
+                 settings.view.value_or(default_view(settings.look, terminal_size(STDOUT_FILENO))),
+                 paints_pixels(settings.look)),
       loop_(context, guard, std::move(keys), screen, settings.fps, *this) {}
 
 void ReplayViewer::on_input(const TerminalInput& input) {

@@ -58,7 +58,8 @@ TEST_CASE("the camera sees the whole map in any terminal") {
 
 TEST_CASE("a ray through a point's pixel passes through the point") {
   const Relief relief(named_terrain(terrain::FunctionName::kHills));
-  const ObliqueCamera camera = oblique_camera_around(relief, {3.0, -4.0}, 2.6, {87, 34});
+  const ObliqueCamera camera =
+      oblique_camera_around(oblique_camera_for(relief, {87, 34}), {3.0, -4.0, 1.0}, 2.6, {87, 34});
   core::Random random(21);
   for (int i = 0; i < 200; ++i) {
     const Vec3 point{40.0 * random.uniform() - 20.0, 40.0 * random.uniform() - 20.0, 10.0 * random.uniform()};

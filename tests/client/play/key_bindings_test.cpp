@@ -83,6 +83,15 @@ TEST_CASE("four times V comes back to the first view") {
   REQUIRE(interface.view == View::kMap);
 }
 
+TEST_CASE("V shows another picture each time, where the look has no oblique view too") {
+  Interface interface;
+  interface.has_oblique = false;
+  for (const View next : {View::kFollow, View::kSlope, View::kMap}) {
+    REQUIRE(interface.apply(Action::kView));
+    REQUIRE(interface.view == next);
+  }
+}
+
 TEST_CASE("zooming in follows the louse, zooming out far enough shows the whole map again") {
   Interface interface;
   interface.apply(Action::kZoomOut);

@@ -73,7 +73,7 @@ TEST_CASE("who comes back is told in which louse, knows its own name, and counts
   REQUIRE(room.on_message(protocol::MapMessage{"volcano", map->hash, map->canonical}, kStart));
   CHECK(room.notice_line().empty());
   const auto first_seq = [&](std::uint64_t tick, core::Time now) {
-    REQUIRE(room.on_message(key(tick, {3, 1, 1, 0, 0, 1, 0, 5}), now));
+    REQUIRE(room.on_message(key(tick, {3, 1, 1, 0, 0, 1, 0, 5, 0}), now));
     room.update(now);
     for (const auto& sent : room.take_outgoing())
       if (const auto* input = std::get_if<protocol::Input>(&sent)) return input->seq;
@@ -147,7 +147,7 @@ TEST_CASE("a missing key is asked for at most once a second") {
   RoomView room;
   REQUIRE(room.on_message(welcome(*map, 0), kStart));
   static_cast<void>(room.take_outgoing());
-  protocol::Frame delta = key(63, {1, 0, 0, 0, 0, 1, 0, 0});
+  protocol::Frame delta = key(63, {1, 0, 0, 0, 0, 1, 0, 0, 0});
   delta.is_key = false;
   delta.base = 60;
   std::size_t asked = 0;
@@ -167,8 +167,8 @@ TEST_CASE("lice have the names of welcome and of events, one that left keeps non
   joined.id = 3;
   joined.name = "lin";
   REQUIRE(room.on_message(joined, kStart));
-  REQUIRE(room.on_message(key(60, {1, 1, 1, 0, 0, 1, 0, 5, 2, 2, 2, 0, 0, 1, 0, 9, 3, 3, 3, 0, 0, 1, 0, 7}),
-                          kStart));
+  REQUIRE(room.on_message(
+      key(60, {1, 1, 1, 0, 0, 1, 0, 5, 0, 2, 2, 2, 0, 0, 1, 0, 9, 0, 3, 3, 3, 0, 0, 1, 0, 7, 0}), kStart));
   room.update(kStart + 10ms);
   REQUIRE(room.lice().at(1).name == "ada");
   REQUIRE(room.lice().at(2).is_bot);
@@ -232,7 +232,7 @@ TEST_CASE("a louse is read out with place, height, speed and slope") {
   RoomView room;
   REQUIRE(room.on_message(welcome(*map, 0), kStart));
   REQUIRE(room.on_message(protocol::MapMessage{"volcano", map->hash, map->canonical}, kStart));
-  REQUIRE(room.on_message(key(60, {1, 3, -4, 0, 2, 1, 0, 41}), kStart));
+  REQUIRE(room.on_message(key(60, {1, 3, -4, 0, 2, 1, 0, 41, 0}), kStart));
   room.update(kStart);
   const auto lines = words::room(room);
   REQUIRE(lines.size() == 1);
@@ -268,7 +268,7 @@ TEST_CASE(
   for (std::uint64_t tick = 600; tick < 720; tick += 3) {
     const core::Time now = kStart + std::chrono::microseconds((tick - 600) * 16667);
     REQUIRE(room.on_message(
-        key(tick, {1, 7.0 + 0.01 * static_cast<double>(tick - 600), -4.0, 0.6, 0.0, 1, 0, 0}), now));
+        key(tick, {1, 7.0 + 0.01 * static_cast<double>(tick - 600), -4.0, 0.6, 0.0, 1, 0, 0, 0}), now));
     room.update(now);
     for (const auto& out : room.take_outgoing()) {
       const auto* input = std::get_if<protocol::Input>(&out);

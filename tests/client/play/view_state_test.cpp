@@ -28,8 +28,9 @@ protocol::Frame delta(std::uint64_t tick, std::uint64_t base, std::vector<std::v
   return result;
 }
 
-std::vector<double> row(double id, core::Vec2 at, core::Vec2 v = {}, double distance = 0.0) {
-  return {id, at.x, at.y, v.x, v.y, 1.0, 0.0, distance};
+std::vector<double> row(double id, core::Vec2 at, core::Vec2 v = {}, double distance = 0.0,
+                        double flight_z = 0.0) {
+  return {id, at.x, at.y, v.x, v.y, 1.0, 0.0, distance, flight_z};
 }
 
 }  // namespace
@@ -72,6 +73,17 @@ TEST_CASE("a frame that is not newer is passed over") {
   REQUIRE(view.merge(frame(120, {row(1, {7, 7})})) == ViewState::Merge::kStale);
   REQUIRE(view.merge(delta(117, 120, {row(1, {7, 7})})) == ViewState::Merge::kStale);
   REQUIRE(view.newest()->lice.at(1).position == core::Vec2{0, 0});
+}
+
+TEST_CASE(
+    "who flies is drawn between both heights, and who lands or leaves the ground as the nearer frame says") {
+  ViewState view(kTickHz);
+  view.merge(frame(60, {row(1, {1, 1}, {}, 0.0, 3.0), row(2, {2, 2}), row(3, {3, 3})}));
+  view.merge(frame(64, {row(1, {1, 1}, {}, 0.0, 5.0), row(2, {2, 2}, {}, 0.0, 7.0), row(3, {3, 3})}));
+  REQUIRE(view.at(61).at(1).flight_z == Approx(3.5));
+  REQUIRE(view.at(61).at(2).flight_z == 0.0);
+  REQUIRE(view.at(63).at(2).flight_z == 7.0);
+  REQUIRE(view.at(63).at(3).flight_z == 0.0);
 }
 
 TEST_CASE("a frame of other columns is refused") {

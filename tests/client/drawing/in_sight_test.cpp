@@ -1,0 +1,171 @@
+// Your louse is in the picture: on every map, in every look, view and size, in corners, at seams and high
+// above.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/drawing/compose.h"
+#include "client/drawing/landmarks.h"
+#include "client/drawing/layout.h"
+#include "client/ground/follow_camera.h"
+#include "shared/map/map_file.h"
+#include "tests/client/drawing/staged_game.h"
+
+using namespace woodlouse;
+using namespace woodlouse::client;
+
+namespace {
+
+/// Every shipped map, once.
+const std::vector<std::shared_ptr<const map::Map>>& shipped_maps() {
+  static const auto maps = [] {
+    std::vector<std::shared_ptr<const map::Map>> loaded;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(WOODLOUSE_SOURCE_DIR) + "/maps")) {
+      if (entry.path().extension() != ".json") continue;
+      auto one = map::load_map(entry.path().string());
+      REQUIRE(one);
+      loaded.push_back(std::move(*one));
+    }
+    return loaded;
+  }();
+  return maps;
+}
+
+/// Corners, walls, a hair inside of them, and the middle.
+std::vector<core::Vec2> places(const terrain::Rectangle& d) {
+  std::vector<core::Vec2> result;
+  for (const double x : {0.0, 1e-12, 0.31, 0.5, 1.0 - 1e-12, 1.0})
+    for (const double y : {0.0, 1e-12, 0.62, 1.0 - 1e-12, 1.0})
+      result.push_back({d.x_min + (d.x_max - d.x_min) * x, d.y_min + (d.y_max - d.y_min) * y});
+  return result;
+}
+
+Scene scene_of(const map::Map& map, Look look, View view) {
+  Scene scene;
+  scene.terrain = map.terrain;
+  const state::Parameters& physics = map.definition.physics;
+  scene.landmarks = {physics.edges, physics.central_gravity > 0.0 ? physics.core_radius : 0.0};
+  scene.look = look;
+  scene.view = view;
+  scene.labels = false;
+  LouseMark louse;
+  louse.id = 1;
+  louse.is_you = true;
+  scene.lice.push_back(louse);
+  return scene;
+}
+
+/// What of the map's part of the picture is not as in another one.
+int differences(const CellBuffer& a, const CellBuffer& b, const Viewport& part) {
+  int found = 0;
+  for (int row = part.row; row < part.row + part.size.rows; ++row)
+    for (int column = part.column; column < part.column + part.size.columns; ++column)
+      found += a.at(column, row) == b.at(column, row) ? 0 : 1;
+  return found;
+}
+
+int letters(const CellBuffer& cells, const Viewport& part) {
+  int found = 0;
+  for (int row = part.row; row < part.row + part.size.rows; ++row)
+    for (int column = part.column; column < part.column + part.size.columns; ++column)
+      found += cells.at(column, row).glyph == U'@' ? 1 : 0;
+  return found;
+}
+
+constexpr Look kCharacters{ColorMode::kMono, GlyphSet::kAscii};
+constexpr Look kPixels{ColorMode::kTruecolor, GlyphSet::kHalfBlocks};
+
+}  // namespace
+
+TEST_CASE("your louse is in every picture of a whole map, in corners, at seams and high above") {
+  for (const auto& map : shipped_maps()) {
+    const terrain::Rectangle& d = map->terrain->domain();
+    for (const Size size : {Size{60, 20}, Size{120, 36}})
+      for (const Look look : {kCharacters, kPixels})
+        for (const View view : {View::kMap, View::kOblique, View::kSlope}) {
+          Composer composer;
+          Scene scene = scene_of(*map, look, view);
+          CellBuffer empty(size);
+          Scene nobody = scene;
+          nobody.lice.clear();
+          composer.draw(nobody, empty);
+          CellBuffer cells(size);
+          const Viewport part = layout_for(size, look).map;
+          for (const core::Vec2 place : places(d))
+            for (const double above : {0.0, 0.3, 9.0}) {
+              scene.lice[0].position = place;
+              scene.lice[0].above = above * (d.x_max - d.x_min);
+              composer.draw(scene, cells);
+              INFO(map->definition.name
+                   << " " << size.columns << "x" << size.rows << " view " << static_cast<int>(view)
+                   << " glyphs " << static_cast<int>(look.glyphs) << " at " << place.x << ", " << place.y
+                   << ", above " << above);
+              CHECK(differences(cells, empty, part) > 0);
+              if (look == kCharacters) CHECK(letters(cells, part) == 1);
+            }
+        }
+  }
+}
+
+TEST_CASE("a following camera has your louse in every picture, wherever it is and wherever it comes from") {
+  core::Random random(16);
+  for (const auto& map : shipped_maps()) {
+    const Relief relief(map->terrain);
+    const terrain::Rectangle& d = map->terrain->domain();
+    const double width = d.x_max - d.x_min;
+    for (const Size size : {Size{36, 17}, Size{47, 21}, Size{87, 34}, Size{162, 58}, Size{962, 298}})
+      for (const double zoom : {0.5, 1.0, 4.0}) {
+        FollowCamera camera(relief, size);
+        const auto check = [&](core::Vec2 at, double above) {
+          INFO(map->definition.name << " " << size.columns << "x" << size.rows << " zoom " << zoom << " at "
+                                    << at.x << ", " << at.y << ", above " << above);
+          const Vec3 drawn{at.x, at.y, (relief.sample(at).z + above) * relief.exaggeration()};
+          const auto pixel = camera.before(drawn, follow_zoom(zoom)).project(drawn);
+          REQUIRE(pixel);
+          CHECK(
+              (pixel->x >= 0.0 && pixel->x < size.columns && pixel->y >= 0.0 && pixel->y < 2.0 * size.rows));
+          for (const Margin margin : {kCharacterMargin, kPixelMargin}) {
+            const Place cell = camera.over(at, follow_zoom(zoom), margin).cell_of(at, d);
+            CHECK((cell.column >= 0 && cell.column < size.columns && cell.row >= 0 && cell.row < size.rows));
+          }
+        };
+        for (const core::Vec2 place : places(d))
+          for (const double above : {0.0, 0.4}) check(place, above * width);
+        core::Vec2 at{d.x_min, d.y_min};  // a walk along walls and over seams
+        for (int i = 0; i < 100; ++i) {
+          at = {std::clamp(at.x + 0.1 * width * (random.uniform() - 0.4), d.x_min, d.x_max),
+                std::clamp(at.y + 0.1 * width * (random.uniform() - 0.4), d.y_min, d.y_max)};
+          check(at, i % 7 == 0 ? 0.2 * width * random.uniform() : 0.0);
+        }
+      }
+  }
+}
+
+TEST_CASE("a followed louse is in the picture that is drawn, in characters and in pixels") {
+  for (const auto& map : shipped_maps())
+    for (const Look look : {kCharacters, kPixels}) {
+      Composer composer;
+      Scene scene = scene_of(*map, look, View::kFollow);
+      const terrain::Rectangle& d = map->terrain->domain();
+      CellBuffer cells({60, 20});
+      const Viewport part = layout_for(cells.size(), look).map;
+      for (const core::Vec2 place : {core::Vec2{d.x_min, d.y_min}, core::Vec2{d.x_max, d.y_max},
+                                     core::Vec2{(d.x_min + d.x_max) / 2.0, d.y_min}}) {
+        scene.lice[0].position = place;
+        composer.draw(scene, cells);
+        CellBuffer gone(cells.size());
+        Scene away = scene;
+        away.lice[0].is_you = false;  // of another colour
+        away.lice[0].heading = {0.0, 1.0};
+        composer.draw(away, gone);
+        INFO(map->definition.name << " glyphs " << static_cast<int>(look.glyphs) << " at " << place.x << ", "
+                                  << place.y);
+        CHECK(differences(cells, gone, part) > 0);
+        if (look == kCharacters) CHECK(letters(cells, part) == 1);
+      }
+    }
+}
