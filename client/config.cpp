@@ -63,6 +63,11 @@ const Words<GlyphChoice>& glyph_words() {
                                          {"text", GlyphChoice::kText}}};
   return words;
 }
+const Words<Palette>& palette_words() {
+  static const Words<Palette> words{
+      {{"default", Palette::kDefault}, {"deutan", Palette::kDeutan}, {"tritan", Palette::kTritan}}};
+  return words;
+}
 const Words<std::optional<View>>& view_words() {
   static const Words<std::optional<View>> words{{{"auto", std::nullopt},
                                                  {"map", View::kMap},
@@ -74,7 +79,7 @@ const Words<std::optional<View>>& view_words() {
 
 /// Everything as it is written, before it is understood.
 struct Raw {
-  std::string server, map, name, room, recording, maps, color, glyphs, view, token, password_file;
+  std::string server, map, name, room, recording, maps, color, glyphs, palette, view, token, password_file;
   int fps = 30;
   bool watch = false;
   bool verify = false;
@@ -98,6 +103,7 @@ Raw raw_of(const Config& config) {
           .maps = config.maps,
           .color = color_words().word(config.color),
           .glyphs = glyph_words().word(config.glyphs),
+          .palette = palette_words().word(config.palette),
           .view = view_words().word(config.view),
           .token = config.token,
           .password_file = "",
@@ -127,6 +133,9 @@ core::Expected<Config> understood(const Raw& raw) {
   const auto glyphs = glyph_words().find(raw.glyphs);
   if (!glyphs)
     return core::fail("glyphs", "\"" + raw.glyphs + "\" is none", "one of " + glyph_words().list());
+  const auto palette = palette_words().find(raw.palette);
+  if (!palette)
+    return core::fail("palette", "\"" + raw.palette + "\" is none", "one of " + palette_words().list());
   const auto view = view_words().find(raw.view);
   if (!view) return core::fail("view", "\"" + raw.view + "\" is none", "one of " + view_words().list());
   if (raw.fps < 5 || raw.fps > 60) return core::fail("fps", std::to_string(raw.fps) + " is not from 5 to 60");
@@ -149,6 +158,7 @@ core::Expected<Config> understood(const Raw& raw) {
   config.hashes = raw.verify ? Hashes::kVerified : Hashes::kIgnored;
   config.color = *color;
   config.glyphs = *glyphs;
+  config.palette = *palette;
   config.view = *view;
   config.fps = raw.fps;
   return config;
@@ -218,6 +228,11 @@ void add_options(CLI::App& app, Raw& raw) {
                  glyph_words().list() + "; text: lines, for a screen reader or a pipe")
       ->envname("WOODLOUSE_GLYPHS")
       ->capture_default_str();
+  app.add_option("--palette", raw.palette,
+                 palette_words().list() +
+                     ": colours of lice for eyes that see red and green, or blue and green, alike")
+      ->envname("WOODLOUSE_PALETTE")
+      ->capture_default_str();
   app.add_option("--view", raw.view, view_words().list())->envname("WOODLOUSE_VIEW")->capture_default_str();
   app.add_flag(std::string(kNoFiles), raw.no_files,
                "read and write no file of the account's: no config file, no recording, no server of its own; "
@@ -234,7 +249,7 @@ void add_options(CLI::App& app, Raw& raw) {
       "Keys: Space play/pause, < > 5 s, comma and full stop one tick, [ ] speed, 0-9 jump, F Shift-F "
       "follow,\n"
       "      N Shift-N events, V view, Tab scores, ? help, Q quit.\n"
-      "Options of woodlouse (--color, --glyphs, --view, --fps) may stand here, too.\n"
+      "Options of woodlouse (--color, --glyphs, --palette, --view, --fps) may stand here, too.\n"
       "Exit: 0 fine, 1 a tick's re-run differs, 2 usage, 74 no such recording or terminal lost, 130 Ctrl-C.");
   replay->fallthrough();
 }
@@ -248,8 +263,8 @@ core::Expected<Config> read_config_file(const std::string& text, const std::stri
     return core::fail(file, "it is not a JSON object", "for example {\"name\": \"mara\"}");
   Raw raw = raw_of(config);
   const std::initializer_list<std::pair<const char*, std::string*>> texts = {
-      {"server", &raw.server}, {"map", &raw.map},       {"name", &raw.name}, {"room", &raw.room},
-      {"color", &raw.color},   {"glyphs", &raw.glyphs}, {"view", &raw.view}};
+      {"server", &raw.server}, {"map", &raw.map},       {"name", &raw.name},       {"room", &raw.room},
+      {"color", &raw.color},   {"glyphs", &raw.glyphs}, {"palette", &raw.palette}, {"view", &raw.view}};
   for (const json::Value& value : document->root().children()) {
     const std::string key(value.key());
     const std::string where = file + ": " + key;
@@ -267,7 +282,7 @@ core::Expected<Config> read_config_file(const std::string& text, const std::stri
       (key == "watch" ? raw.watch : raw.verify) = value.boolean();
     } else {
       return core::fail(where, "no such setting",
-                        "known: server map name room color glyphs view fps watch verify");
+                        "known: server map name room color glyphs palette view fps watch verify");
     }
   }
   auto result = understood(raw);

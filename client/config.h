@@ -31,6 +31,7 @@ struct Config {
   Hashes hashes = Hashes::kIgnored;
   ColorChoice color = ColorChoice::kAuto;
   GlyphChoice glyphs = GlyphChoice::kAuto;
+  Palette palette = Palette::kDefault;
   std::optional<View> view;  ///< none: what suits the terminal
   int fps = 30;              ///< 5..60
   /// For who plays from another's account (ssh): nothing of it is read or written, no config file, map or

@@ -86,7 +86,8 @@ Outcome play(boost::asio::io_context& context, Session& session, const Config& c
   if (!terminal)
     return {kExitIo, "woodlouse: " + terminal.error().where + ": " + terminal.error().what + "\n      " +
                          terminal.error().hint + "\n"};
-  const Look look = (*terminal)->look();
+  Look look = (*terminal)->look();
+  look.palette = config.palette;
   GameSettings settings{look, config.view, config.fps, Overlay::kNone};
   if (local != nullptr) {
     introduce(config, session, look);

@@ -23,7 +23,8 @@ Outcome no_recording(const core::Error& error) {
 Outcome show(const Config& config, RecordingView& recording) {
   const auto terminal = OpenedTerminal::open(config.color, config.glyphs);
   if (!terminal) return {kExitIo, "woodlouse: " + terminal.error().text() + "\n"};
-  const Look look = (*terminal)->look();
+  Look look = (*terminal)->look();
+  look.palette = config.palette;
   auto guard = (*terminal)->enter(TerminalUse::kFullScreen);
   if (!guard) return {kExitIo, "woodlouse: " + guard.error().text() + "\n"};
   TerminalScreen screen = (*terminal)->screen();

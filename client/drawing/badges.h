@@ -20,7 +20,7 @@ struct Badge {
 /// lice there are no letters any more.
 class Badges {
  public:
-  explicit Badges(const Scene& scene) : mode_(scene.look.color) {
+  explicit Badges(const Scene& scene) : look_(scene.look) {
     for (const LouseMark& louse : scene.lice) add(louse.id, louse.is_you);
     for (const ScoreRow& row : scene.scores) add(row.id, row.is_you);
   }
@@ -34,7 +34,7 @@ class Badges {
   void add(std::uint32_t id, bool is_you) {
     if (badges_.contains(id)) return;
     badges_[id] = {is_you ? '@' : free_letter(id),
-                   louse_color(id, is_you ? Owner::kYou : Owner::kOther, mode_)};
+                   louse_color(id, is_you ? Owner::kYou : Owner::kOther, look_)};
   }
 
   char free_letter(std::uint32_t id) {
@@ -50,7 +50,7 @@ class Badges {
   }
 
   static constexpr std::uint32_t kAllUsed = (1u << 26) - 1;
-  ColorMode mode_;
+  Look look_;
   std::map<std::uint32_t, Badge> badges_;
   std::uint32_t used_small_ = 0, used_capital_ = 0;  ///< a bit a letter
 };

@@ -34,6 +34,10 @@ std::string_view color_text(ColorMode mode) {
   return "";
 }
 
+std::string_view palette_text(Palette palette) {
+  return palette == Palette::kDeutan ? "deutan" : palette == Palette::kTritan ? "tritan" : "default";
+}
+
 /// A line of the help: a head in the margin, and what it says.
 struct HelpLine {
   std::string_view head;
@@ -84,8 +88,10 @@ void draw_help(const Scene& scene, const Styles& styles, CellBuffer& cells) {
   const std::string keys = scene.key_up_known ? "hold and release" : "no key-up seen: a press is a pulse";
   const std::string glyphs = scene.look.glyphs == GlyphSet::kAscii ? "ascii" : "half-blocks";
   if (!scene.replay) cells.text(left, ++row, "keys: " + keys, styles.dim, box.size.columns - 4);
-  cells.text(left, ++row, "color: " + std::string(color_text(scene.look.color)) + "   glyphs: " + glyphs,
-             styles.dim, box.size.columns - 4);
+  const bool has_palette = scene.look.color == ColorMode::k256 || scene.look.color == ColorMode::kTruecolor;
+  std::string shown = "color: " + std::string(color_text(scene.look.color)) + "   glyphs: " + glyphs;
+  if (has_palette) shown += "   palette: " + std::string(palette_text(scene.look.palette));
+  cells.text(left, ++row, shown, styles.dim, box.size.columns - 4);
 }
 
 void draw_scoreboard(const Scene& scene, const Badges& badges, const Styles& styles, CellBuffer& cells) {

@@ -65,13 +65,36 @@ constexpr std::array<std::array<std::uint8_t, kLights>, kTones> kTerrain256 = {
 constexpr std::array<std::uint8_t, 16> kSlope256 = {17,  18,  54,  54,  53,  89,  90,  125,
                                                     131, 167, 173, 208, 214, 221, 228, 230};
 
-constexpr std::array<Rgb, 7> kLice = {{{255, 205, 84},
-                                       {110, 214, 255},
-                                       {140, 250, 140},
-                                       {186, 138, 255},
-                                       {255, 156, 220},
-                                       {255, 165, 94},
-                                       {172, 240, 222}}};
+/// By Palette. Those for other eyes are entries of the xterm cube, found by search (Machado, Oliveira and
+/// Fernandes' matrices of 2009, severity 1).
+struct LouseColors {
+  Rgb you;
+  std::array<Rgb, kBadgeColors> others;
+};
+constexpr std::array<LouseColors, 3> kLice = {{{{255, 56, 112},
+                                                {{{255, 205, 84},
+                                                  {110, 214, 255},
+                                                  {140, 250, 140},
+                                                  {186, 138, 255},
+                                                  {255, 156, 220},
+                                                  {255, 165, 94},
+                                                  {172, 240, 222}}}},
+                                               {{135, 95, 255},
+                                                {{{215, 255, 0},
+                                                  {95, 175, 255},
+                                                  {135, 135, 0},
+                                                  {135, 255, 255},
+                                                  {175, 215, 135},
+                                                  {215, 175, 215},
+                                                  {95, 135, 175}}}},
+                                               {{0, 255, 175},
+                                                {{{255, 135, 255},
+                                                  {95, 135, 255},
+                                                  {135, 215, 95},
+                                                  {215, 255, 215},
+                                                  {255, 0, 0},
+                                                  {175, 95, 255},
+                                                  {215, 0, 215}}}}}};
 
 /// Of the sixteen colours the bright ones but red and blue; blue drowns in many themes.
 constexpr std::uint8_t kBrightRed = 9;
@@ -108,10 +131,11 @@ Color edge_color(double brightness, ColorMode mode) {
   return Color::of(scaled({72, 62, 54}, brightness));
 }
 
-Rgb louse_color(std::uint32_t id, Owner owner, ColorMode mode) {
-  if (mode == ColorMode::k16)
+Rgb louse_color(std::uint32_t id, Owner owner, const Look& look) {
+  if (look.color == ColorMode::k16)
     return palette_color(owner == Owner::kYou ? kBrightRed : kLice16[id % kLice16.size()]);
-  return owner == Owner::kYou ? Rgb{255, 84, 84} : kLice[id % kLice.size()];
+  const LouseColors& colors = kLice[static_cast<std::size_t>(look.palette)];
+  return owner == Owner::kYou ? colors.you : colors.others[id % kBadgeColors];
 }
 
 Color trail_color(Rgb louse, TrailAge age, ColorMode mode) {

@@ -1,6 +1,7 @@
 // The game's colours: the terrain's ramps, the lice's, the panel's.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "client/cells/cell_buffer.h"
@@ -27,8 +28,14 @@ Color edge_color(double brightness, ColorMode mode);
 
 enum class Owner : std::uint8_t { kYou, kOther };
 
-/// A louse's own colour: yours is red, the others' go by their id.
-Rgb louse_color(std::uint32_t id, Owner owner, ColorMode mode);
+/// How many colours the others have; then they repeat.
+inline constexpr std::size_t kBadgeColors = 7;
+
+/// A louse's own colour: yours is raspberry (violet for deuteranopes, mint for tritanopes), the others' go by
+/// their id. Yours differs by 8 or more (Oklab times 100) from every ground, and any two from each other, in
+/// true colour and in 256, for the eyes of the palette: palette_test.cpp prints the table. Of 16 colours the
+/// terminal's own theme says how they look, and the palette does not matter.
+Rgb louse_color(std::uint32_t id, Owner owner, const Look& look);
 
 /// A trail has two brightnesses, so that while it grows a frame changes at its two ends and in the middle
 /// only.

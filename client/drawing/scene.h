@@ -18,10 +18,18 @@
 
 namespace woodlouse::client {
 
-/// What the terminal can do: the same for a whole run.
+/// For whose eyes lice are coloured (palette.h).
+enum class Palette : std::uint8_t {
+  kDefault,
+  kDeutan,  ///< red and green look alike: deuteranopes, and protanopes nearly so
+  kTritan,  ///< blue and green look alike
+};
+
+/// What the terminal can do and the player asked for: the same for a whole run.
 struct Look {
   ColorMode color = ColorMode::kMono;
   GlyphSet glyphs = GlyphSet::kAscii;
+  Palette palette = Palette::kDefault;
   friend constexpr bool operator==(const Look&, const Look&) = default;
 };
 

@@ -27,6 +27,17 @@ void draw_trail(const LouseMark& louse, Rgb color, ColorMode mode, const MapCame
   }
 }
 
+/// Darkens the pixels around a cell: a louse is set off from any ground.
+void draw_rim(int column, int row, const Viewport& viewport, CellBuffer& cells) {
+  for (int y = 2 * row - 1; y <= 2 * row + 2; ++y)
+    for (int x = column - 1; x <= column + 1; ++x) {
+      if (y < 0 || !viewport.holds(x, y / 2)) continue;
+      const Style& style = cells.at(viewport.column + x, viewport.row + y / 2).style;
+      put_pixel(cells, viewport, x, y,
+                Color::of(scaled(rgb_of(y % 2 == 0 ? style.foreground : style.background), 0.55)));
+    }
+}
+
 /// Of a louse that flies, as far to the south-east as it flies high.
 void draw_shadow(const LouseMark& louse, const MapCamera& camera, const Viewport& viewport,
                  CellBuffer& cells) {
@@ -96,6 +107,7 @@ void draw_lice_on_map(const Scene& scene, const Badges& badges, const MapCamera&
     const auto [column, row] = place_of(louse);
     if (louse.is_you) mark_outside(badge, {column, row}, viewport, cells);
     if (!viewport.holds(column, row)) continue;
+    draw_rim(column, row, viewport, cells);
     Cell& cell = cells.at(viewport.column + column, viewport.row + row);
     if (cell.glyph == kUpperHalfBlock)
       cell = {static_cast<char32_t>(badge.letter), {Color::of({16, 16, 20}), Color::of(badge.color), kBold}};

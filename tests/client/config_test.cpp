@@ -75,13 +75,14 @@ TEST_CASE("without anything it is a game of its own at 30 frames a second") {
 
 TEST_CASE("an address, watching and looks are understood") {
   Environment environment;
-  const Parsed parsed =
-      parse({"farm.example:7001", "--watch", "--color", "256", "--glyphs", "half", "--view", "oblique"});
+  const Parsed parsed = parse({"farm.example:7001", "--watch", "--color", "256", "--glyphs", "half",
+                               "--palette", "deutan", "--view", "oblique"});
   REQUIRE_FALSE(parsed.exit_code);
   REQUIRE(parsed.config.server == Address{"farm.example", 7001});
   REQUIRE(parsed.config.part == Part::kWatch);
   REQUIRE(parsed.config.color == ColorChoice::k256);
   REQUIRE(parsed.config.glyphs == GlyphChoice::kHalfBlocks);
+  REQUIRE(parsed.config.palette == Palette::kDeutan);
   REQUIRE(parsed.config.view == View::kOblique);
 }
 
@@ -93,6 +94,7 @@ TEST_CASE("mistakes end it with 2, one line of what and one of what to do") {
       {"--fps", "fast"},
       {"--color", "pink"},
       {"--glyphs", "emoji"},
+      {"--palette", "rainbow"},
       {"--nonsense"},
       {"host:0"},
       {"host:99999"},

@@ -63,7 +63,7 @@ void draw_profile(const Scene& scene, const LouseMark& you, const Styles& styles
       const int filled = 1 + static_cast<int>(std::floor((post.z - low) / row_height + 1e-9));
       if (i == kBehind && level == filled) {
         Style style = styles.strong;
-        if (has_color) style.foreground = Color::of(louse_color(you.id, Owner::kYou, scene.look.color));
+        if (has_color) style.foreground = Color::of(louse_color(you.id, Owner::kYou, scene.look));
         out.text(i, "@", style);
       }
       if (level >= filled) continue;

@@ -103,7 +103,7 @@ TEST_CASE("an older trail is darker than the recent one in every colour mode") {
   };
   for (const ColorMode mode : {ColorMode::k16, ColorMode::k256, ColorMode::kTruecolor})
     for (std::uint32_t id = 0; id < 30; ++id) {
-      const Rgb color = louse_color(id, id == 7 ? Owner::kYou : Owner::kOther, mode);
+      const Rgb color = louse_color(id, id == 7 ? Owner::kYou : Owner::kOther, {mode, GlyphSet::kAscii});
       CHECK(light(quantise(trail_color(color, TrailAge::kOld, mode), mode)) <
             light(quantise(trail_color(color, TrailAge::kRecent, mode), mode)));
     }

@@ -160,7 +160,7 @@ TEST_CASE("your louse shows through another that stands in the same place") {
       for (int column = 0; column < viewport.size.columns; ++column)
         cells.at(column, row) = layer.cells[static_cast<std::size_t>(row * viewport.size.columns + column)];
     draw_lice_obliquely(scene, Badges(scene), relief, camera, layer, viewport, cells);
-    const Color red = Color::of(louse_color(yours, Owner::kYou, ColorMode::kTruecolor));
+    const Color red = Color::of(louse_color(yours, Owner::kYou, scene.look));
     int found = 0;
     for (int row = 0; row < viewport.size.rows; ++row)
       for (const Cell& cell : cells.row(row))
