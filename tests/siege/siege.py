@@ -18,6 +18,7 @@ import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from nuisance import Nuisance  # noqa: E402
+from web_nuisance import Onlookers, Operator, WebNuisance  # noqa: E402
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 GAP_P99 = 60.0   # ms; frames come each 50 ms: a client that shows others 100 ms late still has one in hand
@@ -32,6 +33,8 @@ STEADY_LOADS = (
 WAVE, WAVE_EVERY, WAVE_SECONDS = "--spectators 500 --joins-per-second 500 --addresses 4 --healthy 0", 30.0, 10.0
 HANGUP_EVERY = 20.0
 SAMPLE_EVERY = 5.0
+ONLOOKERS = 24
+CERTIFICATES = ROOT / "tests" / "tls"
 
 
 class Besieged:
@@ -42,11 +45,15 @@ class Besieged:
         self.recordings.mkdir()
         self.log = folder / "log"
         self.verify = [programs / "woodlouse-server", "verify"]
-        command = [programs / "woodlouse-server", "--map", ROOT / "maps" / "volcano.json", "--listen", "127.0.0.1:0",
-                   "--record", f"{self.recordings}/", *SERVER]
+        self.admin = str(folder / "admin.sock")
+        command = [programs / "woodlouse-server", "--map", ROOT / "maps" / "volcano.json", "--listen", "127.0.0.1:0", "--web", "127.0.0.1:0",
+                   "--tls-cert", CERTIFICATES / "first_certificate.pem", "--tls-key", CERTIFICATES / "first_key.pem",
+                   "--admin", self.admin, "--ban-file", folder / "bans", "--record", f"{self.recordings}/", *SERVER]
         with open(self.log, "wb") as log:
             self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=log, text=True)
         self.address = self.process.stdout.readline().split()[1]
+        self.web_address = re.search(r"//(.*)/", self.process.stdout.readline())[1]
+        self.process.stdout.readline()  # admin
 
     def __enter__(self):
         return self
@@ -84,7 +91,7 @@ class Besieged:
 
 
 def besiege(server, swarm, seconds):
-    """(the healthy clients' report, samples). The server may be gone before its time."""
+    """(the healthy clients' report, samples, rows of what was at the new doors, faults). The server may be gone before its time."""
     def start(load, lasts):
         command = [swarm, server.address, *load.split(), "--seconds", str(lasts)]
         return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -94,7 +101,8 @@ def besiege(server, swarm, seconds):
     time.sleep(1.0)
     loads = [start(load, seconds) for load in STEADY_LOADS]
     samples, next_wave, next_hangup, next_sample = [], began + 5.0, began + HANGUP_EVERY, began
-    with Nuisance(server.address):
+    onlookers = Onlookers(server.web_address, ONLOOKERS)
+    with Nuisance(server.address), WebNuisance(server.web_address) as web, onlookers, Operator(server.admin) as operator:
         while healthy.poll() is None and server.process.poll() is None:
             now = time.monotonic()
             if now >= next_wave:
@@ -110,7 +118,14 @@ def besiege(server, swarm, seconds):
     for load in loads:
         load.kill()
         load.communicate()
-    return healthy.communicate()[0], samples
+    sent_away = sum(onlooker.times_sent_away for onlooker in onlookers.all)
+    rows = [("bad visits at --web", str(web.visits), ""),
+            ("onlookers by view and by inputs", f"{sum(onlooker.bytes for onlooker in onlookers.all) / seconds / ONLOOKERS / 1e3:.1f} KB/s each", ""),
+            ("onlookers sent away", str(sent_away), "0"), ("an operator's orders done, scrapes", f"{operator.done}, {operator.scrapes}", "")]
+    faults = web.faults[:3] + ([f"{sent_away} onlookers were sent away"] if sent_away else [])
+    faults += [f"the operator's {line}: {answer}" for line, answer in operator.refused[:3]]
+    faults += [] if operator.scrapes and web.visits else ["nobody was at the new doors"]
+    return healthy.communicate()[0], samples, rows, faults
 
 
 def judged(report):
@@ -135,13 +150,14 @@ def main():
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         with Besieged(arguments.programs, pathlib.Path(scratch)) as server:
-            report, samples = besiege(server, arguments.programs / "woodlouse-swarm", 60.0 * arguments.minutes)
+            report, samples, doors, door_faults = besiege(server, arguments.programs / "woodlouse-swarm", 60.0 * arguments.minutes)
             faults, summary = server.stop()
     rows, more = judged(report)
+    more += door_faults
     print(f"{'at s':>6} {'memory MB':>10} {'descriptors':>12} {'log KB':>8} {'recorded MB':>12}")
     for at, memory, files, log, recorded in samples[::max(1, len(samples) // 12)]:
         print(f"{at:6.0f} {memory:10.1f} {files:12} {log:8.0f} {recorded:12.1f}")
-    for what, figure, most in rows:
+    for what, figure, most in [*rows, *doors]:
         print(f"{what:<30} {figure:<28} {most}")
     print(summary, end="")
     print("\n".join([*faults, *more]) or "held")
