@@ -44,6 +44,11 @@ class Companions {
   core::Expected<std::unique_ptr<TickWatcher>> record(const std::string& room, replay::Header header);
   /// Nor are the further games of that room.
   void do_not_record(const std::string& room);
+  /// The room is closed: another one of its name is recorded as rooms are.
+  void forget(const std::string& room) {
+    const std::lock_guard lock(mutex_);
+    unrecorded_.erase(room);
+  }
   [[nodiscard]] bool has_recordings() const { return recordings_.has_value(); }
   /// How many recordings begin new files.
   std::size_t ask_for_next_files() { return recordings_ ? recordings_->ask_for_next_files() : 0; }

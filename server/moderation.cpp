@@ -107,9 +107,10 @@ void Moderation::list(const Command& command, const Answered& answered) {
            };
            std::string text = fmt::format("{:>6} {:<24} {:<10} {}", "louse", "name", "role", "from");
            for (const Found& one : found) {
-             const std::string from = one.entry.kind == Kind::kHouse  ? "the house"
-                                      : one.entry.kind == Kind::kAway ? "(away)"
-                                                                      : address_of(one);
+             std::string from = one.entry.kind == Kind::kHouse  ? "the house"
+                                : one.entry.kind == Kind::kAway ? "(away)"
+                                                                : address_of(one);
+             if (one.entry.is_muted) from += " muted";
              text += fmt::format("\n{:>6} {:<24} {:<10} {}", one.entry.louse, core::printable(one.entry.name),
                                  protocol::to_text(one.entry.role), from);
            }
@@ -118,7 +119,8 @@ void Moderation::list(const Command& command, const Answered& answered) {
                row.integer("louse", one.entry.louse).text("name", one.entry.name);
                row.text("role", protocol::to_text(one.entry.role));
                row.boolean("house", one.entry.kind == Kind::kHouse)
-                   .boolean("away", one.entry.kind == Kind::kAway);
+                   .boolean("away", one.entry.kind == Kind::kAway)
+                   .boolean("muted", one.entry.is_muted);
                if (const std::string address = address_of(one); !address.empty())
                  row.hash("session", one.entry.session).text("address", address);
              });
@@ -198,6 +200,31 @@ void Moderation::apply(const Ban& ban, const Answered& answered) {
       });
 }
 
+void Moderation::enforce_bans(std::function<void(std::size_t)> done) {
+  asio::post(strand_, [this, done = std::move(done)] {
+    const auto bans = std::make_shared<const Bans>(doorman_.bans());
+    const auto any = [bans](const auto& is_meant) {
+      return std::any_of(bans->all().begin(), bans->all().end(),
+                         [&](const Ban& ban) { return !ban.is_over(wall_now()) && is_meant(ban); });
+    };
+    const protocol::ErrorMessage why{
+        std::string(protocol::code::kBanned), "the operator has banned you", true, {}};
+    const auto is_banned = [any](const RosterEntry& entry) {
+      return entry.kind != Kind::kHouse &&
+             any([&](const Ban& ban) { return !ban.range && goes_by(entry.name, ban.name); });
+    };
+    find(is_banned, {}, [this, any, why, done](const std::vector<Found>& found) {
+      expel(found, why, [this, any, why, done, count = found.size()] {
+        const auto is_meant = [any](SessionId, const std::string& address) {
+          const auto its = AddressRange::parse(address);
+          return its && any([&](const Ban& ban) { return ban.range && ban.range->contains(*its); });
+        };
+        acceptor_.expel(is_meant, why, [done, count](std::size_t ended) { done(count + ended); });
+      });
+    });
+  });
+}
+
 void Moderation::unban(const Command& command, const Answered& answered) {
   assert(desk_);
   const auto ban = Bans::parse(command.who, wall_now(), std::nullopt);
@@ -233,26 +260,26 @@ std::string Moderation::bans() const {
 
 void Moderation::mute(const Command& command, const Answered& answered) {
   const WallTime now = wall_now();
-  auto until = end_of(command, now);
+  const auto until = end_of(command, now);
   if (const auto range = AddressRange::parse(command.who)) {
-    if (!until) until = now + kMuteOfAddress;
-    doorman_.mute({0, range, until}, now);
-    log_event(*log_, LogEvent::kMuted,
-              fmt::format("admin: {} is muted {}", range->text(), until_text(until)));
-    return answered(done(fmt::format("{} is muted {}", range->text(), until_text(until))));
+    const WallTime end = until.value_or(now + kMuteOfAddress);
+    doorman_.mute({*range, end}, now);
+    log_event(*log_, LogEvent::kMuted, fmt::format("admin: {} is muted {}", range->text(), until_text(end)));
+    return answered(done(fmt::format("{} is muted {}", range->text(), until_text(end))));
   }
   find(called(command.who), command.room,
        [this, who = command.who, until, now, answered](std::vector<Found> found) {
-         std::erase_if(found, [](const Found& one) { return one.entry.kind != Kind::kSession; });
+         std::erase_if(found, [](const Found& one) { return one.entry.kind == Kind::kHouse; });
          if (found.empty()) return answered(nobody(who));
          if (auto unclear = why_unclear(who, found.size()); !unclear.empty())
            return answered(std::move(unclear));
-         for (const Found& one : found) doorman_.mute({one.entry.session, std::nullopt, until}, now);
+         for (const Found& one : found)
+           one.room->mute(one.entry, until ? std::optional<Duration>(*until - now) : std::nullopt);
          log_event(*log_, LogEvent::kMuted, fmt::format("admin: \"{}\" is muted", who));
-         answered(done(fmt::format("\"{}\" is muted {}", core::printable(who),
-                                   until ? until_text(until) + ", or as long as the connection lasts"
-                                         : "as long as the connection lasts"),
-                       [&found](json::ObjectText& object) { object.integer("count", found.size()); }));
+         answered(done(
+             fmt::format("\"{}\" is muted {}", core::printable(who),
+                         until ? until_text(until) + ", or as long as he is here" : "as long as he is here"),
+             [&found](json::ObjectText& object) { object.integer("count", found.size()); }));
        });
 }
 
@@ -266,7 +293,10 @@ void Moderation::unmute(const Command& command, const Answered& answered) {
        [this, who = command.who, answered](const std::vector<Found>& found) {
          std::size_t count = 0;
          for (const Found& one : found)
-           if (one.entry.kind == Kind::kSession) count += doorman_.unmute(one.entry.session);
+           if (one.entry.is_muted) {
+             one.room->unmute(one.entry);
+             ++count;
+           }
          if (count == 0)
            return answered(refused(admin_code::kNobody,
                                    fmt::format("nobody called \"{}\" is muted", core::printable(who))));

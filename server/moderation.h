@@ -42,6 +42,8 @@ class Moderation {
   void list(const Command& command, const Answered& answered);
   void kick(const Command& command, Answered answered);
   void ban(const Command& command, const Answered& answered);
+  /// Any thread. Whoever is here and is banned goes; `done` is told how many, on some thread.
+  void enforce_bans(std::function<void(std::size_t)> done);
   void unban(const Command& command, const Answered& answered);
   [[nodiscard]] std::string bans() const;
   void mute(const Command& command, const Answered& answered);

@@ -170,6 +170,7 @@ void RoomControl::close(const Command& command, const Answered& answered) {
   const bool is_closing = lobby_.close(name, bye, "closed by its operator", [this, name, answered] {
     asio::post(strand_, [this, name, answered] {
       counts_.closed(name);
+      companions_.forget(name);
       log_event(*log_, LogEvent::kRoomClosed, fmt::format("admin: closed room {}", name));
       answered(done(fmt::format("room {} is closed", core::printable(name))));
     });

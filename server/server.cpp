@@ -285,9 +285,13 @@ void Server::reload(const std::string& who, Operator::Reloaded done) {
   };
   if (!ban_desk_ || !ban_desk_->has_file()) return finish(read);
   const std::string but = read + " are read again, the bans are as they were";
-  const bool is_taken = ban_desk_->reread([refuse, finish, read, but](const core::Expected<void>& reread) {
-    reread ? finish(read + ", bans") : refuse(reread.error(), but);
-  });
+  const bool is_taken =
+      ban_desk_->reread([this, refuse, finish, read, but](const core::Expected<void>& reread) {
+        if (!reread) return refuse(reread.error(), but);
+        moderation_.enforce_bans([finish, read](std::size_t ended) {
+          finish(read + (ended == 0 ? ", bans" : fmt::format(", bans ({} of whom are put out)", ended)));
+        });
+      });
   if (!is_taken) refuse({"--ban-file", "too many changes wait for the disk"}, but);
 }
 

@@ -61,8 +61,12 @@ Doorman::Refusal Doorman::why_not_join(const protocol::Join& join, WallTime now,
   const std::lock_guard lock(mutex_);
   if (auto refusal = why_no_token(join, comer)) return refusal;
   if (const Ban* ban = bans_.of(std::string_view(join.name), now)) return banned_error(*ban);
-  // Who comes back to his louse is here already.
-  if (!drains_until_ || !join.resume.empty()) return std::nullopt;
+  return std::nullopt;
+}
+
+Doorman::Refusal Doorman::why_no_newcomer(WallTime now) const {
+  const std::lock_guard lock(mutex_);
+  if (!drains_until_) return std::nullopt;
   const auto left = std::max(WallTime::duration{}, *drains_until_ - now).count();
   return protocol::ErrorMessage{
       std::string(protocol::code::kDraining),
@@ -71,20 +75,16 @@ Doorman::Refusal Doorman::why_not_join(const protocol::Join& join, WallTime now,
       {}};
 }
 
-Doorman::Refusal Doorman::why_not_speak(SessionNumber session, std::string_view address, WallTime now) const {
+Doorman::Refusal Doorman::why_not_speak(std::string_view address, WallTime now) const {
   const std::lock_guard lock(mutex_);
   if (mutes_.empty()) return std::nullopt;
   const auto range = AddressRange::parse(address);
   for (const Mute& mute : mutes_) {
-    if (mute.until && *mute.until <= now) continue;
-    const bool is_meant = mute.range ? range && mute.range->contains(*range) : mute.session == session;
-    if (!is_meant) continue;
-    return protocol::ErrorMessage{
-        std::string(protocol::code::kMuted),
-        core::joined({"chat: you have been muted ",
-                      mute.until ? until_text(mute.until) : std::string("as long as this connection lasts")}),
-        false,
-        {}};
+    if (mute.until <= now || !range || !mute.range.contains(*range)) continue;
+    return protocol::ErrorMessage{std::string(protocol::code::kMuted),
+                                  "chat: your address has been muted " + until_text(mute.until),
+                                  false,
+                                  {}};
   }
   return std::nullopt;
 }
@@ -105,26 +105,16 @@ Bans Doorman::bans() const {
 }
 
 void Doorman::mute(const Mute& mute, WallTime now) {
-  assert((mute.session == 0) == mute.range.has_value());
+  assert(mute.until > now);
   const std::lock_guard lock(mutex_);
-  std::erase_if(mutes_, [&](const Mute& there) {
-    const bool is_same = there.session == mute.session && there.range == mute.range;
-    return is_same || (there.until && *there.until <= now);
-  });
+  std::erase_if(mutes_, [&](const Mute& there) { return there.range == mute.range || there.until <= now; });
   if (mutes_.size() >= kMostMutes) mutes_.erase(mutes_.begin());
   mutes_.push_back(mute);
 }
 
-std::size_t Doorman::unmute(SessionNumber session) {
-  const std::lock_guard lock(mutex_);
-  return std::erase_if(mutes_,
-                       [session](const Mute& mute) { return !mute.range && mute.session == session; });
-}
-
 std::size_t Doorman::unmute(const AddressRange& range) {
   const std::lock_guard lock(mutex_);
-  return std::erase_if(mutes_,
-                       [&range](const Mute& mute) { return mute.range && range.contains(*mute.range); });
+  return std::erase_if(mutes_, [&range](const Mute& mute) { return range.contains(mute.range); });
 }
 
 void Doorman::drain(WallTime until) {

@@ -24,7 +24,6 @@ namespace woodlouse::server {
 class Doorman {
  public:
   using Refusal = std::optional<protocol::ErrorMessage>;
-  using SessionNumber = std::uint64_t;
 
   /// Further mutes take the place of the oldest.
   static constexpr std::size_t kMostMutes = 1024;
@@ -43,8 +42,10 @@ class Doorman {
   [[nodiscard]] Refusal why_not_join(const protocol::Join& join, WallTime now, const Comer& comer);
   /// What whoever joined with that token may do.
   [[nodiscard]] Right right_of(std::string_view token) const;
+  /// The server is about to stop, and takes only who was here.
+  [[nodiscard]] Refusal why_no_newcomer(WallTime now) const;
   /// address: as sessions are counted by (AddressRange::parse() takes it).
-  [[nodiscard]] Refusal why_not_speak(SessionNumber session, std::string_view address, WallTime now) const;
+  [[nodiscard]] Refusal why_not_speak(std::string_view address, WallTime now) const;
   [[nodiscard]] bool is_draining() const;
 
   // What the operator says:
@@ -54,15 +55,14 @@ class Doorman {
   void use(Bans bans);
   [[nodiscard]] Bans bans() const;
 
+  /// Of addresses; who is known by his louse is muted by his room.
   struct Mute {
-    SessionNumber session = 0;          ///< 0: of the addresses
-    std::optional<AddressRange> range;  ///< none: of the session
-    std::optional<WallTime> until;      ///< none: as long as the session
+    AddressRange range;
+    WallTime until;
   };
-  /// In place of one of the same session or addresses.
+  /// In place of one of the same addresses.
   void mute(const Mute& mute, WallTime now);
   /// How many there were.
-  std::size_t unmute(SessionNumber session);
   std::size_t unmute(const AddressRange& range);
 
   /// Nobody joins any more who was not here; till then the server goes on.

@@ -2,6 +2,7 @@
 
 #include <boost/asio/post.hpp>
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -38,11 +39,12 @@ void AdminDoor::start() {
 void AdminDoor::take(AdminPort::Socket socket) {
   if (is_stopping_ || talks_.size() >= kMostTalks + kCourtesy) return;  // closed by its end
   const auto talk = std::make_shared<AdminTalk>(std::move(socket), control_, *watch_, timekeeper_);
-  talks_.insert(talk);
+  if (served_ >= kMostTalks) end_oldest_stranger();
+  talks_.push_back(talk);
   const bool is_served = served_ < kMostTalks;
   if (is_served) ++served_;
   auto closed = [this, gone = std::weak_ptr(talk), is_served] {
-    talks_.erase(gone.lock());
+    std::erase(talks_, gone.lock());
     if (is_served) --served_;
     tell_when_empty();
   };
@@ -50,6 +52,13 @@ void AdminDoor::take(AdminPort::Socket socket) {
   talk->start_refused(refused(protocol::code::kTooManyConnections,
                               "this door has " + std::to_string(kMostTalks) + " connections already"),
                       std::move(closed));
+}
+
+/// Who has not said who he is keeps nobody out who might.
+void AdminDoor::end_oldest_stranger() {
+  const auto stranger =
+      std::find_if(talks_.begin(), talks_.end(), [](const auto& talk) { return talk->is_stranger(); });
+  if (stranger != talks_.end()) std::shared_ptr(*stranger)->end();  // which leaves the list
 }
 
 void AdminDoor::stop(std::function<void()> stopped) {

@@ -8,8 +8,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
+#include <vector>
 
 #include "server/admin/admin_port.h"
 #include "server/admin/admin_talk.h"
@@ -39,6 +39,7 @@ class AdminDoor {
 
  private:
   void take(AdminPort::Socket socket);
+  void end_oldest_stranger();
   void tell_when_empty();
 
   AdminPort::Strand strand_;
@@ -47,8 +48,8 @@ class AdminDoor {
   AdminPort port_;
   // The strand's:
   std::optional<AdminWatch> watch_;
-  std::set<std::shared_ptr<AdminTalk>> talks_;
-  std::size_t served_ = 0;  ///< of them, those that may command
+  std::vector<std::shared_ptr<AdminTalk>> talks_;  ///< as they came
+  std::size_t served_ = 0;                         ///< of them, those that may command
   bool is_stopping_ = false;
   std::function<void()> stopped_;
 };

@@ -33,6 +33,7 @@ Session::Session(SessionId id, std::unique_ptr<Wire> wire, const Lanes& lanes, s
       environment_(environment),
       limits_(environment.limits.now()),
       framer_(limits_->line),
+      standing_(environment.doorman),
       allowance_(*limits_, std::move(address), now()),
       sender_(*this, *wire_, lane_, limits_->outbox_bytes, environment.traffic),
       rate_(now()),
@@ -62,12 +63,6 @@ void Session::start_refused(protocol::ErrorMessage why, std::function<void()> cl
 }
 
 // ---- reading -------------------------------------------------------------------------------------------
-
-void Session::read() {
-  wire_->read_some(incoming_, [self = shared_from_this()](const error_code& error, std::size_t size) {
-    self->on_read(error, size);
-  });
-}
 
 void Session::on_read(const error_code& error, std::size_t size) {
   if (state_ == State::kClosed) return;
@@ -110,7 +105,7 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
   if (const auto refusal = handshake_.why_not(message)) return say(*refusal);
   if (const auto spending = spending_of(message))
     if (const auto refusal = allowance_.spend(*spending, now)) return say(*refusal);
-  if (const auto refusal = why_kept_out(message)) return refusal->fatal ? fail(*refusal) : say(*refusal);
+  if (const auto refusal = standing_.why_not(message, address(), now)) return refuse(*refusal);
   handshake_.take(message);
   if (const auto* ping = std::get_if<protocol::Ping>(&message)) return say(protocol::Pong{ping->t});
   if (std::holds_alternative<protocol::Pong>(message)) return pulse_.hear(now, true);
@@ -119,7 +114,7 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
     allowance_.charge_answer(line.size(), now);
     return push(Line(std::move(line)));
   }
-  if (auto* wanted = std::get_if<protocol::Join>(&message)) return join(take_token(*wanted), now);
+  if (auto* wanted = std::get_if<protocol::Join>(&message)) return join(standing_.take_token(*wanted), now);
   if (auto* wish = std::get_if<protocol::Moderate>(&message)) return moderate(std::move(*wish));
   if (const auto* look = std::get_if<protocol::Look>(&message); look && !is_for_room(*look)) return;
   if (waits_for_its_turn(message)) return ask(std::move(message), now);
@@ -135,7 +130,8 @@ void Session::join(protocol::Join join, Time now) {
   door_ = environment_.directory.find(join.room);
   view_ = join.view.value_or(protocol::View{});
   if (door_)
-    return door_->join({id_, shared_from_this(), std::move(join), allowance_.address().id(), now, is_web_});
+    return door_->join({id_, shared_from_this(), std::move(join), allowance_.address().id(), now, is_web_,
+                        standing_.why_no_newcomer()});
   handshake_.refused();
   say(unknown_room(join.room, environment_.directory.names()));
 }

@@ -26,7 +26,7 @@
 #include <string_view>
 #include <utility>
 
-#include "server/access/doorman.h"
+#include "server/access/standing.h"
 #include "server/frames/viewer.h"
 #include "server/logging/events.h"
 #include "server/net/allowance.h"
@@ -78,7 +78,7 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
           std::shared_ptr<AddressAccount> address, const SessionEnvironment& environment);
 
   /// Others may read what comes and goes. Before it is started.
-  void is_read_by_others() { is_confidential_ = false; }
+  void is_read_by_others() { standing_.is_read_by_others(); }
 
   // One of the two, once; any thread.
 
@@ -141,7 +141,12 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
     kClosed,
   };
 
-  void read();
+  void read() {
+    wire_->read_some(incoming_,
+                     [self = shared_from_this()](const boost::system::error_code& error, std::size_t size) {
+                       self->on_read(error, size);
+                     });
+  }
   void on_read(const boost::system::error_code& error, std::size_t size);
   /// It may have gone, or only say nothing more.
   void on_input_ended() {
@@ -160,23 +165,9 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   void take_lines(Time now);
   void on_line(const protocol::LineFramer::Line& line, Time now);
   void on_message(protocol::ClientMessage message, Time now);
-  /// What the operator has against it.
-  [[nodiscard]] Doorman::Refusal why_kept_out(const protocol::ClientMessage& message) const {
-    if (environment_.doorman == nullptr) return std::nullopt;
-    if (const auto* join = std::get_if<protocol::Join>(&message))
-      return environment_.doorman->why_not_join(*join, wall_now(), {address(), is_confidential_, now()});
-    if (!std::holds_alternative<protocol::Chat>(message)) return std::nullopt;
-    return environment_.doorman->why_not_speak(id_, address(), wall_now());
-  }
   void join(protocol::Join join, Time now);
-  /// The join without its token, which nobody else needs to know.
-  protocol::Join take_token(protocol::Join& join) {
-    if (environment_.doorman != nullptr) right_ = environment_.doorman->right_of(join.token);
-    join.token.clear();
-    return std::move(join);
-  }
   void moderate(protocol::Moderate wish) {
-    if (right_ == Right::kPlayer || !environment_.moderate)
+    if (!standing_.may_moderate() || !environment_.moderate)
       return say(protocol::ErrorMessage{std::string(protocol::code::kNoRight),
                                         "moderate: you joined with no moderator's token",
                                         false,
@@ -235,9 +226,11 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   }
   void follow_here(const StreamPart& part) {
     if (state_ != State::kOpen) return;
-    charge(part);
-    sender_.outbox().follow(part);
-    if (++parts_ % divisor_ == 0 || part.kind == StreamPart::Kind::kKeyframe) sender_.write();
+    if (part.lines) {
+      charge(part);
+      sender_.outbox().follow(part);
+    }
+    if (++parts_ % divisor_ == 0 || part.is_last || part.kind == StreamPart::Kind::kKeyframe) sender_.write();
   }
   /// What begins a game was not asked for, and is charged as it comes; a resync is charged before, by the
   /// size of the last one.
@@ -315,10 +308,9 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   std::shared_ptr<Door> door_;  ///< null before the join
   std::array<char, 2048> incoming_{};
   protocol::LineFramer framer_;
-  bool is_confidential_ = true;   ///< nobody on the way reads what is said
-  Right right_ = Right::kPlayer;  ///< by the token of its join
-  bool is_greeted_ = false;       ///< hello is said
-  bool input_ended_ = false;      ///< the client has shut its sending side: nothing is left to read
+  Standing standing_;
+  bool is_greeted_ = false;   ///< hello is said
+  bool input_ended_ = false;  ///< the client has shut its sending side: nothing is left to read
   Parting parting_ = Parting::kLost;
   Allowance allowance_;
 

@@ -41,7 +41,7 @@ Addressee Display::addressee(const Seat& seat) const {
 
 /// Behind the welcome.
 void Display::show_first(const SessionOccupant& occupant) {
-  if (occupant.channel == kByInputs) return asked_.push_back({occupant.subscriber, true});
+  if (occupant.channel == kByInputs) return ask({occupant.subscriber, true});
   show_newest(occupant);
 }
 
@@ -120,6 +120,7 @@ const Line& Display::header() {
 }
 
 void Display::show_step(const LiveStep& step) {
+  stands_ = false;
   if (by_inputs_ == 0) return asked_.clear();  // who asked has gone
   const std::uint64_t tick = game_->tick();
   const std::uint64_t tick_hz = game_->settings().tick_hz;
@@ -128,7 +129,14 @@ void Display::show_step(const LiveStep& step) {
   if (tick % ticks_a_frame() == 0)
     goes_out = tick % tick_hz == 0 ? InputStream::Quiet::kTold : InputStream::Quiet::kHeldBack;
   outlet_.show_step(step.shared(), goes_out);
-  if (asked_.empty()) return;
+  answer_asked();
+}
+
+/// What waits for a step to come is in no keyframe: it is waited for.
+void Display::answer_asked() {
+  if (asked_.empty() || !game_->state().roster.empty()) return;
+  const std::uint64_t tick = game_->tick();
+  const std::uint64_t tick_hz = game_->settings().tick_hz;
   if (!keyframe_tick_ || tick - *keyframe_tick_ >= tick_hz) {
     outlet_.keep_keyframe(game_->state(), tick_hz);
     keyframe_tick_ = tick;
@@ -166,6 +174,18 @@ void Display::turn(Seat& seat, bool shows_part) {
   if (acquired.is_new) outlet_.open(acquired.channel, layout);
   outlet_.change(occupant.session, occupant.subscriber->lane(), acquired.channel);
   if (layouts_.release(former)) outlet_.close(former);
+}
+
+void Display::stand(Seats& seats) {
+  stands_ = true;
+  if (by_inputs_ != 0) outlet_.show_steps_left();
+  answer_asked();
+  if (layouts_.empty()) return;
+  if (game_->tick() % ticks_a_frame() != 0) outlet_.show_now(FrameKind::kDelta, snapshot());
+  // Who is sent but some of the frames may not have had the last one.
+  seats.for_each<SessionOccupant>([&](const Seat&, const SessionOccupant& occupant) {
+    if (occupant.channel != kByInputs && occupant.state_hz < settings_.state_hz) show_newest(occupant);
+  });
 }
 
 void Display::send_frames(Seats& seats) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "server/frames/layouts.h"
@@ -44,7 +45,7 @@ class Display {
   void begin(match::Match& game, Seats& seats, Company company);
 
   void show_newest(const SessionOccupant& occupant) {
-    if (occupant.channel == kByInputs) return asked_.push_back({occupant.subscriber, false});
+    if (occupant.channel == kByInputs) return ask({occupant.subscriber, false});
     outlet_.show_newest(occupant.channel, occupant.subscriber, snapshot());
   }
   void show_map(const SessionOccupant& occupant) const { occupant.subscriber->deliver_map(map_line_); }
@@ -52,6 +53,9 @@ class Display {
   void look(SessionId session, const protocol::View& view) { turning_[session] = shows_part(view); }
   /// The picture of every layout in use, where one is due.
   void send_frames(Seats& seats);
+  /// No step follows for now: all are shown where the game stands, and who asks for a keyframe meanwhile gets
+  /// it at once.
+  void stand(Seats& seats);
   /// The step just done, to who watches by inputs, and a keyframe to who has asked for one since. REQUIRES
   /// that nothing is queued in the match.
   void show_step(const LiveStep& step);
@@ -66,6 +70,11 @@ class Display {
     std::shared_ptr<Subscriber> subscriber;
     bool wants_header = false;
   };
+  void ask(Asked asked) {
+    asked_.push_back(std::move(asked));
+    if (stands_) answer_asked();
+  }
+  void answer_asked();
   void choose(Seat& seat, const RowLayout& rows);
   [[nodiscard]] Addressee addressee(const Seat& seat) const;
   void show_first(const SessionOccupant& occupant);
@@ -85,6 +94,7 @@ class Display {
   SharedSnapshot snapshot_;  ///< of its tick, for all who ask within that
   Line header_;              ///< of the game's recording, once somebody watches by inputs
   std::vector<Asked> asked_;
+  bool stands_ = false;                         ///< no step is on its way
   std::size_t by_inputs_ = 0;                   ///< how many are subscribed
   std::optional<std::uint64_t> keyframe_tick_;  ///< of the one that the outlet keeps
 };

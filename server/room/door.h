@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "server/frames/layouts.h"
@@ -20,6 +21,8 @@ struct Arrival {
   AddressId address = 0;
   Time at{};            ///< when its line was read
   bool is_web = false;  ///< by the web port
+  /// What he is told where no louse here is his; none: he gets one.
+  std::optional<protocol::ErrorMessage> unless_back{};
 };
 
 enum class Parting {

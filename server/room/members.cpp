@@ -135,7 +135,8 @@ void Members::refuse_closed(Subscriber& subscriber) {
 void Members::admit(Arrival arrival) {
   assert(arrival.subscriber != nullptr && !arrival.join.name.empty());
   if (welcome_back(arrival)) return;
-  if (auto refusal = why_not(arrival)) return arrival.subscriber->refuse_join(std::move(*refusal));
+  if (auto refusal = arrival.unless_back ? arrival.unless_back : why_not(arrival))
+    return arrival.subscriber->refuse_join(std::move(*refusal));
   const protocol::Join& join = arrival.join;
   const bool plays = join.role != protocol::Role::kSpectator;
   Seat fresh{0, join.name, join.role, 0, SessionOccupant{arrival.session, arrival.subscriber, 0}};
@@ -281,12 +282,6 @@ bool Members::refuse_when_busy(const Seat& seat, Spending what, Time arrived) {
       .subscriber->answer(error(code::kRateLimited, "too much is happening in this room: this was dropped",
                                 retry_after_ms(*wait)));
   return true;
-}
-
-void Members::on_message(Seat& seat, const SessionOccupant&, const protocol::Chat& chat, Time arrived) {
-  if (refuse_when_busy(seat, Spending::kChat, arrived)) return;
-  for (const auto& watcher : watchers_) watcher->chat(game_->tick(), seat.louse, seat.name, chat.text);
-  send(events_.chat(game_->tick(), seat, chat.text));
 }
 
 /// Inputs reach at most InputQueue's horizon ahead, so that this is soon.

@@ -70,13 +70,19 @@ class Members {
   /// No tick passes till resume(): who joins hears so, too, and what waits for the next tick is bounded.
   void pause();
   void resume();
+  /// No step follows for now.
+  void stand() { display_.stand(seats_); }
   /// What waited has been done by a tick.
   void refill() {
     if (may_wait_) may_wait_ = kMostPaused;
   }
   /// The louse's player may come back no more; where he is here, nothing.
   void give_up(match::PlayerId louse);
-  [[nodiscard]] std::vector<RosterEntry> roster() const { return seats_.roster(); }
+  /// His chat is refused until then, also when he has gone and comes back to his louse; Time{}: no more.
+  void mute(const RosterEntry& whom, Time until) {
+    if (Seat* seat = seats_.find(whom)) seat->muted_until = until;
+  }
+  [[nodiscard]] std::vector<RosterEntry> roster(Time now) const { return seats_.roster(now); }
   /// Says bye to every session; they are members no more.
   void dismiss(const protocol::Bye& bye);
   /// settings.limits are others now.

@@ -70,6 +70,11 @@ void Outlet::show(FrameKind kind, SharedSnapshot now) {
   });
 }
 
+void Outlet::show_now(FrameKind kind, SharedSnapshot now) {
+  show(kind, std::move(now));
+  asio::post(strand_, [self = shared_from_this()] { self->encode(); });
+}
+
 void Outlet::change(SessionId session, std::size_t lane, ChannelId channel) {
   asio::post(strand_, [self = shared_from_this(), session, lane, channel] {
     self->lanes_[lane]->change(session, channel);
@@ -81,6 +86,14 @@ void Outlet::show_step(SharedStep step, std::optional<InputStream::Quiet> goes_o
   asio::post(strand_, [self = shared_from_this(), step = std::move(step), goes_out] {
     self->stream_.step(*step);
     if (goes_out) self->hand_out(self->stream_.take(*goes_out));
+  });
+}
+
+void Outlet::show_steps_left() {
+  asio::post(strand_, [self = shared_from_this()] {
+    StreamPart part = self->stream_.take(InputStream::Quiet::kTold).value_or(StreamPart{});
+    part.is_last = true;
+    self->hand_out(std::move(part));
   });
 }
 

@@ -39,11 +39,15 @@ class Outlet : public std::enable_shared_from_this<Outlet> {
   void event(std::uint64_t number, Line line);
   void let_go(SessionId session, std::size_t lane);
   void show(FrameKind kind, SharedSnapshot now);
+  /// Before anything that is called after this.
+  void show_now(FrameKind kind, SharedSnapshot now);
   /// Who is a member is shown frames or, of kByInputs, the stream.
   void change(SessionId session, std::size_t lane, ChannelId channel);
 
   /// Of the stream, for who watches by inputs: the step just done. goes_out: with what waits; none: not yet.
   void show_step(SharedStep step, std::optional<InputStream::Quiet> goes_out);
+  /// Those that wait go out, and at once: none is on its way behind them.
+  void show_steps_left();
   /// Where the steps led, kept for so many ticks. REQUIRES that the step that led there was shown.
   void keep_keyframe(match::MatchState state, std::uint64_t kept_ticks);
   /// The keyframe kept, behind the game's header where there is one, and what came since. REQUIRES one.

@@ -94,6 +94,10 @@ class Room : public std::enable_shared_from_this<Room> {
   void ask_roster(std::function<void(std::vector<RosterEntry>)> answered);
   /// To who is here now.
   void say(const protocol::Notice& notice);
+  /// His chat is refused from now on, also when he has gone and comes back to his louse. lasts: none: as
+  /// long as he is here.
+  void mute(const RosterEntry& whom, std::optional<Duration> lasts);
+  void unmute(const RosterEntry& whom);
   /// A player who is away may come back no more.
   void give_up(match::PlayerId louse);
   /// No tick passes from now on, whoever is here, till resume(). Nothing is made up for then.

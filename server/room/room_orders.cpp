@@ -30,7 +30,7 @@ void Room::order(Ordered answered, Order carry_out) {
 void Room::ask_roster(std::function<void(std::vector<RosterEntry>)> answered) {
   assert(answered);
   asio::post(strand_, [self = shared_from_this(), this, answered = std::move(answered)] {
-    answered(members_.roster());
+    answered(members_.roster(timekeeper_.now()));
   });
 }
 
@@ -41,6 +41,14 @@ void Room::say(const protocol::Notice& notice) {
 void Room::give_up(match::PlayerId louse) {
   asio::post(strand_, [self = shared_from_this(), this, louse] { members_.give_up(louse); });
 }
+
+void Room::mute(const RosterEntry& whom, std::optional<Duration> lasts) {
+  asio::post(strand_, [self = shared_from_this(), this, whom, lasts] {
+    members_.mute(whom, lasts ? timekeeper_.now() + *lasts : Time::max());
+  });
+}
+
+void Room::unmute(const RosterEntry& whom) { mute(whom, Duration{}); }
 
 void Room::pause(Ordered answered) {
   order(std::move(answered), [this](const Ordered& done) {
@@ -85,6 +93,7 @@ void Room::stand_still() {
   state_ = State::kPaused;
   next_tick_.expect_none();
   alarm_->cancel();
+  members_.stand();
   post_figures();
   end_steps(game_->tick());
 }
@@ -164,6 +173,20 @@ void Room::look_for_recording() {
 }
 
 // ---- its members ---------------------------------------------------------------------------------------
+
+void Members::on_message(Seat& seat, const SessionOccupant& occupant, const protocol::Chat& chat,
+                         Time arrived) {
+  if (seat.muted_until > arrived) {
+    const auto left = std::chrono::ceil<std::chrono::seconds>(seat.muted_until - arrived).count();
+    const std::string span =
+        seat.muted_until == Time::max() ? "as long as you are here" : fmt::format("for another {} s", left);
+    return occupant.subscriber->answer(protocol::ErrorMessage{
+        std::string(protocol::code::kMuted), "chat: you have been muted " + span, false, {}});
+  }
+  if (refuse_when_busy(seat, Spending::kChat, arrived)) return;
+  for (const auto& watcher : watchers_) watcher->chat(game_->tick(), seat.louse, seat.name, chat.text);
+  send(events_.chat(game_->tick(), seat, chat.text));
+}
 
 void Members::say(const protocol::Notice& notice) {
   seats_.for_each<SessionOccupant>(

@@ -148,7 +148,7 @@ std::vector<protocol::PlayerEntry> Seats::entries() const {
   return entries;
 }
 
-std::vector<RosterEntry> Seats::roster() const {
+std::vector<RosterEntry> Seats::roster(Time now) const {
   using Kind = RosterEntry::Kind;
   std::vector<RosterEntry> roster;
   for (const auto& [place, seat] : seats_) {
@@ -156,9 +156,21 @@ std::vector<RosterEntry> Seats::roster() const {
     const Kind kind = session != nullptr                                   ? Kind::kSession
                       : std::holds_alternative<BotOccupant>(seat.occupant) ? Kind::kHouse
                                                                            : Kind::kAway;
-    roster.push_back({kind, session != nullptr ? session->session : 0, seat.louse, seat.name, seat.role});
+    roster.push_back({kind, session != nullptr ? session->session : 0, seat.louse, seat.name, seat.role,
+                      seat.muted_until > now});
   }
   return roster;
+}
+
+Seat* Seats::find(const RosterEntry& entry) {
+  for (auto& [place, seat] : seats_) {
+    const auto* session = std::get_if<SessionOccupant>(&seat.occupant);
+    const bool is_his = entry.session != 0 && session != nullptr
+                            ? session->session == entry.session
+                            : seat.louse != 0 && seat.louse == entry.louse && seat.name == entry.name;
+    if (is_his) return &seat;
+  }
+  return nullptr;
 }
 
 std::string Seats::free_name(std::string_view name, std::uint64_t number) const {

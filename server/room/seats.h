@@ -20,6 +20,7 @@
 #include "server/frames/layouts.h"
 #include "server/room/house_bots.h"
 #include "server/room/subscriber.h"
+#include "server/timing/clock.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
 
@@ -58,6 +59,7 @@ struct RosterEntry {
   match::PlayerId louse = 0;  ///< 0: a spectator
   std::string name;
   protocol::Role role = protocol::Role::kPlayer;
+  bool is_muted = false;
 };
 
 struct Seat {
@@ -71,6 +73,7 @@ struct Seat {
   std::optional<ResumeToken> token{};       ///< by which its player comes back; none: it never asked to
   std::optional<std::uint32_t> last_seq{};  ///< of its session's own count
   std::uint32_t dropped_below = 0;  ///< inputs that were filed under less, and not taken, never will be
+  Time muted_until{};               ///< by an operator; also when its player comes back
 };
 
 class Seats {
@@ -126,7 +129,9 @@ class Seats {
   /// vacant ones by louse.
   [[nodiscard]] std::vector<protocol::PlayerEntry> entries() const;
   /// Everybody, in the order of entries().
-  [[nodiscard]] std::vector<RosterEntry> roster() const;
+  [[nodiscard]] std::vector<RosterEntry> roster(Time now) const;
+  /// Whose that entry was, if he has not gone or become another one since; or null.
+  [[nodiscard]] Seat* find(const RosterEntry& entry);
   /// The name, or, where another one has it, that with a number behind: of `number` at the latest.
   [[nodiscard]] std::string free_name(std::string_view name, std::uint64_t number) const;
 

@@ -33,7 +33,9 @@ class Subscriber {
   /// Frames asked for again, or the first ones; they say nothing about the client's pace.
   virtual void show_again(const Frame& frame) = 0;
   /// The next part of the stream, of who watches by inputs.
-  virtual void follow(const StreamPart& part) { deliver(part.lines); }
+  virtual void follow(const StreamPart& part) {
+    if (part.lines) deliver(part.lines);
+  }
   /// The answer to get_map.
   virtual void deliver_map(Line line) = 0;
   /// The answer to list_records or get_ghost, which many share.

@@ -17,6 +17,7 @@ struct StreamPart {
   std::uint64_t first = 0, next = 0;  ///< [ticks]
   Line lines;
   bool is_answer = false;  ///< for one who asked, not for all
+  bool is_last = false;    ///< none is on its way behind it: it waits for nothing. It alone may have no lines
 };
 
 }  // namespace woodlouse::server

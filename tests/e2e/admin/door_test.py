@@ -215,6 +215,20 @@ class APort(unittest.TestCase):
             self.assertIn("1 rooms", out)
             self.assertNotIn(TOKEN, server.log())
 
+    def test_who_says_nothing_keeps_nobody_out(self):
+        with AdminServer("--admin-token-file", self.token, admin="127.0.0.1:0") as server:
+            silent = [server.door() for _ in range(40)]
+            with server.door() as door:
+                self.assertEqual(door.ask("status", token=TOKEN)["type"], "done")
+            trusted = []
+            for _ in range(32):
+                trusted.append(server.door())
+                self.assertEqual(trusted[-1].ask("status", token=TOKEN)["type"], "done")
+            with server.door() as late:
+                self.assertEqual(late.answer()["code"], "too_many_connections")
+            for door in silent + trusted:
+                door.__exit__()
+
     def test_wrong_tokens_are_limited_and_then_no_token_is_looked_at(self):
         with AdminServer("--admin-token-file", self.token, admin="127.0.0.1:0") as server:
             for _ in range(5):

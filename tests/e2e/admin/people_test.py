@@ -82,6 +82,21 @@ class Muted(unittest.TestCase):
             self.assertFalse([m for m in bob.seen if m.get("text") == "hello"])
             server.refused("unmute", "nobody", who="ann")
 
+    def test_who_comes_back_to_his_louse_is_muted_still(self):
+        with AdminServer() as server:
+            ann, bob = server.player("ann", resume=True), server.player("bob")
+            server.done("mute", who="ann")
+            ann.socket.close()
+            back = server.client()
+            back.join("ann", resume=ann.welcome["resume_token"])
+            back.send({"type": "chat", "text": "hello"})
+            back.expect("error", code="muted")
+            self.assertIn("muted", server.typed("rooms", "volcano")[1])
+            server.done("unmute", who="ann")
+            server.refused("unmute", "nobody", who="ann")
+            back.send({"type": "chat", "text": "again"})
+            self.assertEqual(bob.expect("event", kind="chat")["text"], "again")
+
     def test_an_address_is_for_a_while(self):
         with AdminServer() as server:
             ann, far = server.player("ann"), server.player("far", source="127.0.0.9")
@@ -168,11 +183,15 @@ class Banned(unittest.TestCase):
                     file.write('{"name":"bob"}\n')
                 again.process.send_signal(signal.SIGHUP)
                 wait_until(lambda: [ban.get("name") for ban in again.done("bans")["bans"]] == ["bob"])
-                again.player("ann")
+                ann, far = again.player("ann"), again.player("far", source="127.0.0.9")
+                with open(server.path("bans"), "w", encoding="utf-8") as file:
+                    file.write('{"name":"bob"}\n{"name":"ANN"}\n{"address":"127.0.0.9"}\n')
+                self.assertIn("2 of whom are put out", again.done("reload")["text"])
+                self.assertEqual([who.until_end()[-1]["code"] for who in (ann, far)], ["banned", "banned"])
                 with open(server.path("bans"), "w", encoding="utf-8") as file:
                     file.write('{"name":"bob"}\n{"address":"192.0.2.')
                 self.assertIn("bans:2", again.refused("reload", "failed"))
-                self.assertEqual(len(again.done("bans")["bans"]), 1)
+                self.assertEqual(len(again.done("bans")["bans"]), 3)
 
     def test_a_torn_file_is_no_reason_to_let_everybody_in(self):
         with AdminServer() as server:

@@ -166,6 +166,10 @@ class Recorded(unittest.TestCase):
     def test_it_may_begin_while_somebody_is_about_to_join(self):
         with AdminServer("--record", "FOLDER/{room}.ndjson") as server:
             server.done("record", on=False)
+            server.done("close", room="volcano")
+            server.done("open", file="volcano", name="volcano")
+            self.assertTrue(server.done("rooms")["rooms"][0]["recorded"])  # what was said held for the room that is closed
+            server.done("record", on=False)
             server.done("pause")
             server.player("ann")
             server.done("record", on=True)
@@ -197,6 +201,8 @@ class Whole(unittest.TestCase):
             self.assertIn("3 s", ann.expect("notice", code="draining")["text"])
             late = server.client()
             late.send({"type": "join", "protocol": 1, "name": "late"})
+            self.assertFalse(late.expect("error", code="draining")["fatal"])
+            late.send({"type": "join", "protocol": 1, "name": "late", "resume": "0" * 32})
             self.assertFalse(late.expect("error", code="draining")["fatal"])
             with self.assertRaises(urllib.error.HTTPError) as not_ready:
                 urllib.request.urlopen(server.url + "readyz", timeout=PATIENCE)

@@ -19,10 +19,11 @@ protocol::Join by_inputs(const std::string& name) {
 }
 
 /// Re-runs what the guest has got since, and gives how many steps that proved.
-std::uint64_t follow(follow::Follower& follower, Guest& guest) {
+/// due: the next step, of one who has had all before; 0: a keyframe comes first.
+std::uint64_t follow(follow::Follower& follower, Guest& guest, std::uint64_t due = 0) {
   const std::uint64_t before = follower.proven();
-  std::uint64_t due = 0;
   for (const StreamPart& part : guest.parts) {
+    if (!part.lines) continue;
     if (part.kind == StreamPart::Kind::kSteps && part.first < due) continue;  // as a session passes it over
     REQUIRE((part.kind != StreamPart::Kind::kSteps || part.first == due || due == 0));
     if (part.kind == StreamPart::Kind::kSteps && due == 0) continue;
@@ -71,6 +72,36 @@ TEST_CASE("a watcher by inputs gets header, keyframe and every step, and no fram
   follow::Follower follower("test");
   CHECK(follow(follower, *eve) >= 56);
   CHECK(follower.gaps() == 0);
+}
+
+TEST_CASE("in a room that stands still who watches by inputs has every step, and who comes has a keyframe") {
+  House house(settings(8));
+  house.room->start([] {});
+  house.join(1);
+  const auto eve = house.join(2, by_inputs("eve"));
+  house.tick(8);
+  std::uint64_t tick = 0;
+  const auto done = [&tick](core::Expected<std::uint64_t> at) { tick = at.value(); };
+  house.room->pause(done);
+  house.settle();
+  CHECK(eve->parts.back().is_last);
+  follow::Follower follower("test");
+  follow(follower, *eve);
+  CHECK(follower.match()->tick() == tick);
+  for (int k = 0; k < 4; ++k) {
+    house.room->step(1, done);
+    house.tick(3);
+    CHECK(follow(follower, *eve, tick - 1) == 1);
+    CHECK(follower.match()->tick() == tick);
+  }
+  const auto late = house.join(3, by_inputs("late"));
+  REQUIRE(late->parts.size() >= 2);
+  follow::Follower again("test");
+  follow(again, *late);
+  CHECK(again.match()->tick() == tick);
+  say(house, 2, protocol::Resync{});
+  REQUIRE_FALSE(eve->parts.empty());
+  CHECK(eve->parts[0].kind == StreamPart::Kind::kKeyframe);
 }
 
 TEST_CASE("who comes a little later shares the keyframe, who comes much later has a new one") {

@@ -1,6 +1,9 @@
 // What an operator asks of a room: paused, stepped, recorded.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <utility>
@@ -188,6 +191,124 @@ TEST_CASE("a recording that is asked for while somebody is about to join begins 
   CHECK(turns[0].first == "begin");
   CHECK(turns[1].first == "asleep");
   CHECK(turns[0].second == turns[1].second);
+}
+
+TEST_CASE("who is muted stays so when he comes back to his louse, and as long as was said") {
+  Playing playing;
+  House& house = playing.house;
+  protocol::Join join;
+  join.name = "ann";
+  join.may_resume = true;
+  const auto ann = house.join(7, join);
+  const auto bob = house.join(8);
+  const auto roster = [&house] {
+    std::vector<RosterEntry> entries;
+    house.room->ask_roster([&entries](std::vector<RosterEntry> told) { entries = std::move(told); });
+    house.settle();
+    return entries;
+  };
+  const auto is_heard = [&house, &bob](SessionId session) {
+    const std::size_t before = bob->lines.size();
+    house.door->submit(session, protocol::Chat{"hello"}, house.timekeeper.now());
+    house.settle();
+    house.tick(4);
+    return std::any_of(bob->lines.begin() + static_cast<std::ptrdiff_t>(before), bob->lines.end(),
+                       [](const std::string& line) { return line.find("hello") != std::string::npos; });
+  };
+  CHECK(is_heard(7));
+  house.room->mute(roster().at(0), std::chrono::seconds(20));
+  CHECK_FALSE(is_heard(7));
+  const auto* refusal = std::get_if<protocol::ErrorMessage>(&ann->answers.back());
+  REQUIRE(refusal != nullptr);
+  CHECK(refusal->code == "muted");
+  CHECK(refusal->text == "chat: you have been muted for another 20 s");
+  CHECK(is_heard(8));
+  CHECK(roster().at(0).is_muted);
+  CHECK_FALSE(roster().at(1).is_muted);
+  house.door->leave(7, Parting::kLost);
+  house.settle();
+  join.resume = ann->welcomes.at(0).resume_token;
+  house.join(9, join);
+  CHECK_FALSE(is_heard(9));
+  house.tick(20 * 60);
+  CHECK(is_heard(9));
+  house.room->mute(roster().at(1), std::nullopt);  // by session: bob's is 8
+  house.tick(100 * 60);
+  CHECK_FALSE(is_heard(9));
+  house.room->unmute(roster().at(1));
+  CHECK(is_heard(9));
+}
+
+TEST_CASE("who is away can be muted, and another one's louse of that number is not") {
+  Playing playing;
+  House& house = playing.house;
+  protocol::Join join;
+  join.name = "ann";
+  join.may_resume = true;
+  const auto ann = house.join(7, join);
+  house.door->leave(7, Parting::kLost);
+  house.settle();
+  const std::uint32_t louse = ann->welcomes.at(0).id;
+  house.room->mute({RosterEntry::Kind::kAway, 0, louse, "eve", protocol::Role::kPlayer}, std::nullopt);
+  std::vector<RosterEntry> roster;
+  const auto ask = [&] {
+    house.room->ask_roster([&roster](std::vector<RosterEntry> told) { roster = std::move(told); });
+    house.settle();
+    return roster.at(0).is_muted;
+  };
+  CHECK_FALSE(ask());
+  house.room->mute(roster.at(0), std::nullopt);
+  CHECK(ask());
+}
+
+TEST_CASE("where the server is about to stop a made-up token is no way in") {
+  Playing playing;
+  House& house = playing.house;
+  protocol::Join join;
+  join.name = "ann";
+  join.may_resume = true;
+  const auto ann = house.join(7, join);
+  house.door->leave(7, Parting::kLost);
+  join.fields = protocol::default_columns();
+  const auto come = [&](SessionId session, const std::string& token) {
+    const auto guest = std::make_shared<test::Guest>();
+    join.resume = token;
+    house.door->join({session, guest, join, 1, house.timekeeper.now(), false,
+                      protocol::ErrorMessage{"draining", "the server stops", false, {}}});
+    house.settle();
+    return guest;
+  };
+  const auto guess = come(8, std::string(32, '0'));
+  REQUIRE(guess->refusals.size() == 1);
+  CHECK(guess->refusals[0].code == "draining");
+  CHECK(guess->welcomes.empty());
+  CHECK(come(9, ann->welcomes.at(0).resume_token)->welcomes.at(0).resumed);
+}
+
+TEST_CASE("a room that stands still shows where, to who is shown half of the frames as well") {
+  Playing playing;
+  House& house = playing.house;
+  protocol::Join join;
+  join.name = "ann";
+  const auto ann = house.join(1, join);
+  join.name = "slow";
+  join.state_hz = 2;
+  const auto slow = house.join(2, join);
+  house.tick(6);
+  house.room->pause(playing.outcome.take());
+  house.settle();
+  for (int k = 0; k < 4; ++k) {  // a frame comes each third tick
+    house.room->step(1, playing.outcome.take());
+    house.tick(3);
+    const std::uint64_t tick = playing.outcome.results.back().value();
+    CHECK(ann->frames.back().tick == tick);
+    CHECK(slow->frames.back().tick == tick);
+    const std::size_t before = ann->frames.size();
+    house.door->submit(1, protocol::Resync{}, house.timekeeper.now());
+    house.settle();
+    CHECK(ann->frames.size() > before);
+    CHECK(ann->frames.back().tick == tick);
+  }
 }
 
 TEST_CASE("a room says who is in it") {
