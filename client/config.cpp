@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "client/config_file.h"
 #include "shared/core/whole_file.h"
 #include "shared/json/document.h"
 #include "shared/protocol/messages.h"
@@ -77,9 +78,16 @@ const Words<std::optional<View>>& view_words() {
   return words;
 }
 
+const Words<SteerBy>& steer_words() {
+  static const Words<SteerBy> words{{{"heading", SteerBy::kHeading}, {"compass", SteerBy::kCompass}}};
+  return words;
+}
+
 /// Everything as it is written, before it is understood.
 struct Raw {
-  std::string server, map, name, room, recording, maps, color, glyphs, palette, view, token, password_file;
+  std::string server, map, name, room, recording, maps, color, glyphs, palette, view, steer, token,
+      password_file;
+  KeyMap keys{};
   int fps = 30;
   bool watch = false;
   bool verify = false;
@@ -105,8 +113,10 @@ Raw raw_of(const Config& config) {
           .glyphs = glyph_words().word(config.glyphs),
           .palette = palette_words().word(config.palette),
           .view = view_words().word(config.view),
+          .steer = steer_words().word(config.steer),
           .token = config.token,
           .password_file = "",
+          .keys = config.keys,
           .fps = config.fps,
           .watch = config.part == Part::kWatch,
           .verify = config.hashes == Hashes::kVerified,
@@ -138,6 +148,8 @@ core::Expected<Config> understood(const Raw& raw) {
     return core::fail("palette", "\"" + raw.palette + "\" is none", "one of " + palette_words().list());
   const auto view = view_words().find(raw.view);
   if (!view) return core::fail("view", "\"" + raw.view + "\" is none", "one of " + view_words().list());
+  const auto steer = steer_words().find(raw.steer);
+  if (!steer) return core::fail("steer", "\"" + raw.steer + "\" is none", "one of " + steer_words().list());
   if (raw.fps < 5 || raw.fps > 60) return core::fail("fps", std::to_string(raw.fps) + " is not from 5 to 60");
   if (raw.name.empty() || raw.name.size() > protocol::kMaxNameBytes) {
     return core::fail("name", "it has " + std::to_string(raw.name.size()) + " bytes",
@@ -160,6 +172,8 @@ core::Expected<Config> understood(const Raw& raw) {
   config.glyphs = *glyphs;
   config.palette = *palette;
   config.view = *view;
+  config.steer = *steer;
+  config.keys = raw.keys;
   config.fps = raw.fps;
   return config;
 }
@@ -169,14 +183,6 @@ std::string default_name() {
   if (name.empty()) name = "louse";
   if (name.size() > protocol::kMaxNameBytes) name.resize(protocol::kMaxNameBytes);
   return name;
-}
-
-std::filesystem::path config_file() {
-  const std::string xdg = environment("XDG_CONFIG_HOME");
-  if (!xdg.empty()) return std::filesystem::path(xdg) / "woodlouse" / "config.json";
-  const std::string home = environment("HOME");
-  return home.empty() ? std::filesystem::path()
-                      : std::filesystem::path(home) / ".config" / "woodlouse" / "config.json";
 }
 
 /// The defaults: the program's, then the config file's.
@@ -234,6 +240,10 @@ void add_options(CLI::App& app, Raw& raw) {
       ->envname("WOODLOUSE_PALETTE")
       ->capture_default_str();
   app.add_option("--view", raw.view, view_words().list())->envname("WOODLOUSE_VIEW")->capture_default_str();
+  app.add_option("--steer", raw.steer,
+                 steer_words().list() + "; compass: the keys push that way in the picture")
+      ->envname("WOODLOUSE_STEER")
+      ->capture_default_str();
   app.add_flag(std::string(kNoFiles), raw.no_files,
                "read and write no file of the account's: no config file, no recording, no server of its own; "
                "for who plays through ssh")
@@ -257,14 +267,15 @@ void add_options(CLI::App& app, Raw& raw) {
 }  // namespace
 
 core::Expected<Config> read_config_file(const std::string& text, const std::string& file, Config config) {
-  const auto document = json::parse_file(text, file, {2, 1000});
+  const auto document = json::parse_file(text, file, {4, 1000});
   if (!document) return tl::unexpected(document.error());
   if (!document->root().is(json::Kind::kObject))
     return core::fail(file, "it is not a JSON object", "for example {\"name\": \"mara\"}");
   Raw raw = raw_of(config);
   const std::initializer_list<std::pair<const char*, std::string*>> texts = {
-      {"server", &raw.server}, {"map", &raw.map},       {"name", &raw.name},       {"room", &raw.room},
-      {"color", &raw.color},   {"glyphs", &raw.glyphs}, {"palette", &raw.palette}, {"view", &raw.view}};
+      {"server", &raw.server},   {"map", &raw.map},     {"name", &raw.name},
+      {"room", &raw.room},       {"color", &raw.color}, {"glyphs", &raw.glyphs},
+      {"palette", &raw.palette}, {"view", &raw.view},   {"steer", &raw.steer}};
   for (const json::Value& value : document->root().children()) {
     const std::string key(value.key());
     const std::string where = file + ": " + key;
@@ -280,9 +291,13 @@ core::Expected<Config> read_config_file(const std::string& text, const std::stri
     } else if (key == "watch" || key == "verify") {
       if (!value.is(json::Kind::kBoolean)) return core::fail(where, "it is not true or false");
       (key == "watch" ? raw.watch : raw.verify) = value.boolean();
+    } else if (key == "keys") {
+      auto keys = keys_of(value);
+      if (!keys) return core::fail(where + "." + keys.error().where, keys.error().what, keys.error().hint);
+      raw.keys = std::move(*keys);
     } else {
       return core::fail(where, "no such setting",
-                        "known: server map name room color glyphs palette view fps watch verify");
+                        "known: server map name room color glyphs palette view steer keys fps watch verify");
     }
   }
   auto result = understood(raw);
@@ -301,7 +316,7 @@ Parsed parse_arguments(int argc, const char* const* argv) {
   app.set_version_flag("--version", std::string(kVersion));
   app.footer(
       "Watch a recording:  woodlouse replay game.ndjson\n"
-      "Keys: W push, S brake, A D turn, Space cruise, T chat, Tab scores, V view, ? help, Q quit.\n"
+      "Keys: W A S D push that way, X brake, Space cruise, T chat, Tab scores, V view, ? help, Q quit.\n"
       "Exit: 0 fine, 1 a verified state differs, 2 usage, 69 server unreachable, 74 terminal lost, 130 "
       "Ctrl-C.");
   add_options(app, raw);

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "client/controls/driving.h"
+#include "client/controls/key_map.h"
 #include "client/drawing/scene.h"
 #include "client/net/address.h"
 #include "client/play/keyframe_verifier.h"
@@ -34,6 +36,8 @@ struct Config {
   Palette palette = Palette::kDefault;
   std::optional<View> view;  ///< none: what suits the terminal
   int fps = 30;              ///< 5..60
+  SteerBy steer = SteerBy::kCompass;
+  KeyMap keys;
   /// For who plays from another's account (ssh): nothing of it is read or written, no config file, map or
   /// recording, and no server is started. REQUIRES a server, and no replay.
   bool no_files = false;

@@ -45,6 +45,16 @@ std::string describe(const Look& look) {
          (look.glyphs == GlyphSet::kAscii ? "ascii" : "half blocks");
 }
 
+std::string driving_keys(const Config& config) {
+  const KeyLabels keys = config.keys.labels();
+  const std::string cruise = ", " + (keys.cruise == "SPC" ? "Space" : keys.cruise) + " cruise";
+  if (config.steer == SteerBy::kCompass)
+    return keys.up + " " + keys.left + " " + keys.down + " " + keys.right +
+           " push that way (a press = 0.4 s), " + keys.brake + " brake" + cruise;
+  return keys.up + " push (a press = 0.4 s), " + keys.down + " brake, " + keys.left + " " + keys.right +
+         " turn" + cruise;
+}
+
 void introduce(const Config& config, const Session& session, const Look& look) {
   const RoomView& room = session.room();
   std::cout << "woodlouse " WOODLOUSE_VERSION
@@ -52,9 +62,9 @@ void introduce(const Config& config, const Session& session, const Look& look) {
             << "  server   listening " << session.connection().address().text() << "\n"
             << "  map      " << room.welcome()->map_name << "   3 bots\n";
   if (config.part == Part::kPlay)
-    std::cout << "  you      \"" << config.name << "\"   change with --name or WOODLOUSE_NAME\n";
-  std::cout << "  keys     W push (a press = 0.4 s), S brake, A D turn, Space cruise\n"
-            << "  screen   " << describe(look) << "   change with --color / --glyphs\n\n"
+    std::cout << "  you      \"" << config.name << "\"   change with --name or WOODLOUSE_NAME\n"
+              << "  keys     " << driving_keys(config) << "\n";
+  std::cout << "  screen   " << describe(look) << "   change with --color / --glyphs\n\n"
             << "  joined in " << session.join_time().count()
             << " ms.   Any key starts, ? for help, Q to leave.\n"
             << std::flush;
@@ -88,14 +98,14 @@ Outcome play(boost::asio::io_context& context, Session& session, const Config& c
                          terminal.error().hint + "\n"};
   Look look = (*terminal)->look();
   look.palette = config.palette;
-  GameSettings settings{look, config.view, config.fps, Overlay::kNone};
+  GameSettings settings{look, config.view, config.fps, Overlay::kNone, config.keys, config.steer};
   if (local != nullptr) {
     introduce(config, session, look);
     const auto guard = (*terminal)->enter(TerminalUse::kKeysOnly);
     const auto first = guard ? await_key(context, (*terminal)->keys()) : std::nullopt;
     const Key* const key = first ? std::get_if<Key>(&*first) : nullptr;
-    if (key != nullptr && is_leaving(*key)) return {};
-    if (key != nullptr && picture_action(*key) == Action::kHelp) settings.first = Overlay::kHelp;
+    if (key != nullptr && is_leaving(*key, config.keys)) return {};
+    if (key != nullptr && picture_action(*key, config.keys) == Action::kHelp) settings.first = Overlay::kHelp;
   }
   auto guard = (*terminal)->enter(TerminalUse::kFullScreen);
   if (!guard) return {kExitIo, "woodlouse: " + guard.error().text() + "\n"};
@@ -119,16 +129,17 @@ bool write_line(const std::string& line) {
   return static_cast<bool>(std::cout);
 }
 
-Outcome tell(boost::asio::io_context& context, Session& session, LocalServer* local) {
+Outcome tell(boost::asio::io_context& context, Session& session, const Config& config, LocalServer* local) {
+  const TextGame::Manner manner{config.keys, config.steer};
   const auto alive = local != nullptr ? [local] { return local->alive(); } : std::function<bool()>();
   write_line("joined " + session.connection().address().text() + ", map " +
              session.room().welcome()->map_name);
-  if (isatty(STDIN_FILENO) == 0) return TextGame(context, session, -1, write_line, alive).run();
+  if (isatty(STDIN_FILENO) == 0) return TextGame(context, session, -1, write_line, manner, alive).run();
   auto keys = open_terminal_for_keys(STDIN_FILENO);
   if (!keys) return {kExitIo, "woodlouse: " + keys.error().text() + "\n"};
   const Descriptor modes(dup(*keys));
   auto guard = TerminalGuard::enter(modes.get(), STDOUT_FILENO, TerminalUse::kKeysOnly);
-  return TextGame(context, session, *keys, write_line, alive).run();
+  return TextGame(context, session, *keys, write_line, manner, alive).run();
 }
 
 }  // namespace
@@ -181,9 +192,9 @@ int run_client(const Config& config) {
                         : "is the server up?   try:  woodlouse-server --map volcano --listen 0.0.0.0:" +
                               std::to_string(session.connection().address().port));
   }
-  const Outcome outcome =
-      judged(as_text ? tell(context, session, local.get()) : play(context, session, config, local.get()),
-             session.room());
+  const Outcome outcome = judged(
+      as_text ? tell(context, session, config, local.get()) : play(context, session, config, local.get()),
+      session.room());
   session.leave();
   std::cerr << outcome.message;
   return outcome.exit_code;

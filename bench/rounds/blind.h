@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "client/play/steering.h"
+#include "client/controls/steering.h"
 #include "shared/match/match.h"
 
 namespace woodlouse::bench {

@@ -157,6 +157,11 @@ View default_view(const Look& look, Size size) {
   return paints_pixels(look) && size.columns >= 100 && size.rows >= 30 ? View::kOblique : View::kMap;
 }
 
+core::Vec2 up_in_picture(View view, const Look& look) {
+  const bool is_oblique = paints_pixels(look) && (view == View::kOblique || view == View::kFollow);
+  return is_oblique ? oblique_up() : core::Vec2{0.0, 1.0};
+}
+
 void Composer::draw(const Scene& scene, CellBuffer& cells) {
   cells.clear();
   const Size size = cells.size();

@@ -16,6 +16,9 @@ constexpr double follow_zoom(double zoom) { return 2.6 * std::clamp(zoom, 0.25, 
 /// and 100x30 cells or more, else the map.
 View default_view(const Look& look, Size size);
 
+/// The map's direction, a unit vector, that goes up in the middle of the picture of a view.
+core::Vec2 up_in_picture(View view, const Look& look);
+
 /// Draws scenes. Keeps what does not move (the terrain as seen by the camera) between frames, so use one for
 /// a whole run. Single thread.
 class Composer {

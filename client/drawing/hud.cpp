@@ -162,12 +162,30 @@ std::string_view view_text(const Scene& scene) {
   return "";
 }
 
-const char* keys_text(const Scene& scene, int columns) {
-  if (scene.spectating)
-    return columns < 80 ? " TAB scores T chat V view N next ? help Q quit"
-                        : " watching   N next louse  +/- zoom  TAB scores  T chat  V view  ? help  Q quit";
-  return columns < 80 ? " W push S brake A/D turn SPC cruise T chat ? help Q quit"
-                      : " W push S brake A/D turn  SPC cruise  TAB scores  T chat  V view  ? help  Q quit";
+/// "WASD", or with words between.
+std::string four_keys(const KeyLabels& keys) {
+  const std::string joined = keys.up + keys.left + keys.down + keys.right;
+  return joined.size() == 4 ? joined : keys.up + "/" + keys.left + "/" + keys.down + "/" + keys.right;
+}
+
+std::string keys_text(const Scene& scene, int columns) {
+  const KeyLabels& keys = scene.keys;
+  const bool is_narrow = columns < 80;
+  const std::string gap = is_narrow ? " " : "  ";
+  const std::string scores = keys.scores + " scores" + gap;
+  const std::string end = keys.help + " help" + gap + keys.quit + " quit";
+  const std::string chat = keys.chat + " chat" + gap;
+  if (scene.spectating) {
+    const std::string next = keys.next + (is_narrow ? " next " : " next louse  ");
+    return is_narrow ? " " + scores + chat + keys.view + " view " + next + end
+                     : " watching   " + next + keys.zoom_in + "/" + keys.zoom_out + " zoom  " + scores +
+                           chat + keys.view + " view  " + end;
+  }
+  const std::string driving =
+      keys.compass ? four_keys(keys) + " push" + gap + keys.brake + " brake"
+                   : keys.up + " push " + keys.down + " brake " + keys.left + "/" + keys.right + " turn";
+  return " " + driving + gap + keys.cruise + " cruise" + gap + (is_narrow ? "" : scores) + chat +
+         (is_narrow ? "" : keys.view + " view" + gap) + end;
 }
 
 }  // namespace
@@ -268,7 +286,7 @@ void draw_panel(const Scene& scene, const Badges& badges, const Viewport& panel,
   out.title(shows_room ? "THE ROOM" : scene.replay ? followed_text(scene, badges) : "YOU");
   shows_room ? draw_room(scene, styles, out) : draw_you(scene, styles, out);
   draw_ahead(scene, styles, panel.size.rows - out.rows_used() - kLeastChat - 2, out);
-  out.title(scene.replay ? "CHAT" : "CHAT  (T to talk)");
+  out.title(scene.replay ? "CHAT" : "CHAT  (" + scene.keys.chat + " to talk)");
   draw_chat(scene, styles, out, panel.size.rows - out.rows_used() - 1);
   out.finish();
 }

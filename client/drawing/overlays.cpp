@@ -1,10 +1,10 @@
 #include "client/drawing/overlays.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "client/drawing/formatted.h"
 #include "client/drawing/frame_box.h"
@@ -41,41 +41,70 @@ std::string_view palette_text(Palette palette) {
 /// A line of the help: a head in the margin, and what it says.
 struct HelpLine {
   std::string_view head;
-  std::string_view text;
+  std::string text;
 };
 
-constexpr std::array<HelpLine, 13> kGameHelp = {
-    {{"DRIVE", "W / Up     push along your heading: 0.4 s a press"},
-     {"", "S / Down   brake"},
-     {"", "A D / left right   turn 22.5 degrees"},
-     {"", "Space      cruise: the push stays on    R respawn"},
-     {"SEE", "V view: map / oblique / follow / slope  +/- zoom"},
-     {"", "L labels   P trails   N next louse (watching)"},
-     {"TALK", "T chat  Enter sends  Esc cancels  /skip next game"},
-     {"", "Tab scoreboard: distance travelled"},
-     {"QUIT", "Q (asks)   Ctrl-C (now; restores the terminal)"},
-     {"MAP", "Close lines are steep. You roll downhill for free,"},
-     {"", "hills eat speed. @ is you, a-z others, * marks a"},
-     {"", "bot, the glyph beside a letter is its heading."},
-     {"", "In colour low is blue, and a white head leads."}}};
+std::vector<HelpLine> driving_help(const KeyLabels& keys) {
+  const auto press = formatted("%.1f s a press", keys.pulse_seconds);
+  const HelpLine cruise{
+      "", formatted("%-10s cruise: the push stays on    %s respawn",
+                    keys.cruise == "SPC" ? "Space" : keys.cruise.c_str(), keys.respawn.c_str())};
+  const std::string four = keys.up + " " + keys.left + " " + keys.down + " " + keys.right;
+  if (keys.compass)
+    return {{"DRIVE", formatted("%-10s push that way: ", four.c_str()) + press},
+            {"", "           two at once push between"},
+            {"", formatted("%-10s brake", keys.brake.c_str())},
+            cruise,
+            {"", formatted("%-10s steer by a heading that two keys turn", keys.steer.c_str())}};
+  const auto with_second = [](const std::string& first, const std::string& second) {
+    return second.empty() ? first : first + " / " + second;
+  };
+  return {
+      {"DRIVE", formatted("%-10s push along your heading: ", with_second(keys.up, keys.up2).c_str()) + press},
+      {"", formatted("%-10s brake", with_second(keys.down, keys.down2).c_str())},
+      {"", keys.left + " " + keys.right + " / left right   turn 22.5 degrees"},
+      cruise,
+      {"", formatted("%-10s steer by compass: keys push that way", keys.steer.c_str())}};
+}
 
-constexpr std::array<HelpLine, 13> kReplayHelp = {
-    {{"TIME", "Space      play, pause; at the end: once more"},
-     {"", "< >        5 s back, forth    also left and right"},
-     {"", ", .        one tick back, forth"},
-     {"", "[ ]        slower, faster: x0.25 to x16"},
-     {"", "0-9        jump by tenths     Home End"},
-     {"", "N Shift-N  next, previous event: + joined, x left,"},
-     {"", "           o began again, ! chat"},
-     {"SEE", "F Shift-F  follow the next, the previous louse"},
-     {"", "V view: map / oblique / follow / slope  +/- zoom"},
-     {"", "L labels   P trails   Tab scoreboard"},
-     {"QUIT", "Q          Ctrl-C (restores the terminal, too)"},
-     {"PROOF", "state ok: the ticks that were re-run here, all of"},
-     {"", "them with the very hash that was recorded."}}};
+std::vector<HelpLine> game_help(const Scene& scene) {
+  const KeyLabels& keys = scene.keys;
+  std::vector<HelpLine> lines;
+  if (scene.spectating)
+    lines = {{"WATCH", formatted("%-10s the next louse", keys.next.c_str())}};
+  else
+    lines = driving_help(keys);
+  const std::string zoom = "  " + keys.zoom_in + "/" + keys.zoom_out + " zoom";
+  lines.push_back({"SEE", keys.view + " view: map / oblique / follow / slope" + zoom});
+  lines.push_back({"", keys.labels + " labels   " + keys.trails + " trails   " +
+                           (keys.scores == "TAB" ? "Tab" : keys.scores) + " scoreboard"});
+  lines.push_back({"TALK", keys.chat + " chat  Enter sends  Esc cancels  /skip next game"});
+  lines.push_back({"QUIT", keys.quit + " (asks)   Ctrl-C (now; restores the terminal)"});
+  lines.push_back({"MAP", "Close lines are steep. You roll downhill for free,"});
+  lines.push_back({"", "hills eat speed. @ is you, a-z others, * marks a"});
+  lines.push_back({"", "bot, the glyph beside a letter is its heading."});
+  lines.push_back({"", "In colour low is blue, and a white head leads."});
+  return lines;
+}
+
+std::vector<HelpLine> replay_help() {
+  return {{"TIME", "Space      play, pause; at the end: once more"},
+          {"", "< >        5 s back, forth    also left and right"},
+          {"", ", .        one tick back, forth"},
+          {"", "[ ]        slower, faster: x0.25 to x16"},
+          {"", "0-9        jump by tenths     Home End"},
+          {"", "N Shift-N  next, previous event: + joined, x left,"},
+          {"", "           o began again, ! chat"},
+          {"SEE", "F Shift-F  follow the next, the previous louse"},
+          {"", "V view: map / oblique / follow / slope  +/- zoom"},
+          {"", "L labels   P trails   Tab scoreboard"},
+          {"QUIT", "Q          Ctrl-C (restores the terminal, too)"},
+          {"PROOF", "state ok: the ticks that were re-run here, all of"},
+          {"", "them with the very hash that was recorded."}};
+}
 
 void draw_help(const Scene& scene, const Styles& styles, CellBuffer& cells) {
-  const std::array<HelpLine, 13>& lines = scene.replay ? kReplayHelp : kGameHelp;
+  const std::vector<HelpLine> lines = scene.replay ? replay_help() : game_help(scene);
   const Viewport box = centred({60, static_cast<int>(lines.size()) + 5}, cells.size());
   draw_box(box, "HELP (any key closes)", scene.look, styles, cells);
   const int left = box.column + 2;
@@ -134,7 +163,8 @@ void draw_quit_question(const Scene& scene, const Styles& styles, CellBuffer& ce
   draw_box(box, "LEAVE?", scene.look, styles, cells);
   cells.text(box.column + 3, box.row + 1,
              scene.spectating ? "Stop watching?" : "Your louse leaves the hill with you.", styles.text);
-  cells.text(box.column + 3, box.row + 3, "Y leave     any other key: stay", styles.strong);
+  cells.text(box.column + 3, box.row + 3, "Y or " + scene.keys.quit + " leave     any other key: stay",
+             styles.strong);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "client/cells/cell_buffer.h"
 #include "client/cells/color.h"
 #include "client/drawing/course/course.h"
+#include "client/drawing/key_labels.h"
 #include "shared/core/vec2.h"
 #include "shared/physics/attitude.h"
 #include "shared/state/parameters.h"
@@ -150,6 +151,7 @@ struct Scene {
   double zoom = 1.0;            ///< of View::kFollow, 0.25..4; larger is nearer
   std::uint32_t follow_id = 0;  ///< whom View::kFollow follows when there is no louse of one's own
   bool key_up_known = false;    ///< the terminal reports key releases (the help screen says so)
+  KeyLabels keys;               ///< those that rule
   bool labels = true;           ///< names beside lice where there is room
 
   std::string map_name;

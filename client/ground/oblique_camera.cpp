@@ -29,6 +29,8 @@ double camera_tilt(const Relief& relief) {
   return (kHill + (kPot - kHill) * t) * kDegree;
 }
 
+core::Vec2 oblique_up() { return {std::sin(kAzimuth), std::cos(kAzimuth)}; }
+
 ObliqueCamera::ObliqueCamera(const Relief& relief, double tilt, double distance) {
   const terrain::Rectangle& d = relief.terrain().domain();
   const Vec3 middle{(d.x_min + d.x_max) / 2.0, (d.y_min + d.y_max) / 2.0,

@@ -49,6 +49,9 @@ class ObliqueCamera {
 /// 35 at a hill, in between for what is neither.
 double camera_tilt(const Relief& relief);
 
+/// The map's direction, a unit vector, in which every one of these cameras looks.
+core::Vec2 oblique_up();
+
 /// The whole map in size.columns x 2 size.rows pixels.
 ObliqueCamera oblique_camera_for(const Relief& relief, Size size);
 

@@ -25,12 +25,14 @@ Game::Game(boost::asio::io_context& context, Session& session, TerminalGuard& gu
       screen_(screen),
       settings_(settings),
       server_alive_(std::move(server_alive)),
+      bindings_(settings.keys),
       loop_(context, guard, std::move(keys), screen, settings.fps, *this) {}
 
 Outcome Game::run() {
   interface_.view = settings_.view.value_or(default_view(settings_.look, terminal_size(STDOUT_FILENO)));
   interface_.has_oblique = paints_pixels(settings_.look);
   interface_.overlay = settings_.first;
+  interface_.steer = settings_.steer;
   return loop_.run();
 }
 
@@ -46,7 +48,8 @@ void Game::on_input(const TerminalInput& input) {
 }
 
 void Game::on_key(const Key& key) {
-  if (session_.is_trying() && !interface_.chatting && is_leaving(key)) return loop_.finish({});
+  if (session_.is_trying() && !interface_.chatting && is_leaving(key, bindings_.keys()))
+    return loop_.finish({});
   if (interface_.chatting && !control_action(key)) {
     bindings_.observe(key);
     // A push begun before the chat was opened still ends with its key.
@@ -58,9 +61,16 @@ void Game::on_key(const Key& key) {
     return loop_.hurry();
   }
   if (const auto action = bindings_.on_key(key, interface_.overlay)) {
+    if (key.action != KeyAction::kRelease && !bindings_.release_seen())
+      repeat_delay_.observe(key, steady_clock::now());
     perform(*action);
     loop_.hurry();
   }
+}
+
+Handling Game::handling() const {
+  return {interface_.steer, up_in_picture(interface_.view, settings_.look), repeat_delay_.pulse(),
+          bindings_.release_seen()};
 }
 
 void Game::close_chat(ChatEntry::Outcome outcome) {
@@ -74,7 +84,20 @@ void Game::close_chat(ChatEntry::Outcome outcome) {
 }
 
 void Game::perform(Action action) {
-  if (drive(action) || interface_.apply(action)) return;
+  const core::Time now = steady_clock::now();
+  if (Pilot* pilot = session_.room().pilot();
+      pilot != nullptr && drive(action, handling(), pilot->steering(), now))
+    return;
+  if (interface_.apply(action)) {
+    if (action != Action::kSteer) return;
+    if (Pilot* pilot = session_.room().pilot())
+      pilot->steering().reset();  // a key that is held means something else now
+    session_.room().notice(interface_.steer == SteerBy::kCompass
+                               ? "the keys push that way in the picture now"
+                               : "the keys push along your heading and turn it now",
+                           now);
+    return;
+  }
   switch (action) {
     case Action::kRespawn:
       session_.room().respawn();
@@ -100,48 +123,19 @@ void Game::perform(Action action) {
   }
 }
 
-bool Game::drive(Action action) {
-  Pilot* const pilot = session_.room().pilot();
-  const core::Time now = steady_clock::now();
-  switch (action) {
-    case Action::kPushPulse:
-      if (pilot != nullptr) pilot->steering().push(now);
-      return true;
-    case Action::kPushHold:
-      if (pilot != nullptr) pilot->steering().hold_push();
-      return true;
-    case Action::kPushRelease:
-      if (pilot != nullptr) pilot->steering().release_push();
-      return true;
-    case Action::kBrakePulse:
-      if (pilot != nullptr) pilot->steering().brake(now);
-      return true;
-    case Action::kBrakeHold:
-      if (pilot != nullptr) pilot->steering().hold_brake();
-      return true;
-    case Action::kBrakeRelease:
-      if (pilot != nullptr) pilot->steering().release_brake();
-      return true;
-    case Action::kTurnLeft:
-      if (pilot != nullptr) pilot->steering().turn(Turn::kLeft);
-      return true;
-    case Action::kTurnRight:
-      if (pilot != nullptr) pilot->steering().turn(Turn::kRight);
-      return true;
-    case Action::kCruise:
-      if (pilot != nullptr) pilot->steering().toggle_cruise();
-      return true;
-    default:
-      return false;
-  }
-}
-
 Scene Game::scene(core::Time now, double fps) {
   if (const auto* welcome = session_.room().welcome(); welcome != nullptr && welcome->id != 0)
     session_.room().look(outlook(interface_, welcome->extent, session_.room().roster().lice()));
+  if (Pilot* pilot = session_.room().pilot())
+    pilot->steering().look_along(up_in_picture(interface_.view, settings_.look));
   session_.update(now);
   check_server(now);
-  return build_scene(session_, interface_, chat_, {settings_.look, fps, bindings_.release_seen(), now});
+  Scene scene =
+      build_scene(session_, interface_, chat_, {settings_.look, fps, bindings_.release_seen(), now});
+  scene.keys = bindings_.keys().labels();
+  scene.keys.compass = interface_.steer == SteerBy::kCompass;
+  scene.keys.pulse_seconds = std::chrono::duration<double>(repeat_delay_.pulse()).count();
+  return scene;
 }
 
 void Game::check_server(core::Time now) {

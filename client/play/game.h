@@ -5,9 +5,10 @@
 #include <functional>
 #include <optional>
 
+#include "client/controls/key_bindings.h"
+#include "client/controls/repeat_delay.h"
 #include "client/play/chat_entry.h"
 #include "client/play/interface.h"
-#include "client/play/key_bindings.h"
 #include "client/play/scene_builder.h"
 #include "client/play/session.h"
 #include "client/terminal/outcome.h"
@@ -23,6 +24,8 @@ struct GameSettings {
   std::optional<View> view;  ///< none: what suits the terminal
   int fps = 30;
   Overlay first = Overlay::kNone;  ///< what lies over the first frame
+  KeyMap keys{};
+  SteerBy steer = SteerBy::kHeading;
 };
 
 class Game final : private Performance {
@@ -40,7 +43,7 @@ class Game final : private Performance {
   Scene scene(core::Time now, double fps) override;
   void on_key(const Key& key);
   void perform(Action action);
-  bool drive(Action action);
+  [[nodiscard]] Handling handling() const;
   void close_chat(ChatEntry::Outcome outcome);
   void check_server(core::Time now);
 
@@ -50,6 +53,7 @@ class Game final : private Performance {
   GameSettings settings_;
   std::function<bool()> server_alive_;
   KeyBindings bindings_;
+  RepeatDelay repeat_delay_;
   Interface interface_;
   ChatEntry chat_;
   core::Time server_seen_{};  ///< when server_alive_ was last asked

@@ -4,8 +4,9 @@
 
 #include <cstdint>
 
+#include "client/controls/driving.h"
+#include "client/controls/key_bindings.h"
 #include "client/drawing/scene.h"
-#include "client/play/key_bindings.h"
 
 namespace woodlouse::client {
 
@@ -17,6 +18,7 @@ struct Interface {
   double zoom = 1.0;        ///< of View::kFollow; zoomed out beyond kFarthest it is the map again
   Overlay overlay = Overlay::kNone;
   bool chatting = false;
+  SteerBy steer = SteerBy::kHeading;
   bool labels = true;
   TrailLength trails = TrailLength::kLong;
   std::uint32_t follow_id = 0;  ///< whom a spectator follows; 0: the leader

@@ -15,9 +15,9 @@
 #include <memory>
 #include <optional>
 
+#include "client/controls/steering.h"
 #include "client/net/server_clock.h"
 #include "client/play/prediction.h"
-#include "client/play/steering.h"
 #include "client/play/view_state.h"
 #include "shared/core/clock.h"
 #include "shared/protocol/messages.h"

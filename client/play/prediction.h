@@ -9,8 +9,8 @@
 #include <deque>
 #include <optional>
 
+#include "client/controls/steering.h"
 #include "client/play/shortest_way.h"
-#include "client/play/steering.h"
 #include "shared/map/map_definition.h"
 #include "shared/physics/world.h"
 #include "shared/protocol/messages.h"

@@ -76,12 +76,14 @@ std::vector<std::string> room(const RoomView& view) {
 }  // namespace words
 
 TextGame::TextGame(boost::asio::io_context& context, Session& session, int keys, Write write,
-                   std::function<bool()> server_alive)
+                   const Manner& manner, std::function<bool()> server_alive)
     : context_(context),
       session_(session),
       write_(std::move(write)),
       server_alive_(std::move(server_alive)),
-      timer_(context) {
+      timer_(context),
+      bindings_(manner.keys),
+      steer_(manner.steer) {
   if (keys < 0) return;
   keys_.emplace(
       context, KeySource{keys, {}, {}},
@@ -181,7 +183,7 @@ void TextGame::tell_proof() {
 }
 
 void TextGame::on_key(const Key& key) {
-  if (session_.is_trying() && !chatting_ && is_leaving(key)) return finish({});
+  if (session_.is_trying() && !chatting_ && is_leaving(key, bindings_.keys())) return finish({});
   if (chatting_ && !control_action(key)) {
     const ChatEntry::Outcome outcome = chat_.type(key);
     if (outcome == ChatEntry::Outcome::kTyping) return;
@@ -194,32 +196,40 @@ void TextGame::on_key(const Key& key) {
     chatting_ = false;
     chat_.clear();
   } else if (const auto action = bindings_.on_key(key, asked_ ? Overlay::kQuitQuestion : Overlay::kNone)) {
+    const core::Time now = steady_clock::now();
+    if (key.action != KeyAction::kRelease && !bindings_.release_seen()) repeat_delay_.observe(key, now);
     perform(*action);
+    driving_told_until_ = now + repeat_delay_.pulse();
   }
+}
+
+/// What the keys have come to; a key that repeats is told once.
+void TextGame::tell_driving(Action action, core::Time now) {
+  const Steering& steering = session_.room().pilot()->steering();
+  if (action == Action::kCruise) return say(steering.cruising() ? "cruise on" : "cruise off");
+  std::string told;
+  if (steering.braking(now))
+    told = "brake";
+  else if (steering.pushing(now))
+    told = "push " + words::compass(steering.heading());
+  else if (action == Action::kTurnLeft || action == Action::kTurnRight)
+    told = "heading " + words::compass(steering.heading());
+  if (told.empty() || (told == driving_told_ && now < driving_told_until_)) return;
+  driving_told_ = told;
+  say(told);
 }
 
 void TextGame::perform(Action action) {
   Pilot* const pilot = session_.room().pilot();
   const core::Time now = steady_clock::now();
+  const Handling handling{steer_, {0.0, 1.0}, repeat_delay_.pulse(), bindings_.release_seen()};
+  if (pilot != nullptr && drive(action, handling, pilot->steering(), now)) return tell_driving(action, now);
   switch (action) {
-    case Action::kPushPulse:
-    case Action::kPushHold:
-      if (pilot != nullptr) pilot->steering().push(now);
-      break;
-    case Action::kBrakePulse:
-    case Action::kBrakeHold:
-      if (pilot != nullptr) pilot->steering().brake(now);
-      break;
-    case Action::kTurnLeft:
-    case Action::kTurnRight:
-      if (pilot == nullptr) break;
-      pilot->steering().turn(action == Action::kTurnLeft ? Turn::kLeft : Turn::kRight);
-      say("heading " + words::compass(pilot->steering().heading()));
-      break;
-    case Action::kCruise:
-      if (pilot == nullptr) break;
-      pilot->steering().toggle_cruise();
-      say(pilot->steering().cruising() ? "cruise on" : "cruise off");
+    case Action::kSteer:
+      steer_ = steer_ == SteerBy::kHeading ? SteerBy::kCompass : SteerBy::kHeading;
+      if (pilot != nullptr) pilot->steering().reset();
+      say(steer_ == SteerBy::kCompass ? "steering by the compass: the keys push north, west, south and east"
+                                      : "steering by the heading: the keys push along it and turn it");
       break;
     case Action::kRespawn:
       session_.room().respawn();

@@ -9,8 +9,10 @@
 #include <optional>
 #include <string>
 
+#include "client/controls/driving.h"
+#include "client/controls/key_bindings.h"
+#include "client/controls/repeat_delay.h"
 #include "client/play/chat_entry.h"
-#include "client/play/key_bindings.h"
 #include "client/play/session.h"
 #include "client/terminal/key_input.h"
 #include "client/terminal/outcome.h"
@@ -30,10 +32,15 @@ std::vector<std::string> room(const RoomView& room);
 
 class TextGame {
  public:
+  /// How it is driven.
+  struct Manner {
+    KeyMap keys{};
+    SteerBy steer = SteerBy::kHeading;
+  };
   using Write = std::function<bool(const std::string& line)>;  ///< false: nobody reads any more
 
   /// keys: a terminal to read, taken over; -1: none.
-  TextGame(boost::asio::io_context& context, Session& session, int keys, Write write,
+  TextGame(boost::asio::io_context& context, Session& session, int keys, Write write, const Manner& manner,
            std::function<bool()> server_alive);
 
   Outcome run();
@@ -45,6 +52,7 @@ class TextGame {
   void update();
   void on_key(const Key& key);
   void perform(Action action);
+  void tell_driving(Action action, core::Time now);
   void tell_news();
   void tell_connection();
   void tell_proof();
@@ -58,6 +66,10 @@ class TextGame {
   std::optional<KeyInput> keys_;
   boost::asio::steady_timer timer_;
   KeyBindings bindings_;
+  RepeatDelay repeat_delay_;
+  SteerBy steer_;
+  std::string driving_told_;
+  core::Time driving_told_until_{};  ///< until then the same is not told again
   ChatEntry chat_;
   bool chatting_ = false;
   bool asked_ = false;          ///< Q was pressed and is to be confirmed

@@ -1,11 +1,16 @@
 #include "client/watch/replay_keys.h"
 
+#include "client/terminal/key_places.h"
+
 namespace woodlouse::client {
 namespace {
 
 /// Shift counts; on other alphabets' layouts the key in that place.
 char32_t character_of(const Key& key) {
-  return key.character > 0x7e && key.physical != 0 ? key.physical : key.character;
+  if (key.character <= 0x7e) return key.character;
+  if (key.physical != 0) return key.physical;
+  const char32_t place = place_on_us_keyboard(key.character);
+  return place != 0 ? place : key.character;
 }
 
 std::optional<ReplayCommand> character_command(char32_t character) {

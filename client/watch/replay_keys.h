@@ -5,7 +5,7 @@
 #include <optional>
 #include <variant>
 
-#include "client/play/key_bindings.h"
+#include "client/controls/key_bindings.h"
 #include "client/terminal/keyboard.h"
 
 namespace woodlouse::client {

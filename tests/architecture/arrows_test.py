@@ -45,10 +45,11 @@ ARROWS |= {
     "client/drawing": SHARED | {"client/cells", "client/ground", "client/drawing/course"},
     "client/drawing/course": SHARED | {"client/cells", "client/ground", "client/drawing"},
     "client/terminal": SHARED | {"client/cells", "client/drawing"},
+    "client/controls": SHARED | {"client/drawing", "client/terminal"},
     "client/net": SHARED,
-    "client/play": SHARED | {"client/cells", "client/drawing", "client/terminal", "client/net", "client/play/modes"},
+    "client/play": SHARED | {"client/cells", "client/controls", "client/drawing", "client/terminal", "client/net", "client/play/modes"},
     "client/play/modes": SHARED | {"client/cells", "client/drawing", "client/drawing/course", "client/play"},
-    "client/watch": SHARED | {"client/cells", "client/drawing", "client/terminal", "client/play", "client/play/modes"},
+    "client/watch": SHARED | {"client/cells", "client/controls", "client/drawing", "client/terminal", "client/play", "client/play/modes"},
 }
 for program in ("server", "client"):
     ARROWS[program] = SHARED | {room for room in ARROWS if room.startswith(program + "/")}

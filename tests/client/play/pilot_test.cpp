@@ -111,7 +111,7 @@ Report drive(const Line& line) {
       clock.observe(frames.front().tick, at(now));
 
     if (std::fmod(now, 700.0) == 0.0)
-      pilot.steering().turn(random.next() % 2 == 0 ? Turn::kLeft : Turn::kRight);
+      pilot.steering().turn(random.next() % 2 == 0 ? Turn::kLeft : Turn::kRight, at(now));
     if (std::fmod(now, 900.0) == 0.0) pilot.steering().push(at(now));
     if (std::fmod(now, 3100.0) == 0.0) pilot.steering().brake(at(now));
     if (std::fmod(now, 33.0) != 0.0) continue;

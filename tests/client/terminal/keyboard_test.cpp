@@ -150,3 +150,17 @@ TEST_CASE("overlong forms, surrogates and C1 controls are dropped") {
   REQUIRE(keys_of("\xc0\xaf\xe0\x80\xaf\xed\xa0\x80\xf4\x90\x80\x80\xc2\x9bw") ==
           std::vector<TerminalInput>{typed(U'w')});
 }
+
+TEST_CASE("the number pad types its digits in both of its modes and in kitty's numbers") {
+  REQUIRE(keys_of("\x1bOx\x1bOr\x1bOt\x1bOv") == keys_of("8246"));
+  REQUIRE(keys_of("\x1b[57407;1u\x1b[57401;1;50u") == keys_of("82"));
+}
+
+TEST_CASE("what answers a question is no key, and what begins like an answer ends with the next control") {
+  REQUIRE(keys_of("\x1b[12;3R\x1b[?2026;2$y\x1bP1$r48:2:1:2:3m\x1b\\w") ==
+          std::vector<TerminalInput>{CursorReport{12, 3}, ModeReport{2026, 2},
+                                     SettingReport{true, "48:2:1:2:3m"}, typed(U'w')});
+  REQUIRE(keys_of("\x1b]11;rgb:0/0/0\x07w") == keys_of("w"));
+  REQUIRE(keys_of("\x1bPqqq\x03") == keys_of("\x03"));
+  REQUIRE(keys_of("\x1bP\x1b[A") == keys_of("\x1b[A"));
+}

@@ -65,6 +65,16 @@ class Playing(InATerminal):
             seen.append(heading())
         self.assertGreater(len(set(seen)), 1, f"four times A turns by 90 degrees: {seen}")
 
+    def test_at_first_the_keys_push_that_way_in_the_picture_and_c_changes_it(self):
+        self.start(look="--color mono --glyphs ascii --view map")
+        self.terminal.shows(r"WASD push")
+        self.terminal.keys("d")
+        self.terminal.shows(r"@>")
+        self.terminal.keys("a")
+        self.terminal.shows(r"<@")
+        self.terminal.keys("c")
+        self.terminal.shows(r"W push S brake A/D turn")
+
     def test_help_scoreboard_and_views_come_and_go(self):
         self.play()
         self.terminal.type("?")
@@ -121,7 +131,7 @@ class Playing(InATerminal):
 
 
     def test_the_introduction_takes_a_question_mark_for_help_and_q_for_leaving(self):
-        self.terminal.run(f"{BIN}/woodlouse {LOOK}")
+        self.terminal.run(f"{BIN}/woodlouse {LOOK} --name mara")
         self.terminal.shows(r"Any key starts")
         self.terminal.type("?")
         self.terminal.shows(r"HELP")
@@ -129,7 +139,7 @@ class Playing(InATerminal):
         wait_for("the shell's screen", lambda: self.terminal.state() == "0 1")
         self.terminal.run("clear")
         wait_for("an empty screen", lambda: "Any key starts" not in self.terminal.screen())
-        self.terminal.run(f"{BIN}/woodlouse {LOOK}")
+        self.terminal.run(f"{BIN}/woodlouse {LOOK} --name mara")
         self.terminal.shows(r"Any key starts")
         self.terminal.keys("q")
         self.assertEqual(self.exit_code(), 0)

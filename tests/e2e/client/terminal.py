@@ -11,7 +11,7 @@ import unittest
 
 BIN = os.environ["WOODLOUSE_BIN"]  # the folder of woodlouse and woodlouse-server
 MAPS = os.environ["WOODLOUSE_MAPS"]
-LOOK = "--color mono --glyphs ascii --view map"
+LOOK = "--color mono --glyphs ascii --view map --steer heading"
 PATIENCE = 15.0  # seconds for anything to appear; the machine may be busy
 
 

@@ -1,4 +1,4 @@
-#include "client/play/key_bindings.h"
+#include "client/controls/key_bindings.h"
 
 #include <catch2/catch.hpp>
 
@@ -136,4 +136,48 @@ TEST_CASE("a paste into the chat is cut at the wire's limit between characters a
   chat.clear();
   chat.paste(many);
   REQUIRE(chat.text() == many.substr(0, 399));
+}
+
+TEST_CASE("keys of other alphabets count by their place, in the game and in questions") {
+  KeyBindings keys;
+  for (const char32_t c : {U'ц', U'Ц', U'ς', U'ص'})
+    CHECK(keys.on_key(letter(c), Overlay::kNone) == Action::kPushPulse);
+  for (const char32_t c : {U'ф', U'Α', U'α', U'ש'})
+    CHECK(keys.on_key(letter(c), Overlay::kNone) == Action::kTurnLeft);
+  CHECK(keys.on_key(letter(U'ы'), Overlay::kNone) == Action::kBrakePulse);
+  CHECK(keys.on_key(letter(U'і'), Overlay::kNone) == Action::kBrakePulse);
+  CHECK(keys.on_key(letter(U'й'), Overlay::kNone) == Action::kAskQuit);
+  CHECK(keys.on_key(letter(U'й'), Overlay::kQuitQuestion) == Action::kConfirm);
+  CHECK(keys.on_key(letter(U'н'), Overlay::kQuitQuestion) == Action::kConfirm);
+  CHECK(keys.on_key({.character = U'ф', .physical = U'w'}, Overlay::kNone) == Action::kPushPulse);
+}
+
+TEST_CASE("the number pad drives as the arrows do") {
+  KeyBindings keys;
+  CHECK(keys.on_key(letter(U'8'), Overlay::kNone) == Action::kPushPulse);
+  CHECK(keys.on_key(letter(U'2'), Overlay::kNone) == Action::kBrakePulse);
+  CHECK(keys.on_key(letter(U'4'), Overlay::kNone) == Action::kTurnLeft);
+  CHECK(keys.on_key(letter(U'6'), Overlay::kNone) == Action::kTurnRight);
+}
+
+TEST_CASE("keys that the config file names rule, and nothing else has them any more") {
+  KeyMap map;
+  REQUIRE(map.bind("up", {"z", "Up"}));
+  REQUIRE(map.bind("left", {"q"}));
+  CHECK(map.is_complete().error().where == "quit");
+  REQUIRE(map.bind("quit", {"End", "ö"}));
+  REQUIRE(map.is_complete());
+  KeyBindings keys(map);
+  CHECK(keys.on_key(letter(U'z'), Overlay::kNone) == Action::kPushPulse);
+  CHECK(keys.on_key(letter(U'Q'), Overlay::kNone) == Action::kTurnLeft);
+  CHECK_FALSE(keys.on_key(letter(U'w'), Overlay::kNone));
+  CHECK(keys.on_key({.code = KeyCode::kEnd}, Overlay::kNone) == Action::kAskQuit);
+  CHECK(keys.on_key(letter(U'ö'), Overlay::kQuitQuestion) == Action::kConfirm);
+  CHECK(map.labels().up == "Z");
+  CHECK(map.labels().up2 == "Up");
+  CHECK(map.labels().quit == "End");
+  CHECK(map.bind("fly", {"f"}).error().hint.find("known: up down") == 0);
+  CHECK(map.bind("chat", {"Space bar"}).error().hint.find("one character, or Space Up") == 0);
+  CHECK(map.bind("chat", {"z"}).error().what == "\"z\" is bound twice");
+  CHECK(map.bind("chat", {}).error().what == "it has no key");
 }

@@ -1,8 +1,10 @@
-#include "client/play/steering.h"
+#include "client/controls/steering.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "client/controls/driving.h"
+#include "client/controls/repeat_delay.h"
 #include "shared/protocol/codec.h"
 
 using namespace woodlouse;
@@ -73,25 +75,26 @@ TEST_CASE("cruise pushes without end until it is switched off, which ends it at 
   REQUIRE_FALSE(steering.poll(kStart + 5033ms));
 }
 
-TEST_CASE("a turn while pushing is sent at once, for the rest of the pulse") {
+TEST_CASE(
+    "a turn while pushing is sent at once, and is a press of its own: the key that pushes repeats no more") {
   Steering steering(kTickHz);
   steering.point({1.0, 0.0});
   steering.push(kStart);
   steering.poll(kStart);
-  steering.turn(Turn::kLeft);
+  steering.turn(Turn::kLeft, kStart + 100ms);
   const auto order = steering.poll(kStart + 100ms);
   REQUIRE(order);
-  REQUIRE(order->ticks == 18);
+  REQUIRE(order->ticks == 24);
   REQUIRE(std::atan2(order->thrust.value.y, order->thrust.value.x) == Approx(0.3927).margin(0.01));
 }
 
 TEST_CASE("sixteen turns come back to the first heading, and left undoes right") {
   Steering steering(kTickHz);
   steering.point({0.6, 0.8});
-  for (int i = 0; i < 16; ++i) steering.turn(Turn::kRight);
+  for (int i = 0; i < 16; ++i) steering.turn(Turn::kRight, kStart);
   REQUIRE(steering.heading().x == Approx(0.6));
-  steering.turn(Turn::kLeft);
-  steering.turn(Turn::kRight);
+  steering.turn(Turn::kLeft, kStart);
+  steering.turn(Turn::kRight, kStart);
   REQUIRE(steering.heading().y == Approx(0.8));
 }
 
@@ -159,4 +162,97 @@ TEST_CASE("what the wire carries is what the server applies: it neither rounds n
     REQUIRE_FALSE(received.clamped);
     REQUIRE(std::hypot(input.thrust.value.x, input.thrust.value.y) > 0.985);
   }
+}
+
+TEST_CASE("a held key pushes without a pause, whatever its keyboard waits before it repeats") {
+  for (const auto delay : {250ms, 500ms, 660ms, 1000ms}) {
+    Steering steering(kTickHz);
+    RepeatDelay learnt;
+    Server server;
+    const Key key{.character = U'w'};
+    const auto hold = [&](core::Time begin, bool is_checked) {
+      for (auto t = 0ms; t < 2000ms; t += 10ms) {
+        const bool comes = t == 0ms || (t >= delay && (t - delay) % 40ms == 0ms);
+        if (comes) {
+          learnt.observe(key, begin + t);
+          steering.set_pulse(learnt.pulse());
+          steering.push(begin + t);
+        }
+        server.take(steering.poll(begin + t), begin + t);
+        if (is_checked) REQUIRE(server.pushes(begin + t));
+      }
+    };
+    hold(kStart, false);  // the first time is learnt from
+    hold(kStart + 10s, true);
+    CHECK(learnt.pulse() == std::max<std::chrono::milliseconds>(400ms, delay + 100ms));
+  }
+}
+
+TEST_CASE("taps teach nothing: a press is as long as it says") {
+  RepeatDelay learnt;
+  const Key key{.character = U'w'};
+  core::Time at = kStart;
+  for (const auto gap : {300ms, 140ms, 90ms, 150ms, 600ms, 95ms, 99ms, 130ms, 5000ms, 60ms, 50ms, 400ms}) {
+    learnt.observe(key, at);
+    at += gap;
+  }
+  CHECK(learnt.pulse() == Steering::kPulse);
+  for (int i = 0; i < 20; ++i) learnt.observe(Key{.character = i % 2 == 0 ? U'a' : U'd'}, at += 30ms);
+  CHECK(learnt.pulse() == Steering::kPulse);
+}
+
+TEST_CASE("by the compass keys push that way in the picture, two together between them") {
+  const core::Vec2 up{0.6, 0.8};
+  const Handling handling{SteerBy::kCompass, up, 400ms, false};
+  Steering steering(kTickHz);
+  REQUIRE(drive(Action::kPushPulse, handling, steering, kStart));
+  CHECK(std::abs(steering.heading().x - up.x) < 1e-12);
+  drive(Action::kTurnRight, handling, steering, kStart + 100ms);
+  const double half = std::sqrt(0.5);
+  CHECK(steering.heading().x == Approx(half * (0.6 + 0.8)));
+  CHECK(steering.heading().y == Approx(half * (0.8 - 0.6)));
+  CHECK(steering.poll(kStart + 100ms));
+  REQUIRE(steering.poll(kStart + 410ms));  // up has ended, right has not
+  CHECK(steering.heading().x == Approx(0.8));
+  CHECK(steering.pushing(kStart + 410ms));
+  CHECK_FALSE(steering.pushing(kStart + 510ms));
+  drive(Action::kStopPulse, handling, steering, kStart + 450ms);
+  CHECK(steering.braking(kStart + 450ms));
+}
+
+TEST_CASE(
+    "by the compass keys that are let go end their own push alone, and against each other push nowhere") {
+  const Handling handling{SteerBy::kCompass, {0.0, 1.0}, 400ms, true};
+  Steering steering(kTickHz);
+  drive(Action::kPushHold, handling, steering, kStart);
+  drive(Action::kTurnLeft, handling, steering, kStart);
+  CHECK(steering.pushing(kStart + 5s));
+  drive(Action::kPushRelease, handling, steering, kStart + 5s);
+  REQUIRE(steering.poll(kStart + 5s));
+  CHECK(steering.heading().x == Approx(-1.0));
+  drive(Action::kTurnRight, handling, steering, kStart + 6s);
+  CHECK_FALSE(steering.pushing(kStart + 6s));
+  drive(Action::kTurnLeftRelease, handling, steering, kStart + 7s);
+  CHECK(steering.pushing(kStart + 7s));
+  drive(Action::kTurnRightRelease, handling, steering, kStart + 8s);
+  CHECK_FALSE(steering.pushing(kStart + 8s));
+}
+
+TEST_CASE("a cruise goes where the compass was last told") {
+  const Handling handling{SteerBy::kCompass, {0.0, 1.0}, 400ms, false};
+  Steering steering(kTickHz);
+  drive(Action::kCruise, handling, steering, kStart);
+  drive(Action::kBrakePulse, handling, steering, kStart + 1s);  // down
+  REQUIRE(steering.poll(kStart + 3s));
+  CHECK(steering.cruising());
+  CHECK(steering.heading().y == Approx(-1.0));
+}
+
+TEST_CASE("by the compass a press the other way ends the first at once") {
+  const Handling handling{SteerBy::kCompass, {0.0, 1.0}, 400ms, false};
+  Steering steering(kTickHz);
+  drive(Action::kTurnRight, handling, steering, kStart);
+  drive(Action::kTurnLeft, handling, steering, kStart + 50ms);
+  CHECK(steering.heading().x == Approx(-1.0));
+  CHECK(steering.pushing(kStart + 50ms));
 }

@@ -5,20 +5,28 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
+#include "client/controls/key_map.h"
 #include "client/terminal/keyboard.h"
 
 namespace woodlouse::client {
 
 enum class Action : std::uint8_t {
-  kPushPulse,  ///< W, Up: push for a pulse; repeats extend it
-  kPushHold,   ///< the same where releases are known: push until kPushRelease
+  kPushPulse,  ///< W, Up: for a pulse; repeats extend it
+  kPushHold,   ///< the same where releases are known: until kPushRelease
   kPushRelease,
   kBrakePulse,  ///< S, Down
   kBrakeHold,
   kBrakeRelease,
-  kTurnLeft,    ///< A, Left: counter-clockwise on the map
-  kTurnRight,   ///< D, Right
+  kTurnLeft,  ///< A, Left: counter-clockwise on the map
+  kTurnLeftRelease,
+  kTurnRight,  ///< D, Right
+  kTurnRightRelease,
+  kStopPulse,  ///< X: brakes, however it is steered
+  kStopHold,
+  kStopRelease,
+  kSteer,       ///< C: by the heading, or by the compass (Steering)
   kCruise,      ///< Space: latches the push
   kRespawn,     ///< R
   kChat,        ///< T
@@ -43,6 +51,9 @@ enum class Overlay : std::uint8_t { kNone, kHelp, kScoreboard, kQuitQuestion };
 
 class KeyBindings {
  public:
+  explicit KeyBindings(KeyMap keys = {}) : keys_(std::move(keys)) {}
+
+  [[nodiscard]] const KeyMap& keys() const { return keys_; }
   /// What the key does now; nothing for keys without a meaning.
   std::optional<Action> on_key(const Key& key, Overlay overlay);
   /// Watches for releases only: for keys that went elsewhere (into the chat).
@@ -51,16 +62,17 @@ class KeyBindings {
   [[nodiscard]] bool release_seen() const { return release_seen_; }
 
  private:
+  KeyMap keys_;
   bool release_seen_ = false;
 };
 
 /// What works over everything, the chat included: Ctrl-C, Ctrl-Z, Ctrl-L.
 std::optional<Action> control_action(const Key& key);
 
-/// Q or Escape: leaves unasked where there is nothing to leave, the connection being lost.
-bool is_leaving(const Key& key);
+/// Quit's key or Escape: leaves unasked where there is nothing to leave, the connection being lost.
+bool is_leaving(const Key& key, const KeyMap& keys = {});
 
 /// What changes only the picture, in the game as in a recording: V, L, P, + and -, Tab, help.
-std::optional<Action> picture_action(const Key& key);
+std::optional<Action> picture_action(const Key& key, const KeyMap& keys = {});
 
 }  // namespace woodlouse::client

@@ -1,11 +1,17 @@
 // From pushes, turns and brakes to the thrust the wire carries. The heading lives here, in the client: the
 // wire gets a map vector along it, with the ticks it is to act; a brake is the number -1.
 //
-// A press without a known release is a pulse of kPulse; repeats extend it. Held and latched pushes go out as
-// pulses too, renewed before they end, so that a client that dies or loses its line does not push for ever.
-// Time is an argument; poll() says what to send, at most once a tick.
+// There are two ways to steer. By the heading: up pushes along it, left and right turn it. By the compass:
+// each of the four pushes that way in the picture, two of them between, and the heading is where it pushes,
+// or pushed last.
+//
+// A press without a known release is a pulse; repeats extend it, and so does a turn: in a terminal the key
+// that turns ends the repeats of the one that pushes. Held and latched pushes go out as pulses too, renewed
+// before they end, so that a client that dies or loses its line does not push for ever. Time is an argument;
+// poll() says what to send, at most once a tick.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -18,6 +24,9 @@ namespace woodlouse::client {
 
 enum class Turn : std::uint8_t { kLeft, kRight };
 
+/// Where a push by the compass goes, in the picture.
+enum class Side : std::uint8_t { kUp, kDown, kLeft, kRight };  // each beside the other way
+
 /// What one input message asks for.
 struct ThrustOrder {
   state::Thrust thrust;
@@ -27,7 +36,7 @@ struct ThrustOrder {
 
 class Steering {
  public:
-  static constexpr std::chrono::milliseconds kPulse{400};
+  static constexpr std::chrono::milliseconds kPulse{400};  ///< of a press, until set_pulse()
   static constexpr std::chrono::milliseconds kRenewBefore{
       200};                             ///< what is left of a held pulse when it is renewed
   static constexpr int kHeadings = 16;  ///< a turn is a 16th of the circle, 22.5 degrees
@@ -38,7 +47,9 @@ class Steering {
   void point(core::Vec2 heading);
   /// Ends every push, the latched one too; the server has forgotten them as well.
   void reset();
-  void turn(Turn direction);
+  void turn(Turn direction, core::Time now);
+  /// How long a press pushes from here on.
+  void set_pulse(std::chrono::milliseconds pulse);
 
   void push(core::Time now);
   void brake(core::Time now);  ///< also ends cruise
@@ -47,6 +58,12 @@ class Steering {
   void release_push();
   void release_brake();
   void toggle_cruise();
+  // By the compass:
+  /// The map's direction that goes up in the picture, a unit vector: pushes under way turn with it.
+  void look_along(core::Vec2 up);
+  void push_to(Side side, core::Time now);  ///< turns a cruise, too; ends a push the other way
+  void hold_to(Side side, core::Time now);
+  void release_to(Side side);
   void release_all();  ///< the terminal lost focus: releases will not be seen
 
   /// The order to send now, or nothing while the last one still says it.
@@ -60,6 +77,16 @@ class Steering {
   [[nodiscard]] double seconds_left(core::Time now) const;
 
  private:
+  /// A push to one side.
+  struct Press {
+    bool held = false;
+    core::Time until{};
+    [[nodiscard]] bool acts(core::Time now) const { return held || now < until; }
+  };
+
+  /// Where the sides that act push together; zero: nowhere.
+  [[nodiscard]] core::Vec2 sideways(core::Time now) const;
+  void point_sideways(core::Time now);
   [[nodiscard]] state::Thrust wanted(core::Time now) const;
   [[nodiscard]] core::Time wanted_until(core::Time now) const;
 
@@ -69,6 +96,9 @@ class Steering {
   bool cruise_ = false;
   bool push_held_ = false;
   bool brake_held_ = false;
+  std::chrono::milliseconds pulse_ = kPulse;
+  core::Vec2 up_{0.0, 1.0};
+  std::array<Press, 4> sides_{};  ///< by Side
   core::Time push_until_{};
   core::Time brake_until_{};
   state::Thrust sent_;  ///< what the server was last told

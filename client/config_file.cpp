@@ -1,0 +1,86 @@
+#include "client/config_file.h"
+
+#include <cassert>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "shared/core/whole_file.h"
+#include "shared/json/text.h"
+
+namespace woodlouse::client {
+namespace {
+
+constexpr std::size_t kMaxBytes = 1u << 20;
+
+std::filesystem::path folder_of(const char* variable) {
+  const char* const value = std::getenv(variable);
+  return value == nullptr ? std::filesystem::path() : std::filesystem::path(value);
+}
+
+}  // namespace
+
+std::filesystem::path config_file() {
+  if (const auto xdg = folder_of("XDG_CONFIG_HOME"); !xdg.empty()) return xdg / "woodlouse" / "config.json";
+  const auto home = folder_of("HOME");
+  return home.empty() ? home : home / ".config" / "woodlouse" / "config.json";
+}
+
+core::Expected<KeyMap> keys_of(const json::Value& value) {
+  if (!value.is(json::Kind::kObject))
+    return core::fail("", "it is no object", R"(for example {"up": ["z", "Up"], "quit": "k"})");
+  KeyMap map;
+  for (const json::Value& action : value.children()) {
+    std::vector<std::string> keys;
+    if (action.is(json::Kind::kString)) keys.emplace_back(action.text());
+    for (const json::Value& key : action.children()) {
+      if (!key.is(json::Kind::kString)) return core::fail(std::string(action.key()), "a key is a string");
+      keys.emplace_back(key.text());
+    }
+    const auto bound = map.bind(action.key(), keys);
+    if (!bound) return tl::unexpected(bound.error());
+  }
+  const auto complete = map.is_complete();
+  if (!complete) return tl::unexpected(complete.error());
+  return map;
+}
+
+std::string with_name(std::string text, const std::string& name) {
+  if (text.empty()) text = "{}\n";
+  const std::size_t open = text.find('{');
+  assert(open != std::string::npos);
+  const std::size_t next = text.find_first_not_of(" \t\r\n", open + 1);
+  const bool is_empty = next == std::string::npos || text[next] == '}';
+  std::string member = "\"name\": ";
+  json::append_string(member, name);
+  return text.insert(open + 1, member + (is_empty ? "" : ", "));
+}
+
+core::Expected<void> remember_name(const std::filesystem::path& file, const std::string& name) {
+  const std::string where = file.string();
+  std::error_code error;
+  std::string text;
+  if (std::filesystem::exists(file, error)) {
+    auto read = core::read_whole_file(file, kMaxBytes);
+    if (!read) return tl::unexpected(read.error());
+    text = std::move(*read);
+  }
+  std::filesystem::create_directories(file.parent_path(), error);
+  if (error) return core::fail(where, error.message());
+  const std::filesystem::path part = where + ".part";
+  std::ofstream out(part, std::ios::binary | std::ios::trunc);
+  out << with_name(std::move(text), name);
+  out.close();
+  if (!out) return core::fail(where, std::strerror(errno));
+  std::filesystem::rename(part, file, error);
+  if (error) return core::fail(where, error.message());
+  return {};
+}
+
+}  // namespace woodlouse::client
