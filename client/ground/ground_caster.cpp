@@ -51,7 +51,7 @@ std::optional<GroundHit> GroundCaster::cast(double x, double y) const {
   for (double way = from + stride;; way += stride) {
     const double at = std::min(way, to);
     const Vec3 p = e + at * d;
-    if (p.z < height(p)) return cross(before, at, d);
+    if (p.z < ceiling(p) && p.z < height(p)) return cross(before, at, d);
     if (at >= to) return std::nullopt;
     before = at;
   }

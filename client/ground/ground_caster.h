@@ -31,6 +31,7 @@ class GroundCaster {
 
  private:
   [[nodiscard]] double height(Vec3 p) const { return relief_.sample({p.x, p.y}).z * relief_.exaggeration(); }
+  [[nodiscard]] double ceiling(Vec3 p) const { return relief_.ceiling({p.x, p.y}) * relief_.exaggeration(); }
   [[nodiscard]] GroundHit cross(double above, double below, Vec3 direction) const;
 
   const Relief& relief_;

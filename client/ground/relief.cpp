@@ -36,7 +36,8 @@ double rim_above_middle(const terrain::HeightGrid& grid, double range) {
 
 }  // namespace
 
-Relief::Relief(std::shared_ptr<const terrain::Terrain> terrain) : terrain_(std::move(terrain)) {
+Relief::Relief(std::shared_ptr<const terrain::Terrain> terrain)
+    : terrain_(std::move(terrain)), ceiling_(*terrain_) {
   const terrain::HeightGrid grid = terrain::sample_grid(*terrain_, kProbes, kProbes);
   std::vector<double> slopes;
   slopes.reserve(grid.heights.size());
@@ -101,6 +102,7 @@ double Relief::unshadowed(core::Vec2 p, double z) const {
     const core::Vec2 q = p + way * kLight;
     const double ray = z * exaggeration_ + way * kLightUp;
     if (ray > top + way || !d.contains(q.x, q.y)) break;
+    if (kPenumbra * (ray - ceiling_.at(q) * exaggeration_) >= least * way) continue;
     least = std::min(least, kPenumbra * (ray - terrain_->sample(q.x, q.y).z * exaggeration_) / way);
     if (least < -0.5) break;
   }

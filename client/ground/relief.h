@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include "client/ground/height_ceiling.h"
 #include "shared/core/vec2.h"
 #include "shared/terrain/terrain.h"
 
@@ -33,6 +34,8 @@ class Relief {
 
   /// The surface at a point, which is moved into the domain where it lies outside.
   [[nodiscard]] terrain::SurfaceSample sample(core::Vec2 p) const;
+  /// A height that the ground at a point stays under [m].
+  [[nodiscard]] double ceiling(core::Vec2 p) const { return ceiling_.at(p); }
   /// The height at a point; beyond the edge the edge's slope goes on.
   [[nodiscard]] double extended_height(core::Vec2 p) const;
   /// Where a height stands on the colour ramp, 0 lowest .. 1 highest: by height and by how much of the
@@ -57,6 +60,7 @@ class Relief {
   [[nodiscard]] double unshadowed(core::Vec2 p, double z) const;
 
   std::shared_ptr<const terrain::Terrain> terrain_;
+  HeightCeiling ceiling_;
   std::vector<double> heights_;  ///< of a grid of points, ascending
   double steep_ = 0.0;
   double exaggeration_ = 1.0;

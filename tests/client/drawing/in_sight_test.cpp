@@ -2,38 +2,20 @@
 // above.
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <filesystem>
-#include <memory>
-#include <string>
 #include <vector>
 
 #include "client/drawing/compose.h"
 #include "client/drawing/landmarks.h"
 #include "client/drawing/layout.h"
 #include "client/ground/follow_camera.h"
-#include "shared/map/map_file.h"
-#include "tests/client/drawing/staged_game.h"
+#include "shared/core/random.h"
+#include "tests/client/drawing/shipped_maps.h"
 
 using namespace woodlouse;
 using namespace woodlouse::client;
+using namespace woodlouse::client::testing;
 
 namespace {
-
-/// Every shipped map, once.
-const std::vector<std::shared_ptr<const map::Map>>& shipped_maps() {
-  static const auto maps = [] {
-    std::vector<std::shared_ptr<const map::Map>> loaded;
-    for (const auto& entry :
-         std::filesystem::directory_iterator(std::string(WOODLOUSE_SOURCE_DIR) + "/maps")) {
-      if (entry.path().extension() != ".json") continue;
-      auto one = map::load_map(entry.path().string());
-      REQUIRE(one);
-      loaded.push_back(std::move(*one));
-    }
-    return loaded;
-  }();
-  return maps;
-}
 
 /// Corners, walls, a hair inside of them, and the middle.
 std::vector<core::Vec2> places(const terrain::Rectangle& d) {
@@ -44,14 +26,9 @@ std::vector<core::Vec2> places(const terrain::Rectangle& d) {
   return result;
 }
 
-Scene scene_of(const map::Map& map, Look look, View view) {
-  Scene scene;
-  scene.terrain = map.terrain;
-  const state::Parameters& physics = map.definition.physics;
-  scene.landmarks = {physics.edges, physics.central_gravity > 0.0 ? physics.core_radius : 0.0};
-  scene.look = look;
-  scene.view = view;
-  scene.labels = false;
+/// The map with you on it.
+Scene scene_with_you(const map::Map& map, Look look, View view) {
+  Scene scene = scene_of(map, look, view);
   LouseMark louse;
   louse.id = 1;
   louse.is_you = true;
@@ -88,7 +65,7 @@ TEST_CASE("your louse is in every picture of a whole map, in corners, at seams a
       for (const Look look : {kCharacters, kPixels})
         for (const View view : {View::kMap, View::kOblique, View::kSlope}) {
           Composer composer;
-          Scene scene = scene_of(*map, look, view);
+          Scene scene = scene_with_you(*map, look, view);
           CellBuffer empty(size);
           Scene nobody = scene;
           nobody.lice.clear();
@@ -149,7 +126,7 @@ TEST_CASE("a followed louse is in the picture that is drawn, in characters and i
   for (const auto& map : shipped_maps())
     for (const Look look : {kCharacters, kPixels}) {
       Composer composer;
-      Scene scene = scene_of(*map, look, View::kFollow);
+      Scene scene = scene_with_you(*map, look, View::kFollow);
       const terrain::Rectangle& d = map->terrain->domain();
       CellBuffer cells({60, 20});
       const Viewport part = layout_for(cells.size(), look).map;
@@ -168,4 +145,22 @@ TEST_CASE("a followed louse is in the picture that is drawn, in characters and i
         if (look == kCharacters) CHECK(letters(cells, part) == 1);
       }
     }
+}
+
+TEST_CASE("a ceiling is over the ground everywhere, and near it where the ground is level") {
+  core::Random random(27);
+  for (const auto& map : shipped_maps()) {
+    const Relief relief(map->terrain);
+    const terrain::Rectangle& d = map->terrain->domain();
+    int low = 0;
+    constexpr int kPoints = 20000;
+    for (int i = 0; i < kPoints; ++i) {
+      const core::Vec2 p{d.x_min + (d.x_max - d.x_min) * random.uniform(),
+                         d.y_min + (d.y_max - d.y_min) * random.uniform()};
+      const double over = relief.ceiling(p) - relief.sample(p).z;
+      if (over < 0.0) FAIL(map->definition.name << ": " << -over << " m above it at " << p.x << ", " << p.y);
+      low += over < 0.1 * (relief.highest() - relief.lowest()) ? 1 : 0;
+    }
+    CHECK((relief.is_flat() || low > kPoints / 2));
+  }
 }

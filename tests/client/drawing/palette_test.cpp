@@ -6,18 +6,17 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <filesystem>
 #include <iostream>
-#include <string>
 #include <vector>
 
 #include "client/drawing/compose.h"
 #include "client/drawing/layout.h"
 #include "client/drawing/pixels.h"
-#include "shared/map/map_file.h"
+#include "tests/client/drawing/shipped_maps.h"
 
 using namespace woodlouse;
 using namespace woodlouse::client;
+using namespace woodlouse::client::testing;
 
 namespace {
 
@@ -75,15 +74,9 @@ std::vector<Rgb> grounds(ColorMode mode) {
   }
   add(edge_color(0.7, mode));
   add(edge_color(1.0, mode));
-  for (const auto& entry : std::filesystem::directory_iterator(std::string(WOODLOUSE_SOURCE_DIR) + "/maps")) {
-    if (entry.path().extension() != ".json") continue;
-    const auto map = map::load_map(entry.path().string());
-    REQUIRE(map);
-    Scene scene;
-    scene.terrain = (*map)->terrain;
-    const state::Parameters& physics = (*map)->definition.physics;
-    scene.landmarks = {state::Edges::kOpen, physics.central_gravity > 0.0 ? physics.core_radius : 0.0};
-    scene.look = {mode, GlyphSet::kHalfBlocks};
+  for (const auto& map : shipped_maps()) {
+    Scene scene = scene_of(*map, {mode, GlyphSet::kHalfBlocks}, View::kMap);
+    scene.landmarks.edges = state::Edges::kOpen;
     for (const View view : {View::kMap, View::kOblique, View::kSlope}) {
       scene.view = view;
       CellBuffer cells({60, 20});
@@ -92,7 +85,7 @@ std::vector<Rgb> grounds(ColorMode mode) {
       for (int row = 0; row < part.size.rows - 1; ++row)
         for (int column = 0; column < part.size.columns; ++column) {
           const Cell& cell = cells.at(part.column + column, part.row + row);
-          if (cell.glyph != kUpperHalfBlock || physics.central_gravity > 0.0) continue;
+          if (cell.glyph != kUpperHalfBlock) continue;
           add(cell.style.foreground);
           add(cell.style.background);
         }
