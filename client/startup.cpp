@@ -16,6 +16,7 @@
 #include "client/local_server.h"
 #include "client/opened_terminal.h"
 #include "client/play/game.h"
+#include "client/play/modes/ghost_file.h"
 #include "client/play/session.h"
 #include "client/play/text_game.h"
 #include "client/terminal/outcome.h"
@@ -91,6 +92,11 @@ std::optional<TerminalInput> await_key(boost::asio::io_context& context, KeySour
   return typed.empty() ? std::nullopt : std::optional(typed.front());
 }
 
+/// Where things are remembered; empty: nowhere.
+std::filesystem::path data_of(const Config& config) {
+  return config.no_files ? std::filesystem::path() : data_folder();
+}
+
 Outcome play(boost::asio::io_context& context, Session& session, const Config& config, LocalServer* local) {
   const auto terminal = OpenedTerminal::open(config.color, config.glyphs);
   if (!terminal)
@@ -98,7 +104,8 @@ Outcome play(boost::asio::io_context& context, Session& session, const Config& c
                          terminal.error().hint + "\n"};
   Look look = (*terminal)->look();
   look.palette = config.palette;
-  GameSettings settings{look, config.view, config.fps, Overlay::kNone, config.keys, config.steer};
+  GameSettings settings{look,        config.view,  config.fps,     Overlay::kNone,
+                        config.keys, config.steer, data_of(config)};
   if (local != nullptr) {
     introduce(config, session, look);
     const auto guard = (*terminal)->enter(TerminalUse::kKeysOnly);
@@ -130,7 +137,7 @@ bool write_line(const std::string& line) {
 }
 
 Outcome tell(boost::asio::io_context& context, Session& session, const Config& config, LocalServer* local) {
-  const TextGame::Manner manner{config.keys, config.steer};
+  const TextGame::Manner manner{config.keys, config.steer, isatty(STDIN_FILENO) == 0 ? "" : data_of(config)};
   const auto alive = local != nullptr ? [local] { return local->alive(); } : std::function<bool()>();
   write_line("joined " + session.connection().address().text() + ", map " +
              session.room().welcome()->map_name);
@@ -184,6 +191,7 @@ int run_client(const Config& config) {
   if (role == protocol::Role::kSpectator && config.hashes == Hashes::kIgnored) join = by_inputs(join);
   join.token = config.token;
   Session session(context, local ? local->address() : *config.server, join);
+  if (!data_of(config).empty()) session.room().own_game().ghosts().keep_in(data_of(config));
   if (const auto joined = session.join(); !joined) {
     return complain(kExitUnreachable,
                     "cannot connect to " + joined.error().where + ": " + joined.error().what,

@@ -33,6 +33,10 @@ std::optional<Action> play_action(const Key& key, const KeyMap& keys) {
       return Action::kCruise;
     case Control::kRespawn:
       return Action::kRespawn;
+    case Control::kGhost:
+      return Action::kGhost;
+    case Control::kGate:
+      return Action::kGate;
     case Control::kChat:
       return Action::kChat;
     case Control::kNext:

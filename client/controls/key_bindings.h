@@ -29,6 +29,8 @@ enum class Action : std::uint8_t {
   kSteer,       ///< C: by the heading, or by the compass (Steering)
   kCruise,      ///< Space: latches the push
   kRespawn,     ///< R
+  kGhost,       ///< G: best, last, off
+  kGate,        ///< B: a gate of one's own
   kChat,        ///< T
   kScoreboard,  ///< Tab
   kView,        ///< V

@@ -11,8 +11,8 @@ namespace woodlouse::client {
 namespace {
 
 constexpr std::array<std::string_view, kControlCount> kControlNames = {
-    "up",   "down", "left",   "right",  "brake",   "cruise",   "respawn", "chat",  "scores",
-    "view", "help", "labels", "trails", "zoom_in", "zoom_out", "next",    "steer", "quit"};
+    "up",     "down", "left", "right",  "brake",  "cruise",  "respawn",  "ghost", "gate",  "chat",
+    "scores", "view", "help", "labels", "trails", "zoom_in", "zoom_out", "next",  "steer", "quit"};
 
 struct NamedKey {
   std::string_view name;   ///< in the config file
@@ -86,6 +86,8 @@ KeyMap::KeyMap() {
   give(Control::kBrake, U"x5", {});
   give(Control::kCruise, U" ", {});
   give(Control::kRespawn, U"r", {});
+  give(Control::kGhost, U"g", {});
+  give(Control::kGate, U"b", {});
   give(Control::kChat, U"t", {});
   give(Control::kScores, U"", {KeyCode::kTab});
   give(Control::kView, U"v", {});
@@ -161,6 +163,7 @@ KeyLabels KeyMap::labels() const {
   labels.left = label(Control::kLeft, 0), labels.right = label(Control::kRight, 0);
   labels.brake = label(Control::kBrake, 0), labels.cruise = label(Control::kCruise, 0);
   labels.respawn = label(Control::kRespawn, 0), labels.chat = label(Control::kChat, 0);
+  labels.ghost = label(Control::kGhost, 0), labels.gate = label(Control::kGate, 0);
   labels.scores = label(Control::kScores, 0), labels.view = label(Control::kView, 0);
   labels.help = label(Control::kHelp, 0), labels.labels = label(Control::kLabels, 0);
   labels.trails = label(Control::kTrails, 0), labels.zoom_in = label(Control::kZoomIn, 0);

@@ -23,6 +23,8 @@ enum class Control : std::uint8_t {
   kBrake,
   kCruise,
   kRespawn,
+  kGhost,
+  kGate,
   kChat,
   kScores,
   kView,
@@ -35,7 +37,7 @@ enum class Control : std::uint8_t {
   kSteer,
   kQuit,
 };
-inline constexpr std::size_t kControlCount = 18;
+inline constexpr std::size_t kControlCount = 20;
 
 /// A key by what it types, small letters, or by its name.
 struct BoundKey {

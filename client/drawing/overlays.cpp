@@ -76,8 +76,9 @@ std::vector<HelpLine> game_help(const Scene& scene) {
     lines = driving_help(keys);
   const std::string zoom = "  " + keys.zoom_in + "/" + keys.zoom_out + " zoom";
   lines.push_back({"SEE", keys.view + " view: map / oblique / follow / slope" + zoom});
-  lines.push_back({"", keys.labels + " labels   " + keys.trails + " trails   " +
-                           (keys.scores == "TAB" ? "Tab" : keys.scores) + " scoreboard"});
+  lines.push_back({"", keys.labels + " labels  " + keys.trails + " trails  " +
+                           (keys.scores == "TAB" ? "Tab" : keys.scores) + " scores" +
+                           (scene.spectating ? "" : "  " + keys.ghost + " ghosts  " + keys.gate + " gate")});
   lines.push_back({"TALK", keys.chat + " chat  Enter sends  Esc cancels  /skip next game"});
   lines.push_back({"QUIT", keys.quit + " (asks)   Ctrl-C (now; restores the terminal)"});
   lines.push_back({"MAP", "Close lines are steep. You roll downhill for free,"});

@@ -26,6 +26,7 @@ Game::Game(boost::asio::io_context& context, Session& session, TerminalGuard& gu
       settings_(settings),
       server_alive_(std::move(server_alive)),
       bindings_(settings.keys),
+      teacher_(settings.data),
       loop_(context, guard, std::move(keys), screen, settings.fps, *this) {}
 
 Outcome Game::run() {
@@ -60,6 +61,8 @@ void Game::on_key(const Key& key) {
     }
     return loop_.hurry();
   }
+  if (key.code == KeyCode::kEscape && interface_.overlay == Overlay::kNone && teacher_.dismiss())
+    return loop_.hurry();
   if (const auto action = bindings_.on_key(key, interface_.overlay)) {
     if (key.action != KeyAction::kRelease && !bindings_.release_seen())
       repeat_delay_.observe(key, steady_clock::now());
@@ -102,6 +105,13 @@ void Game::perform(Action action) {
     case Action::kRespawn:
       session_.room().respawn();
       break;
+    case Action::kGhost:
+      if (session_.room().pilot() != nullptr)
+        session_.room().notice(session_.room().own_game().ghosts().cycle(), steady_clock::now());
+      break;
+    case Action::kGate:
+      session_.room().set_gate(steady_clock::now());
+      break;
     case Action::kNextLouse:
       interface_.follow_id =
           next_louse(session_.room().sight(), followed(session_.room().sight(), interface_.follow_id));
@@ -135,6 +145,8 @@ Scene Game::scene(core::Time now, double fps) {
   scene.keys = bindings_.keys().labels();
   scene.keys.compass = interface_.steer == SteerBy::kCompass;
   scene.keys.pulse_seconds = std::chrono::duration<double>(repeat_delay_.pulse()).count();
+  teacher_.observe(session_.room().sight(), now);
+  scene.course.lesson = teacher_.lines(scene.keys);
   return scene;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <boost/asio/io_context.hpp>
+#include <filesystem>
 #include <functional>
 #include <optional>
 
@@ -9,6 +10,7 @@
 #include "client/controls/repeat_delay.h"
 #include "client/play/chat_entry.h"
 #include "client/play/interface.h"
+#include "client/play/modes/teacher.h"
 #include "client/play/scene_builder.h"
 #include "client/play/session.h"
 #include "client/terminal/outcome.h"
@@ -26,6 +28,7 @@ struct GameSettings {
   Overlay first = Overlay::kNone;  ///< what lies over the first frame
   KeyMap keys{};
   SteerBy steer = SteerBy::kHeading;
+  std::filesystem::path data{};  ///< where it is remembered who has had the lesson; empty: nowhere
 };
 
 class Game final : private Performance {
@@ -56,6 +59,7 @@ class Game final : private Performance {
   RepeatDelay repeat_delay_;
   Interface interface_;
   ChatEntry chat_;
+  Teacher teacher_;
   core::Time server_seen_{};  ///< when server_alive_ was last asked
   TerminalLoop loop_;
 };

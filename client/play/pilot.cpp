@@ -27,7 +27,7 @@ void Lead::observe(const protocol::Ack& ack) {
 
 Pilot::Pilot(const map::Map& map, std::uint32_t tick_hz, std::uint32_t id, state::Mode mode,
              std::uint32_t last_seq)
-    : id_(id), steering_(tick_hz), lead_(tick_hz), seq_(last_seq) {
+    : id_(id), steering_(tick_hz), lead_(tick_hz), seq_(last_seq), log_(tick_hz) {
   if (map.detail != map::Detail::kExact) return;
   ways_ = {map.terrain->domain(), map.definition.physics.edges};
   prediction_.emplace(map, tick_hz, mode);
@@ -40,6 +40,7 @@ protocol::Input Pilot::order(std::uint64_t tick, const ThrustOrder& wanted) {
   if (wanted.ticks != state::kHeld) input.ticks = wanted.ticks;
   input.tick = tick;
   if (prediction_) prediction_->sent(input.seq, tick, wanted);
+  log_.sent(input.seq, wanted);
   last_tick_ = tick;
   return input;
 }
@@ -67,6 +68,7 @@ std::optional<protocol::Input> Pilot::update(core::Time now, ServerClock& clock,
 
 void Pilot::acknowledge(const protocol::Ack& ack) {
   lead_.observe(ack);
+  log_.acknowledged(ack);
   if (prediction_) prediction_->acknowledge(ack);
   if (!ack.you) return;
   wants_state_ = false;
@@ -88,6 +90,7 @@ void Pilot::compare(std::uint64_t tick, const LouseSample& row) {
 }
 
 void Pilot::respawned() {
+  if (prediction_) ended_ = log_.finish(prediction_->tick());
   if (prediction_) prediction_->forget();
   steering_.reset();
   heading_taken_ = false;

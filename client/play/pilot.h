@@ -11,12 +11,15 @@
 // all others are.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "client/controls/steering.h"
 #include "client/net/server_clock.h"
+#include "client/play/modes/drive.h"
 #include "client/play/prediction.h"
 #include "client/play/view_state.h"
 #include "shared/core/clock.h"
@@ -56,6 +59,16 @@ class Pilot {
   /// Back at a spawn point: the next ack says where.
   void respawned();
 
+  /// The drive that a respawn has ended, once.
+  std::optional<OwnDrive> take_drive() { return std::exchange(ended_, std::nullopt); }
+  /// A lap of a race ended.
+  void lap(std::uint64_t moments) { log_.lap(moments); }
+  /// Ticks since the present drive began, as the louse is drawn; none before the first exact state.
+  [[nodiscard]] std::optional<double> since_spawn() const {
+    if (!log_.begun()) return std::nullopt;
+    return std::max(0.0, ahead_ - static_cast<double>(*log_.begun()));
+  }
+
   Steering& steering() { return steering_; }
   [[nodiscard]] const Steering& steering() const { return steering_; }
   [[nodiscard]] std::uint32_t id() const { return id_; }
@@ -78,6 +91,8 @@ class Pilot {
   std::optional<Prediction> prediction_;
   Lead lead_;
   std::uint32_t seq_;
+  DriveLog log_;
+  std::optional<OwnDrive> ended_;
   std::uint64_t last_tick_ = 0;      ///< the step the last input asked for
   double ahead_ = 0.0;               ///< fractional tick the louse is drawn at
   bool heading_taken_ = false;       ///< the steering points where the louse does

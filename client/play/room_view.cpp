@@ -10,6 +10,7 @@
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
 #include "shared/map/map_text.h"
+#include "shared/protocol/codes.h"
 
 namespace woodlouse::client {
 namespace {
@@ -85,10 +86,17 @@ core::Expected<void> RoomView::on_message(const protocol::ServerMessage& message
             return roster_.note(m.text), core::Expected<void>();
           },
           [&](const protocol::ErrorMessage& m) -> core::Expected<void> {
-            return notice(m.text, now), core::Expected<void>();
+            if (m.code != protocol::code::kNoRecords) notice(m.text, now);  // nobody else has asked for them
+            return {};
+          },
+          [&](const protocol::Hello& m) -> core::Expected<void> {
+            return own_game_.take(m), core::Expected<void>();
+          },
+          [&](const protocol::GhostLine& m) -> core::Expected<void> {
+            return own_game_.take(m), core::Expected<void>();
           },
           [&](const protocol::Rooms& m) -> core::Expected<void> { return take(m), core::Expected<void>(); },
-          [](const auto&) -> core::Expected<void> { return {}; },  // hello, bye: the connection's
+          [](const auto&) -> core::Expected<void> { return {}; },  // bye: the connection's
       },
       message);
 }
@@ -106,7 +114,7 @@ void RoomView::take(const protocol::Welcome& welcome, core::Time now) {
   }
   was_here_ = false;
   welcome_ = welcome;
-  own_run_.forget();
+  own_game_.take(welcome);
   roster_.welcome(welcome);
   clock_.emplace(welcome.tick_hz);
   view_.emplace(welcome.tick_hz, welcome.fields);
@@ -143,6 +151,7 @@ void RoomView::begin_piloting() {
   const state::Mode mode = state::mode_from_text(welcome_->mode).value_or(state::Mode::kRoam);
   const bool has_mode = map_->definition.modes.has(mode);
   pilot_.emplace(*map_, welcome_->tick_hz, welcome_->id, has_mode ? mode : state::Mode::kRoam, last_seq_);
+  own_game_.begin(map_, welcome_->tick_hz, has_mode ? mode : state::Mode::kRoam);
 }
 
 void RoomView::take(const protocol::Frame& frame, core::Time now) {
@@ -205,13 +214,11 @@ void RoomView::measure_rate(std::uint64_t tick, core::Time now) {
 void RoomView::take(const protocol::Event& event, core::Time now) {
   roster_.event(event);
   if (protocol::is_of_rules(event.kind) && welcome_) {
-    own_run_.event(event, welcome_->id, welcome_->tick_hz, now);
     const std::string told = describe_ruling(event, welcome_->id, welcome_->tick_hz);
     if (!told.empty()) roster_.note(told);
   }
   if (event.kind == protocol::EventKind::kLeft) trails_.erase(event.id);
-  if (event.kind == protocol::EventKind::kRespawned && pilot_ && event.id == pilot_->id())
-    pilot_->respawned();
+  if (welcome_) own_game_.take(event, *welcome_, pilot(), now);
 }
 
 void RoomView::take(const protocol::Pong& pong, core::Time now) {
@@ -269,7 +276,7 @@ Sight RoomView::sight() const {
   const Snapshot* newest = view_ ? view_->newest() : nullptr;
   if (!welcome_ || newest == nullptr || !newest->game) return sight;
   sight.ruling = {state::mode_from_text(welcome_->mode).value_or(state::Mode::kRoam), &*newest->game,
-                  shown_tick_, welcome_->tick_hz};
+                  shown_tick_, welcome_->tick_hz, own_game_.author_ms()};
   if (sight.ruling.mode == state::Mode::kRoam) sight.ruling.game = nullptr;  // rules that are not known here
   return sight;
 }
@@ -292,6 +299,8 @@ void RoomView::update(core::Time now) {
   }
   draw_lice(now);
   if (clock_->running()) shown_tick_ = clock_->tick(now);
+  const auto own = pilot_ ? lice_.find(pilot_->id()) : lice_.end();
+  own != lice_.end() ? own_game_.update(*pilot_, own->second.sample, shown_tick_, now) : own_game_.idle();
 }
 
 void RoomView::draw_lice(core::Time now) {
@@ -309,8 +318,6 @@ void RoomView::draw_lice(core::Time now) {
       if (newest != view_->newest()->lice.end()) own->standing = newest->second.standing;
       lice_[pilot_->id()].sample = *own;
     }
-    if (const auto own = lice_.find(pilot_->id()); own != lice_.end())
-      own_run_.observe(own->second.sample.standing);
   }
   const double width = welcome_->extent[2] - welcome_->extent[0];
   for (auto& [id, louse] : lice_) {
@@ -323,6 +330,15 @@ void RoomView::draw_lice(core::Time now) {
   std::erase_if(trails_, [this](const auto& entry) { return !lice_.contains(entry.first); });
 }
 
-std::vector<protocol::ClientMessage> RoomView::take_outgoing() { return std::exchange(outgoing_, {}); }
+void RoomView::set_gate(core::Time now) {
+  const auto own = pilot_ ? lice_.find(pilot_->id()) : lice_.end();
+  if (own != lice_.end())
+    notice(own_game_.set_gate(own->second.sample, pilot_->steering().heading(), now), now);
+}
+
+std::vector<protocol::ClientMessage> RoomView::take_outgoing() {
+  for (protocol::ClientMessage& message : own_game_.take_outgoing()) outgoing_.push_back(std::move(message));
+  return std::exchange(outgoing_, {});
+}
 
 }  // namespace woodlouse::client

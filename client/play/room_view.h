@@ -14,7 +14,7 @@
 
 #include "client/net/server_clock.h"
 #include "client/play/keyframe_verifier.h"
-#include "client/play/modes/own_run.h"
+#include "client/play/modes/own_game.h"
 #include "client/play/pilot.h"
 #include "client/play/roster.h"
 #include "client/play/stream_view.h"
@@ -60,8 +60,11 @@ class RoomView {
   /// Whether that is not everybody.
   [[nodiscard]] bool sees_part() const { return !looked_.is_whole(); }
   void respawn() { outgoing_.emplace_back(protocol::Respawn{}); }
-  /// What the rules of play have said of your louse.
-  [[nodiscard]] const OwnRun& own_run() const { return own_run_; }
+  /// A gate of your own where you are; what came of it is a notice.
+  void set_gate(core::Time now);
+  /// What the rules said of your louse, its ghosts and its gate.
+  [[nodiscard]] OwnGame& own_game() { return own_game_; }
+  [[nodiscard]] const OwnGame& own_game() const { return own_game_; }
   /// A line over the key line for kNoticeFor.
   void notice(std::string text, core::Time now);
 
@@ -107,7 +110,7 @@ class RoomView {
   Roster roster_;
   std::map<std::uint32_t, Present> lice_;
   std::map<std::uint32_t, Trail> trails_;
-  OwnRun own_run_;
+  OwnGame own_game_;
   double shown_tick_ = 0.0;  ///< the server's, as of the last update
   std::vector<protocol::ClientMessage> outgoing_;
   protocol::View looked_;           ///< asked for last on this connection

@@ -202,8 +202,14 @@ Scene build_scene(const Session& session, const Interface& interface, const Chat
   scene.notice = room.notice_line();
   scene.course = course_of({room.sight(), scene.spectating ? scene.follow_id : own_id,
                             sample_of(room.sight(), scene.spectating ? scene.follow_id : own_id),
-                            !scene.spectating, &room.own_run(), scene.hud.rank});
-  scene.course.splash = room.own_run().splash(facts.now);
+                            !scene.spectating, &room.own_game().run(), scene.hud.rank});
+  scene.course.splash = room.own_game().run().splash(facts.now);
+  scene.course.ghosts = room.own_game().ghost_marks();
+  if (const auto gate = room.own_game().gate().mark()) {
+    scene.course.gates.push_back(*gate);
+    scene.course.target = 0.5 * (gate->a + gate->b);
+    scene.course.lines.push_back(room.own_game().gate().line(facts.now));
+  }
   scene.proof = proof_of(room);
   if (room.verifier().difference()) scene.notice = to_text(*room.verifier().difference());
   if (const auto seconds = session.connection().seconds_left(facts.now))

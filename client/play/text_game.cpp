@@ -54,6 +54,16 @@ std::string louse(const RoomView& room, const Present& louse) {
   return line + ", travelled " + number(sample.distance, 0) + " m";
 }
 
+std::vector<std::string> goal(const RoomView& room) {
+  const Sight sight = room.sight();
+  const std::uint32_t id = room.welcome() != nullptr ? room.welcome()->id : 0;
+  std::vector<std::string> lines;
+  for (const GoalLine& line :
+       goal_lines({sight, id, sample_of(sight, id), id != 0, &room.own_game().run(), 0}))
+    lines.push_back(plain_text(line));
+  return lines;
+}
+
 std::vector<std::string> room(const RoomView& view) {
   std::vector<std::string> lines;
   const std::vector<ScoreRow> rows = score_rows(view.sight());
@@ -63,7 +73,11 @@ std::vector<std::string> room(const RoomView& view) {
       ++rank;
       continue;
     }
-    std::string line = "number " + std::to_string(++rank) + ", " + louse(view, view.lice().at(row.id));
+    ++rank;
+    const auto present = view.lice().find(row.id);
+    std::string line = row.rank > 0 ? "number " + std::to_string(row.rank) + ", " : "";
+    line += present != view.lice().end() ? louse(view, present->second) : row.name;
+    if (!row.measure.empty()) line += ", " + row.measure;
     if (row.is_you)
       lines.insert(lines.begin(), std::move(line));
     else
@@ -83,7 +97,8 @@ TextGame::TextGame(boost::asio::io_context& context, Session& session, int keys,
       server_alive_(std::move(server_alive)),
       timer_(context),
       bindings_(manner.keys),
-      steer_(manner.steer) {
+      steer_(manner.steer),
+      teacher_(manner.data) {
   if (keys < 0) return;
   keys_.emplace(
       context, KeySource{keys, {}, {}},
@@ -128,8 +143,10 @@ void TextGame::update() {
   tell_connection();
   tell_news();
   tell_proof();
+  teach();
   if (now - state_told_ >= kStateEvery && session_.connection().phase() == Connection::Phase::kJoined) {
     state_told_ = now;
+    for (const std::string& line : words::goal(session_.room())) say(line);
     const auto lines = words::room(session_.room());
     const bool only_own =
         session_.room().pilot() != nullptr && keys_;  // the others on Tab: a reader reads slowly
@@ -172,6 +189,13 @@ void TextGame::tell_news() {
   notice_told_ = notice;
 }
 
+void TextGame::teach() {
+  if (!teacher_.observe(session_.room().sight(), steady_clock::now())) return;
+  KeyLabels labels = bindings_.keys().labels();
+  labels.compass = steer_ == SteerBy::kCompass;
+  for (const GoalLine& line : teacher_.lines(labels)) say(plain_text(line));
+}
+
 void TextGame::tell_proof() {
   if (const auto& of_tick = session_.room().follower().difference();
       of_tick && !std::exchange(is_difference_told_, true))
@@ -184,6 +208,7 @@ void TextGame::tell_proof() {
 
 void TextGame::on_key(const Key& key) {
   if (session_.is_trying() && !chatting_ && is_leaving(key, bindings_.keys())) return finish({});
+  if (!chatting_ && !asked_ && key.code == KeyCode::kEscape && teacher_.dismiss()) return say("no lesson");
   if (chatting_ && !control_action(key)) {
     const ChatEntry::Outcome outcome = chat_.type(key);
     if (outcome == ChatEntry::Outcome::kTyping) return;
@@ -233,6 +258,12 @@ void TextGame::perform(Action action) {
       break;
     case Action::kRespawn:
       session_.room().respawn();
+      break;
+    case Action::kGhost:
+      if (pilot != nullptr) say(session_.room().own_game().ghosts().cycle());
+      break;
+    case Action::kGate:
+      session_.room().set_gate(now);
       break;
     case Action::kScoreboard:
       for (const std::string& line : words::room(session_.room())) say(line);

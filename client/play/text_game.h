@@ -5,6 +5,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "client/controls/key_bindings.h"
 #include "client/controls/repeat_delay.h"
 #include "client/play/chat_entry.h"
+#include "client/play/modes/teacher.h"
 #include "client/play/session.h"
 #include "client/terminal/key_input.h"
 #include "client/terminal/outcome.h"
@@ -26,7 +28,9 @@ namespace words {
 std::string compass(core::Vec2 direction);
 /// One louse: "ada: 3.1 m east, 4.0 m north, 2.3 m/s south-west, slope -12 degrees, travelled 41 m".
 std::string louse(const RoomView& room, const Present& louse);
-/// The room, lice by distance: one line each, your own first.
+/// What the rules of play want of you: a line or two; empty where there are none.
+std::vector<std::string> goal(const RoomView& room);
+/// The room, lice by rank: one line each, your own first.
 std::vector<std::string> room(const RoomView& room);
 }  // namespace words
 
@@ -36,6 +40,7 @@ class TextGame {
   struct Manner {
     KeyMap keys{};
     SteerBy steer = SteerBy::kHeading;
+    std::filesystem::path data{};  ///< where it is remembered who has had the lesson; empty: nowhere
   };
   using Write = std::function<bool(const std::string& line)>;  ///< false: nobody reads any more
 
@@ -56,6 +61,7 @@ class TextGame {
   void tell_news();
   void tell_connection();
   void tell_proof();
+  void teach();
   void say(const std::string& line);
   void finish(Outcome outcome);
 
@@ -71,6 +77,7 @@ class TextGame {
   std::string driving_told_;
   core::Time driving_told_until_{};  ///< until then the same is not told again
   ChatEntry chat_;
+  Teacher teacher_;
   bool chatting_ = false;
   bool asked_ = false;          ///< Q was pressed and is to be confirmed
   std::size_t lines_told_ = 0;  ///< of the roster's

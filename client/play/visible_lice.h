@@ -29,6 +29,7 @@ struct Ruling {
   const protocol::Game* game = nullptr;  ///< whole; null: there are no rules, or nothing was shown yet
   double tick = 0.0;                     ///< now
   std::uint32_t tick_hz = 60;
+  std::uint64_t author_ms = 0;  ///< of a race, the time to beat; 0: none is known. No part of the map's hash
 };
 
 /// Refers to what a room view or a recording's view holds; valid until that runs on.

@@ -78,7 +78,7 @@ Sight RecordingView::sight() const {
   };
   if (shown_.game)
     sight.ruling = {archive_->header().mode, &*shown_.game, static_cast<double>(tick()),
-                    archive_->header().tick_hz};
+                    archive_->header().tick_hz, 0};
   return sight;
 }
 

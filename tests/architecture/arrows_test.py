@@ -48,7 +48,7 @@ ARROWS |= {
     "client/controls": SHARED | {"client/drawing", "client/terminal"},
     "client/net": SHARED,
     "client/play": SHARED | {"client/cells", "client/controls", "client/drawing", "client/terminal", "client/net", "client/play/modes"},
-    "client/play/modes": SHARED | {"client/cells", "client/drawing", "client/drawing/course", "client/play"},
+    "client/play/modes": SHARED | {"client/cells", "client/controls", "client/drawing", "client/drawing/course", "client/play"},
     "client/watch": SHARED | {"client/cells", "client/controls", "client/drawing", "client/terminal", "client/play", "client/play/modes"},
 }
 for program in ("server", "client"):

@@ -193,6 +193,9 @@ void draw_course_board(const Scene& scene, const Badges& badges, const Viewport&
   int row = 0;
   for (const GoalLine& line : scene.course.lines)
     if (row < map.size.rows) draw_line(line, scene.look, map, row++, styles.bar, cells);
+  int foot = map.size.rows - 1 - static_cast<int>(scene.course.lesson.size());  // the last row is a notice's
+  for (const GoalLine& line : scene.course.lesson)
+    if (foot >= row) draw_line(line, scene.look, map, foot++, styles.bar, cells);
   constexpr int kPodiumRows = 8;
   if (!scene.course.podium.empty() && row + kPodiumRows < map.size.rows)
     draw_podium(scene, badges, map, row + 1, cells);

@@ -77,6 +77,7 @@ struct Course {
   std::vector<GhostMark> ghosts;
   std::optional<core::Vec2> target;  ///< where the arrow points: the next gate, the place, the dearest crumb
   std::vector<GoalLine> lines;       ///< over the map's top
+  std::vector<GoalLine> lesson;      ///< over the map's foot
   std::optional<Splash> splash;
   std::vector<PodiumStep> podium;  ///< empty: the round goes on
   std::string podium_note;         ///< below it

@@ -38,15 +38,13 @@ void add_rings(const map::HillMode& hill, const protocol::GameHill& shown, doubl
 
 void add_podium(const GoalFacts& facts, Course& course) {
   const Ruling& ruling = facts.sight.ruling;
-  const std::optional<map::RaceMode>& race = facts.sight.map->definition.modes.race;
   if (!ruling.game->table) return;
   for (const protocol::GameTableRow& row : *ruling.game->table) {
     if (course.podium.size() == 3) break;
     if (row.score == 0) continue;  // was there, and did nothing that counts
     PodiumStep step{row.id, facts.sight.name_of(row.id), facts.is_own && row.id == facts.id,
                     score_text(ruling.mode, row.score, ruling.tick_hz), ""};
-    if (ruling.mode == state::Mode::kRace && race)
-      step.medal = medal_of(race->author_ms, row.score, ruling.tick_hz);
+    if (ruling.mode == state::Mode::kRace) step.medal = medal_of(ruling.author_ms, row.score, ruling.tick_hz);
     course.podium.push_back(std::move(step));
   }
   if (facts.you == nullptr || !facts.is_own) return;
@@ -54,8 +52,8 @@ void add_podium(const GoalFacts& facts, Course& course) {
                            ? "you: " + score_text(ruling.mode, facts.you->standing.score, ruling.tick_hz) +
                                  (facts.rank > 0 ? formatted(", #%d", facts.rank) : "")
                            : "nothing of yours counted this time";
-  if (ruling.mode != state::Mode::kRace || !race) return;
-  const std::string medal = medal_of(race->author_ms, facts.you->standing.score, ruling.tick_hz);
+  if (ruling.mode != state::Mode::kRace) return;
+  const std::string medal = medal_of(ruling.author_ms, facts.you->standing.score, ruling.tick_hz);
   if (!medal.empty()) course.podium_note += "  " + medal;
 }
 

@@ -11,6 +11,8 @@
 #include "client/drawing/formatted.h"
 #include "client/play/shortest_way.h"
 #include "shared/core/joined.h"
+#include "shared/json/document.h"
+#include "shared/json/fields.h"
 
 namespace woodlouse::client {
 namespace {
@@ -80,7 +82,8 @@ void race_line(const GoalFacts& facts, const map::RaceMode& race, GoalLine& line
   }
   if (facts.rank > 0)
     line.push_back({formatted("  #%d/%zu", facts.rank, facts.sight.lice.size()), Tone::kUsual});
-  if (const std::string medal = medal_to_win(race.author_ms, standing.score, ruling.tick_hz); !medal.empty())
+  if (const std::string medal = medal_to_win(ruling.author_ms, standing.score, ruling.tick_hz);
+      !medal.empty())
     line.push_back({"  " + medal, Tone::kGoal});
   else if (standing.score != 0)
     line.push_back({"  best " + span_text(standing.score, ruling.tick_hz), Tone::kUsual});
@@ -234,6 +237,14 @@ std::string score_text(state::Mode mode, std::int64_t score, std::uint32_t tick_
   if (mode == state::Mode::kRace) return score == 0 ? "--" : span_text(score, tick_hz);
   if (mode == state::Mode::kHill) return formatted("%.1f s", static_cast<double>(score) / tick_hz);
   return std::to_string(score);
+}
+
+std::uint64_t author_ms_of(const std::string& rules) {
+  constexpr std::int64_t kLongest = 86'400'000;
+  const auto document = json::parse(rules, {8, 10'000});
+  const auto stated = document ? document->root().find("author_ms") : std::nullopt;
+  const auto ms = stated ? json::integer_of(*stated, 0, kLongest) : std::nullopt;
+  return static_cast<std::uint64_t>(ms.value_or(0));
 }
 
 std::string medal_of(std::uint64_t author_ms, std::int64_t moments, std::uint32_t tick_hz) {

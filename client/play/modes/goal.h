@@ -36,6 +36,9 @@ std::string span_text(std::int64_t moments, std::uint32_t tick_hz);
 /// A score as a mode counts it: "1:02.345", "12", "13.4 s"; "--" where there is none yet.
 std::string score_text(state::Mode mode, std::int64_t score, std::uint32_t tick_hz);
 
+/// What a welcome's `rules` say of it; 0: nothing that can be one.
+std::uint64_t author_ms_of(const std::string& rules);
+
 /// Which medal a run of a race with this author's time deserves: "AUTHOR", "GOLD", "SILVER", "BRONZE"; empty:
 /// none. moments > 0.
 std::string medal_of(std::uint64_t author_ms, std::int64_t moments, std::uint32_t tick_hz);

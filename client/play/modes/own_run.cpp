@@ -50,6 +50,10 @@ void OwnRun::event(const protocol::Event& event, std::uint32_t you, std::uint32_
   }
 }
 
+void OwnRun::own_lap(double seconds, bool is_best, core::Time now) {
+  show(formatted("%.2f", seconds), is_best ? Tone::kGood : Tone::kUsual, now);
+}
+
 void OwnRun::observe(const Standing& standing) {
   if (standing.lap_start == 0)
     run_start_ = 0;

@@ -20,6 +20,8 @@ class OwnRun {
 
   /// An event of the rules about louse `you`; others are passed over.
   void event(const protocol::Event& event, std::uint32_t you, std::uint32_t tick_hz, core::Time now);
+  /// A lap through a gate of one's own [s].
+  void own_lap(double seconds, bool is_best, core::Time now);
   /// What a frame says of it.
   void observe(const Standing& standing);
   void forget() { *this = OwnRun(); }

@@ -1,5 +1,6 @@
 """The game in a terminal: keys, screens, views."""
 
+import os
 import re
 import time
 
@@ -155,6 +156,17 @@ class Playing(InATerminal):
         way = self.way()
         self.terminal.keys("Space")
         wait_for("a louse that can be driven on", lambda: self.way() > way + 1)
+
+    def test_a_first_game_begins_with_a_lesson_that_escape_ends_for_good(self):
+        data = os.path.join(self.terminal.folder, ".local/share/woodlouse")
+        os.remove(os.path.join(data, "lesson"))
+        self.play()
+        self.terminal.shows(r"1/3 PUSH")
+        self.terminal.keys("Space")
+        self.terminal.shows(r"2/3 TURN")
+        self.terminal.keys("Escape")
+        wait_for("the end of the lesson", lambda: "TURN" not in self.terminal.screen())
+        self.assertEqual(os.listdir(data), ["lesson"])
 
 
 if __name__ == "__main__":

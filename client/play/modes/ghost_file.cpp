@@ -1,0 +1,124 @@
+#include "client/play/modes/ghost_file.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+#include "client/play/modes/ghost_run.h"
+#include "shared/core/joined.h"
+#include "shared/core/stable_hash.h"
+#include "shared/core/whole_file.h"
+#include "shared/match/match.h"
+#include "shared/protocol/ack_line.h"
+#include "shared/protocol/codec.h"
+
+namespace woodlouse::client {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostBytes = 4u << 20;
+
+fs::path file_of(const fs::path& folder, const map::Map& map, state::Mode mode) {
+  return folder / "ghosts" /
+         core::joined({core::to_hex(map.hash), "-", std::to_string(match::kBehavior),
+                       mode == state::Mode::kRoam ? "" : core::joined({"-", state::to_text(mode)}),
+                       ".ndjson"});
+}
+
+std::optional<protocol::ServerMessage> decoded(std::string_view line) {
+  auto message = protocol::decode_server(line, {}, protocol::Format::kExact);
+  return message ? std::optional(std::move(*message)) : std::nullopt;
+}
+
+/// Cuts the first line off; empty: none is left.
+std::string_view next_line(std::string_view& text) {
+  const std::size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(text.size(), end + 1));
+  return line;
+}
+
+/// In a step of its own: a crash leaves the file of before.
+void write_whole(const fs::path& file, std::string_view text) {
+  std::error_code ignored;  // a file that can't be written is none
+  fs::create_directories(file.parent_path(), ignored);
+  const fs::path part = file.string() + ".part";
+  {
+    std::ofstream out(part, std::ios::binary | std::ios::trunc);
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    if (!out.flush()) return fs::remove(part, ignored), void();
+  }
+  fs::rename(part, file, ignored);
+}
+
+}  // namespace
+
+fs::path data_folder() {
+  const char* const data = std::getenv("XDG_DATA_HOME");
+  if (data != nullptr && *data == '/') return fs::path(data) / "woodlouse";
+  const char* const home = std::getenv("HOME");
+  return home != nullptr && *home == '/' ? fs::path(home) / ".local" / "share" / "woodlouse" : fs::path();
+}
+
+std::string ghost_drives_text(const std::vector<OwnDrive>& drives, std::uint32_t tick_hz, state::Mode mode) {
+  std::string text;
+  for (const OwnDrive& drive : drives) {
+    protocol::Ack ack;
+    ack.you = protocol::ExactState{0, drive.start};
+    protocol::append_ack(text, ack);
+    protocol::GhostLine line;
+    line.run.name = state::to_text(mode);
+    line.run.time = drive.lap;
+    line.behavior = match::kBehavior;
+    line.tick_hz = tick_hz;
+    line.ghost = {0, drive.ticks, drive.inputs};
+    protocol::append_line(text, line);
+  }
+  return text;
+}
+
+std::vector<OwnDrive> parse_ghost_drives(std::string_view text, const map::Map& map, std::uint32_t tick_hz,
+                                         state::Mode mode) {
+  std::vector<OwnDrive> drives;
+  while (!text.empty()) {
+    const auto begin = decoded(next_line(text));
+    const auto driven = decoded(next_line(text));
+    const auto* ack = begin ? std::get_if<protocol::Ack>(&*begin) : nullptr;
+    const auto* line = driven ? std::get_if<protocol::GhostLine>(&*driven) : nullptr;
+    if (ack == nullptr || line == nullptr || !ack->you) break;
+    if (line->behavior != match::kBehavior || line->tick_hz != tick_hz ||
+        line->run.name != state::to_text(mode))
+      continue;
+    OwnDrive drive{ack->you->louse, line->ghost.inputs, line->ghost.ticks, line->run.time};
+    const bool is_short =
+        drive.ticks <= kMostDriveSeconds * tick_hz && drive.inputs.size() <= kMostDriveInputs;
+    if (is_short && why_no_drive(map, tick_hz, drive).empty()) drives.push_back(std::move(drive));
+  }
+  if (drives.size() > kMostGhostsKept) drives.erase(drives.begin(), drives.end() - kMostGhostsKept);
+  return drives;
+}
+
+std::vector<OwnDrive> read_ghost_drives(const fs::path& folder, const map::Map& map, std::uint32_t tick_hz,
+                                        state::Mode mode) {
+  const auto text = core::read_whole_file(file_of(folder, map, mode), kMostBytes);
+  return text ? parse_ghost_drives(*text, map, tick_hz, mode) : std::vector<OwnDrive>();
+}
+
+void write_ghost_drives(const fs::path& folder, const map::Map& map, std::uint32_t tick_hz, state::Mode mode,
+                        const std::vector<OwnDrive>& drives) {
+  write_whole(file_of(folder, map, mode), ghost_drives_text(drives, tick_hz, mode));
+}
+
+bool is_done(const fs::path& folder, std::string_view name) {
+  std::error_code ignored;  // what can't be asked for is not done
+  return fs::exists(folder / name, ignored);
+}
+
+void mark_done(const fs::path& folder, std::string_view name) { write_whole(folder / name, "done\n"); }
+
+}  // namespace woodlouse::client

@@ -1,0 +1,121 @@
+#include "client/play/modes/ghosts.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "client/play/modes/ghost_file.h"
+#include "client/play/modes/goal.h"
+#include "shared/map/spawns.h"
+#include "shared/match/ghost.h"
+#include "shared/match/match.h"
+
+namespace woodlouse::client {
+namespace {
+
+constexpr double kTickOfGhosts = 65536.0;  ///< a tick in moments
+constexpr double kShortestDrive = 3.0;     // [s]
+
+GhostMark ghost_mark(std::string name, const LouseSample& sample) {
+  return {std::move(name), sample.position, sample.heading};
+}
+
+}  // namespace
+
+void Ghosts::begin(std::shared_ptr<const map::Map> map, std::uint32_t tick_hz, state::Mode mode) {
+  assert(map != nullptr && tick_hz > 0);
+  const bool is_same = map_ != nullptr && map_->hash == map->hash && mode_ == mode && tick_hz_ == tick_hz;
+  map_ = std::move(map);
+  tick_hz_ = tick_hz;
+  mode_ = mode;
+  records_.clear();
+  if (is_same) return;  // back on the line: own drives are still known
+  kept_.clear();
+  last_.reset();
+  best_.reset();
+  if (map_->detail == map::Detail::kExact) load();
+}
+
+bool Ghosts::add_record(const protocol::GhostLine& line) {
+  if (map_ == nullptr || mode_ != state::Mode::kRace || map_->detail != map::Detail::kExact) return false;
+  if (line.behavior != match::kBehavior || line.tick_hz != tick_hz_) return false;
+  if (!match::why_no_ghost(*map_, tick_hz_, line.ghost).empty()) return false;
+  const map::RaceMode& race = *map_->definition.modes.race;
+  const auto& spawns = race.spawns.empty() ? map_->definition.spawns : race.spawns;
+  assert(line.ghost.spawn < spawns.size());
+  OwnDrive drive{map::louse_at(spawns[line.ghost.spawn], 1), line.ghost.inputs, line.ghost.ticks, 0};
+  std::erase_if(records_, [&line](const Record& record) { return record.board == line.run.board; });
+  records_.push_back(
+      {line.run.board, line.run.name + " " + span_text(static_cast<std::int64_t>(line.run.time), tick_hz_),
+       static_cast<double>(line.start) / kTickOfGhosts, GhostRun(*map_, tick_hz_, mode_, std::move(drive))});
+  return true;
+}
+
+bool Ghosts::is_better(GhostRun& a, GhostRun& b) const {
+  if (mode_ == state::Mode::kRace) {
+    const std::uint64_t of_a = a.drive().lap, of_b = b.drive().lap;
+    return of_a != 0 && (of_b == 0 || of_a < of_b);
+  }
+  const std::uint32_t ticks = std::min(a.drive().ticks, b.drive().ticks);
+  return a.distance_at(ticks) > b.distance_at(ticks);
+}
+
+void Ghosts::add_drive(OwnDrive drive) {
+  if (map_ == nullptr || map_->detail != map::Detail::kExact || drive.ticks < kShortestDrive * tick_hz_)
+    return;
+  if (mode_ != state::Mode::kRoam && mode_ != state::Mode::kRace) return;  // others would be in its way
+  if (!why_no_drive(*map_, tick_hz_, drive).empty()) return;
+  kept_.push_back(drive);
+  if (kept_.size() > kMostGhostsKept) kept_.erase(kept_.begin());
+  last_.emplace(*map_, tick_hz_, mode_, drive);
+  if (!best_ || is_better(*last_, *best_)) best_.emplace(*map_, tick_hz_, mode_, std::move(drive));
+  save();
+}
+
+void Ghosts::load() {
+  if (!folder_) return;
+  for (OwnDrive& drive : read_ghost_drives(*folder_, *map_, tick_hz_, mode_)) {
+    kept_.push_back(drive);
+    last_.emplace(*map_, tick_hz_, mode_, drive);
+    if (!best_ || is_better(*last_, *best_)) best_.emplace(*map_, tick_hz_, mode_, std::move(drive));
+  }
+}
+
+void Ghosts::save() {
+  if (folder_) write_ghost_drives(*folder_, *map_, tick_hz_, mode_, kept_);
+}
+
+std::string Ghosts::cycle() {
+  switch (choice_) {
+    case GhostChoice::kBest:
+      choice_ = GhostChoice::kLast;
+      return last_ ? "ghost: your last drive" : "ghost: your last drive, once you respawn (R)";
+    case GhostChoice::kLast:
+      choice_ = GhostChoice::kOff;
+      return "ghosts off";
+    case GhostChoice::kOff:
+      choice_ = GhostChoice::kBest;
+      return best_ || !records_.empty() ? "ghosts: the best" : "ghosts: the best, once you respawn (R)";
+  }
+  return {};
+}
+
+std::vector<GhostMark> Ghosts::marks(std::optional<double> since_spawn, std::int64_t run_start, double tick) {
+  std::vector<GhostMark> marks;
+  if (choice_ == GhostChoice::kOff) return marks;
+  if (choice_ == GhostChoice::kBest) {
+    // They wait where their clock began until yours does.
+    const double running =
+        run_start == 0 ? 0.0 : std::max(0.0, tick - static_cast<double>(run_start) / kTickOfGhosts);
+    for (Record& record : records_)
+      if (const auto sample = record.run.at(record.start + running))
+        marks.push_back(ghost_mark(record.name, *sample));
+  }
+  std::optional<GhostRun>& own = choice_ == GhostChoice::kBest ? best_ : last_;
+  if (!own || !since_spawn) return marks;
+  if (const auto sample = own->at(*since_spawn))
+    marks.push_back(ghost_mark(choice_ == GhostChoice::kBest ? "your best" : "your last", *sample));
+  return marks;
+}
+
+}  // namespace woodlouse::client

@@ -1,0 +1,218 @@
+#include "client/play/modes/ghosts.h"
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "client/play/modes/ghost_file.h"
+#include "client/play/modes/lesson.h"
+#include "client/play/modes/private_gate.h"
+#include "shared/map/map_file.h"
+#include "shared/map/map_search_file.h"
+#include "shared/map/map_world.h"
+#include "shared/protocol/codec.h"
+
+using namespace woodlouse;
+using namespace woodlouse::client;
+
+namespace {
+
+std::shared_ptr<const map::Map> map_of(const char* name) {
+  auto map = map::load_map(*map::find_map(name));
+  REQUIRE(map);
+  return std::move(*map);
+}
+
+state::Louse louse_on(const map::Map& map) {
+  state::Louse louse;
+  louse.id = 5;
+  louse.position = map.definition.spawns.front().position;
+  return louse;
+}
+
+/// A drive of `seconds` with a push every second, and where it led.
+OwnDrive driven(const map::Map& map, std::uint32_t seconds, state::Louse* end = nullptr) {
+  OwnDrive drive{louse_on(map), {}, 60 * seconds, 0};
+  physics::World world = map::make_world(map, 1.0 / 60.0);
+  world.insert(drive.start);
+  for (std::uint32_t tick = 0; tick < drive.ticks; ++tick) {
+    if (tick % 60 == 7) {
+      const state::Thrust thrust{state::ThrustKind::kMapVector, {0.5, tick % 120 == 7 ? 0.25 : -0.75}};
+      world.set_thrust(5, thrust, 30);
+      drive.inputs.push_back({tick, thrust, 30});
+    }
+    world.step();
+  }
+  if (end != nullptr) *end = *world.find(5);
+  return drive;
+}
+
+}  // namespace
+
+TEST_CASE("a ghost drives to the bit where the drive went, forth and back") {
+  const auto map = map_of("volcano");
+  state::Louse end;
+  GhostRun run(*map, 60, state::Mode::kRoam, driven(*map, 8, &end));
+  const auto at_end = run.at(480.0);
+  REQUIRE(at_end);
+  CHECK(at_end->position == end.position);
+  CHECK_FALSE(run.at(481.0));
+  CHECK(run.at(0.0)->position == louse_on(*map).position);
+  CHECK(run.at(480.0)->position == end.position);
+}
+
+TEST_CASE("drives come back from their text as they were, and what is none is passed over") {
+  const auto map = map_of("volcano");
+  const std::vector<OwnDrive> drives{driven(*map, 4), driven(*map, 6)};
+  const std::string text = ghost_drives_text(drives, 60, state::Mode::kRoam);
+  const auto read = parse_ghost_drives(text, *map, 60, state::Mode::kRoam);
+  REQUIRE(read.size() == 2);
+  CHECK(read[1].ticks == 360);
+  CHECK(read[1].inputs == drives[1].inputs);
+  CHECK(read[0].start.position == drives[0].start.position);
+  CHECK(parse_ghost_drives(text, *map, 30, state::Mode::kRoam).empty());  // another rate
+  CHECK(parse_ghost_drives(text, *map, 60, state::Mode::kRace).empty());
+  for (std::size_t cut = 0; cut < text.size(); cut += 37)  // a file that was cut off
+    CHECK(parse_ghost_drives(text.substr(0, cut), *map, 60, state::Mode::kRoam).size() <= 1);
+  for (const char* bad : {"\n", "{}\n{}\n", "null", "{\"type\":\"ack\"}\n{\"type\":\"ghost\"}\n"})
+    CHECK(parse_ghost_drives(bad, *map, 60, state::Mode::kRoam).empty());
+}
+
+TEST_CASE("a drive that no louse can drive is refused") {
+  const auto map = map_of("volcano");
+  const OwnDrive good = driven(*map, 4);
+  CHECK(why_no_drive(*map, 60, good).empty());
+  const auto refused = [&](auto change) {
+    OwnDrive bad = good;
+    change(bad);
+    CHECK_FALSE(why_no_drive(*map, 60, bad).empty());
+    // Not by its text, either: some of it is not even written so that it can be read.
+    CHECK(parse_ghost_drives(ghost_drives_text({bad}, 60, state::Mode::kRoam), *map, 60, state::Mode::kRoam)
+              .empty());
+  };
+  refused([](OwnDrive& d) { d.start.position.x = 1e6; });
+  refused([](OwnDrive& d) { d.start.velocity.x = 1e300; });
+  refused([](OwnDrive& d) { d.start.heading = {}; });
+  refused([](OwnDrive& d) { d.start.phase = state::Phase::kFlying; });
+  refused([](OwnDrive& d) { d.ticks = 0; });
+  refused([](OwnDrive& d) { d.inputs[1].at = 0; });
+  refused([](OwnDrive& d) { d.inputs[0].thrust.value = {3.0, 0.0}; });
+}
+
+TEST_CASE("own drives are kept in a file of twenty at most, and are there again") {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("woodlouse-ghosts-" + std::to_string(getpid()));
+  const auto map = map_of("volcano");
+  {
+    Ghosts ghosts;
+    ghosts.keep_in(folder);
+    ghosts.begin(map, 60, state::Mode::kRoam);
+    CHECK(ghosts.marks(0.0, 0, 0.0).empty());
+    for (int i = 0; i < 23; ++i) ghosts.add_drive(driven(*map, 4));
+    CHECK(ghosts.marks(0.0, 0, 0.0).size() == 1);
+  }
+  Ghosts ghosts;
+  ghosts.keep_in(folder);
+  ghosts.begin(map, 60, state::Mode::kRoam);
+  CHECK(ghosts.marks(60.0, 0, 0.0).size() == 1);
+  CHECK(read_ghost_drives(folder, *map, 60, state::Mode::kRoam).size() == kMostGhostsKept);
+  ghosts.cycle();
+  CHECK(ghosts.marks(60.0, 0, 0.0)[0].name == "your last");
+  ghosts.cycle();
+  CHECK(ghosts.marks(60.0, 0, 0.0).empty());
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("a record's ghost is raced from the first gate on, and one that can't be driven here is none") {
+  const auto map = map_of("crater_loop");
+  std::ifstream file(map::find_map("crater_loop")->parent_path() / "ghosts" / "crater_loop.json");
+  std::ostringstream text;
+  text << file.rdbuf();
+  const auto message = protocol::decode_server(text.str(), {}, protocol::Format::kExact);
+  REQUIRE(message);
+  auto line = std::get<protocol::GhostLine>(*message);
+  Ghosts ghosts;
+  ghosts.begin(map, 60, state::Mode::kRace);
+  REQUIRE(ghosts.add_record(line));
+  const auto waits = ghosts.marks(std::nullopt, 0, 5000.0);  // the own clock does not run
+  REQUIRE(waits.size() == 1);
+  CHECK(waits[0].name == "Dash 2 1:01.651");
+  CHECK(std::hypot(waits[0].position.x, waits[0].position.y) < 4.0);  // at gate S
+  const auto runs = ghosts.marks(std::nullopt, 5000 * 65536LL, 5300.0);
+  CHECK(runs.at(0).position != waits[0].position);
+  line.behavior += 1;
+  CHECK_FALSE(ghosts.add_record(line));
+  line.behavior -= 1;
+  line.ghost.spawn = 1000;
+  CHECK_FALSE(ghosts.add_record(line));
+}
+
+TEST_CASE("a gate of one's own times laps through it, one way alone") {
+  PrivateGate gate;
+  const rules::Images flat({});
+  core::Time now{std::chrono::seconds(10)};
+  LouseSample louse;
+  gate.set(louse, {1.0, 0.0}, now);
+  const auto move = [&](double x, double y, double vx) {
+    now += std::chrono::milliseconds(100);
+    louse.position = {x, y};
+    louse.velocity = {vx, 0.0};
+    return gate.observe(louse, flat, now);
+  };
+  CHECK_FALSE(move(0.5, 0.0, 5.0));
+  CHECK_FALSE(move(0.5, 5.0, 5.0));
+  CHECK_FALSE(move(-0.5, 5.0, -5.0));  // past its end
+  CHECK_FALSE(move(-0.5, 0.0, 0.0));
+  const auto lap = move(0.5, 0.0, 5.0);
+  REQUIRE(lap);
+  CHECK(*lap == Approx(0.45).margin(0.01));
+  CHECK(gate.is_best());
+  CHECK_FALSE(move(-0.5, 0.0, -5.0));  // back
+  CHECK(plain_text(gate.line(now)).find("best 0:00.4") != std::string::npos);
+}
+
+TEST_CASE("the lesson goes on once a thing was done, and not before") {
+  Lesson lesson(20.0);
+  LessonFacts facts;
+  const auto pass = [&](double seconds) {
+    bool changed = false;
+    for (int i = 0; i < static_cast<int>(seconds * 20.0); ++i) {
+      facts.now += std::chrono::milliseconds(50);
+      changed |= lesson.observe(facts);
+    }
+    return changed;
+  };
+  const auto head = [&] { return lesson.lines().empty() ? std::string() : lesson.lines()[0][0].text; };
+  pass(5.0);
+  CHECK(head() == "1/3 PUSH");
+  facts.is_pushing = true;
+  pass(2.0);
+  CHECK(head() == "1/3 PUSH");  // it does not move
+  facts.speed = 2.0;
+  pass(0.1);
+  CHECK(head() == "2/3 TURN");
+  facts.heading = {0.0, 1.0};
+  pass(0.1);
+  CHECK(head() == "3/3 SWING");
+  facts.slope_degrees = 20.0;
+  facts.height = 5.0;
+  pass(3.0);
+  CHECK(head() == "3/3 SWING");  // up without a swing
+  facts.slope_degrees = -20.0;
+  facts.height = 1.0;
+  pass(1.0);
+  facts.slope_degrees = 20.0;
+  facts.height = 2.5;
+  pass(0.1);
+  CHECK(head() == "WELL DONE");
+  pass(5.0);
+  CHECK(lesson.is_over());
+  Lesson flat(0.1);
+  flat.observe(facts);
+  CHECK(flat.lines()[0][0].text == "1/2 PUSH");
+  flat.skip();
+  CHECK(flat.lines().empty());
+}

@@ -1,0 +1,177 @@
+#include "client/play/modes/goal.h"
+
+#include <catch2/catch.hpp>
+
+#include "client/play/modes/course_builder.h"
+#include "shared/map/map_file.h"
+#include "shared/map/map_search_file.h"
+
+using namespace woodlouse;
+using namespace woodlouse::client;
+
+namespace {
+
+constexpr std::int64_t kSecond = 60 * 65536;  // in moments at 60 Hz
+
+std::shared_ptr<const map::Map> shipped_map(const char* name) {
+  const auto file = map::find_map(name);
+  REQUIRE(file);
+  auto map = map::load_map(*file);
+  REQUIRE(map);
+  return std::move(*map);
+}
+
+/// Lice of a mode as a client sees them.
+struct SeenRoom {
+  std::shared_ptr<const map::Map> map;
+  std::map<std::uint32_t, Present> lice;
+  std::map<std::uint32_t, Trail> trails;
+  protocol::Game game;
+  state::Mode mode;
+
+  void add(std::uint32_t id, std::int64_t score, double distance, bool is_you = false) {
+    Present louse;
+    louse.name = "louse" + std::to_string(id);
+    louse.is_you = is_you;
+    louse.sample.distance = distance;
+    louse.sample.standing.score = score;
+    lice[id] = louse;
+  }
+  [[nodiscard]] Sight sight() const {
+    Sight sight{map.get(), lice, trails};
+    sight.ruling = {mode, &game, 6000.0, 60, 60'000};
+    sight.name_of = [](std::uint32_t id) { return "louse" + std::to_string(id); };
+    return sight;
+  }
+};
+
+SeenRoom race() {
+  SeenRoom room{shipped_map("crater_loop"), {}, {}, {}, state::Mode::kRace};
+  room.game.phase = protocol::GamePhase::kPlay;
+  room.game.until = 12'000;
+  room.game.round = 2;
+  return room;
+}
+
+std::string text_of(const std::vector<GoalLine>& lines) {
+  std::string text;
+  for (const GoalLine& line : lines) text += plain_text(line) + "\n";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("a race ranks by the best run, whoever has none comes last and has no rank") {
+  SeenRoom room = race();
+  room.add(1, 0, 900.0);
+  room.add(2, 70 * kSecond, 10.0, true);
+  room.add(3, 65 * kSecond, 20.0);
+  const auto rows = score_rows(room.sight());
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[0].id == 3);
+  CHECK(rows[0].measure == "1:05.000");
+  CHECK(rows[1].rank == 2);
+  CHECK(rows[2].id == 1);
+  CHECK(rows[2].rank == 0);
+  CHECK(rows[2].measure == "--");
+}
+
+TEST_CASE("forage and hill rank by points and held seconds, not by metres") {
+  SeenRoom room = race();
+  room.mode = state::Mode::kForage;
+  room.add(1, 3, 900.0);
+  room.add(2, 12, 10.0);
+  CHECK(score_rows(room.sight())[0].id == 2);
+  CHECK(score_rows(room.sight())[0].measure == "12");
+  room.mode = state::Mode::kHill;
+  room.map = shipped_map("table");
+  room.add(2, 15 * 60, 10.0);
+  const auto rows = score_rows(room.sight());
+  CHECK(rows[0].measure == "15.0 s");
+  CHECK(rows[0].share == Approx(0.5));  // of the 30 s that win
+}
+
+TEST_CASE("of a part of the room the table is shown, and oneself without a rank that nobody knows") {
+  SeenRoom room = race();
+  room.add(7, 0, 5.0, true);
+  room.game.table = {{41, 60 * kSecond}, {42, 61 * kSecond}};
+  Sight sight = room.sight();
+  sight.is_part = true;
+  const auto rows = score_rows(sight);
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[0].name == "louse41");
+  CHECK(rows[1].rank == 2);
+  CHECK(rows[2].is_you);
+  CHECK(rows[2].rank == 0);
+  sight.ruling.game = nullptr;  // roam: of whom one sees nobody knows the rank
+  CHECK(score_rows(sight)[0].rank == 0);
+}
+
+TEST_CASE("a race's lines say the way to the next gate, the clock and the medal to win") {
+  SeenRoom room = race();
+  room.add(2, 0, 10.0, true);
+  LouseSample& you = room.lice.at(2).sample;
+  you.standing.gate = 3;
+  you.standing.lap = 1;
+  you.standing.lap_start = 5400 * 65536LL;
+  const Sight sight = room.sight();
+  const std::string text = text_of(goal_lines({sight, 2, &you, true, nullptr, 2}));
+  CHECK(text.find("gate 3 W ") != std::string::npos);
+  CHECK(text.find("lap 2/3 0:10.000  #2/1  bronze 1:30.00") != std::string::npos);
+  const Course course = course_of({sight, 2, &you, true, nullptr, 2});
+  REQUIRE(course.gates.size() == 6);
+  CHECK(course.gates[3].is_next);
+  CHECK(course.gates[0].label == "S");
+  REQUIRE(course.target);
+}
+
+TEST_CASE("medals are the author's time, and 6, 20 and 50 percent more") {
+  const auto medal = [](double seconds) {
+    return medal_of(60'000, static_cast<std::int64_t>(seconds * kSecond), 60);
+  };
+  CHECK(medal(60.0) == "AUTHOR");
+  CHECK(medal(60.01) == "GOLD");
+  CHECK(medal(63.6) == "GOLD");
+  CHECK(medal(63.7) == "SILVER");
+  CHECK(medal(90.0) == "BRONZE");
+  CHECK(medal(90.1).empty());
+  CHECK(medal_of(0, kSecond, 60).empty());
+}
+
+TEST_CASE("a welcome's rules tell the author's time, or nothing") {
+  CHECK(author_ms_of(R"({"laps":3,"author_ms":61652})") == 61652);
+  for (const char* text : {"", "{", "[]", R"({"author_ms":-1})", R"({"author_ms":"1"})", R"({"laps":3})"})
+    CHECK(author_ms_of(text) == 0);
+}
+
+TEST_CASE("a split is told in figures with its sign, for two seconds") {
+  OwnRun run;
+  const core::Time now{std::chrono::seconds(100)};
+  protocol::Event event;
+  event.kind = protocol::EventKind::kGate;
+  event.id = 7;
+  event.values = {2, 0, 12 * kSecond, -kSecond / 4};
+  run.event(event, 8, 60, now);
+  CHECK_FALSE(run.splash(now));  // somebody else's
+  run.event(event, 7, 60, now);
+  REQUIRE(run.splash(now));
+  CHECK(run.splash(now)->text == "-0.25");
+  CHECK(run.splash(now)->tone == Tone::kGood);
+  event.values[3] = kSecond / 2;
+  run.event(event, 7, 60, now);
+  CHECK(run.splash(now)->text == "+0.50");
+  CHECK_FALSE(run.splash(now + OwnRun::kSplashFor));
+}
+
+TEST_CASE("a chain runs out in four seconds") {
+  OwnRun run;
+  protocol::Event event;
+  event.kind = protocol::EventKind::kCrumb;
+  event.id = 7;
+  event.moment = 600 * 65536;
+  event.values = {3, 1, 2, 5};
+  run.event(event, 7, 60, {});
+  CHECK(run.chain(600.0, 60) == 2);
+  CHECK(run.chain_left(720.0, 60) == Approx(0.5));
+  CHECK(run.chain(841.0, 60) == 0);
+}
