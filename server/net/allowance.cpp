@@ -43,6 +43,13 @@ bool waits_for_its_turn(const protocol::ClientMessage& message) {
          std::holds_alternative<protocol::GetGhost>(message);
 }
 
+std::size_t AnswerSizes::of(const protocol::ClientMessage& question) const {
+  assert(waits_for_its_turn(question));
+  if (std::holds_alternative<protocol::GetMap>(question)) return map;
+  if (std::holds_alternative<protocol::GetGhost>(question)) return ghost;
+  return std::holds_alternative<protocol::Resync>(question) ? key : records;
+}
+
 Allowance::Allowance(const protocol::Limits& limits, std::shared_ptr<AddressAccount> address, Time now)
     : messages_per_s_(limits.messages_per_s),
       lines_(limits.messages_per_s, limits.burst, now),

@@ -22,6 +22,14 @@ std::optional<Spending> spending_of(const protocol::ClientMessage& message);
 /// Whether a room answers it with many bytes: it goes through Allowance::ask().
 bool waits_for_its_turn(const protocol::ClientMessage& message);
 
+/// [bytes] of what a room answers, as it last was or, of records, the longest so far; guesses before.
+struct AnswerSizes {
+  std::size_t map = 64u << 10, key = 4u << 10, records = 4u << 10, ghost = 16u << 10;
+
+  /// question: one that waits_for_its_turn().
+  [[nodiscard]] std::size_t of(const protocol::ClientMessage& question) const;
+};
+
 class Allowance {
  public:
   using Refusal = std::optional<protocol::ErrorMessage>;

@@ -109,10 +109,10 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
   handshake_.take(message);
   if (const auto* ping = std::get_if<protocol::Ping>(&message)) return say(protocol::Pong{ping->t});
   if (std::holds_alternative<protocol::Pong>(message)) return pulse_.hear(now, true);
-  if (std::holds_alternative<protocol::List>(message)) {
-    std::string line = protocol::encode(environment_.directory.list());
-    allowance_.charge_answer(line.size(), now);
-    return push(Line(std::move(line)));
+  if (const auto* list = std::get_if<protocol::List>(&message)) {
+    if (rooms_.is_on() && !list->watch) handshake_until_ = now + std::chrono::seconds(limits_->handshake_s);
+    rooms_.set(list->watch, environment_.directory, now);
+    return tell_rooms(now);
   }
   if (auto* wanted = std::get_if<protocol::Join>(&message)) return join(standing_.take_token(*wanted), now);
   if (auto* wish = std::get_if<protocol::Moderate>(&message)) return moderate(std::move(*wish));
@@ -172,7 +172,7 @@ void Session::show_again(const Frame& frame) {
     const auto seen = self->state_ == State::kOpen ? self->seen(frame) : std::nullopt;
     if (!seen) return;
     if (frame.sheet && seen->kind == FrameKind::kKey) self->sender_.outbox().forget_frames();
-    if (seen->kind == FrameKind::kKey) self->key_bytes_ = seen->text->size();
+    if (seen->kind == FrameKind::kKey) self->sizes_.key = seen->text->size();
     self->sender_.outbox().offer(*seen);
     self->sender_.write_soon();
   });
@@ -215,7 +215,7 @@ void Session::welcome(protocol::Welcome welcome, std::uint32_t divisor) {
   asio::post(lane_, [self = shared_from_this(), welcome = std::move(welcome), divisor] {
     if (self->state_ != State::kOpen) return;
     self->divisor_ = divisor;
-    self->map_bytes_ = welcome.map_bytes;
+    self->sizes_.map = welcome.map_bytes;
     self->begin_viewing(welcome);
     self->sender_.outbox().begin_anew();
     self->say(welcome);
@@ -295,7 +295,8 @@ void Session::on_watch() {
     goes_on_at_.reset();
     take_lines(at);
   }
-  if (handshake_.state() != Handshake::State::kGreeting)
+  if (rooms_.take_change(environment_.directory, at)) tell_rooms(at);
+  if (!is_to_join())
     check_pulse(at);
   else if (at >= handshake_until_)
     fail(code::kHandshakeTimeout, "no join within " + std::to_string(limits_->handshake_s) + " s");
@@ -303,10 +304,9 @@ void Session::on_watch() {
 }
 
 void Session::watch_next(Time now) {
-  const bool has_joined = handshake_.state() != Handshake::State::kGreeting;
   const Time until =
-      has_joined ? std::min(pulse_.next(), allowance_.next(now).value_or(Time::max())) : handshake_until_;
-  watch(std::min(until, goes_on_at_.value_or(Time::max())));
+      is_to_join() ? handshake_until_ : std::min(pulse_.next(), allowance_.next(now).value_or(Time::max()));
+  watch(std::min({until, goes_on_at_.value_or(Time::max()), rooms_.next()}));
 }
 
 void Session::check_pulse(Time now) {

@@ -185,18 +185,22 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   /// Charged before they are answered: many that are asked in one breath don't pass on one budget.
   void pass_on_due(Time now) {
     while (auto question = allowance_.due(now)) {
-      allowance_.charge_answer(bytes_of_answer(*question), now);
+      allowance_.charge_answer(sizes_.of(*question), now);
       door_->submit(id_, std::move(*question), now);
     }
   }
-
-  [[nodiscard]] std::size_t bytes_of_answer(const protocol::ClientMessage& question) const {
-    if (std::holds_alternative<protocol::GetMap>(question)) return map_bytes_;
-    if (std::holds_alternative<protocol::GetGhost>(question)) return ghost_bytes_;
-    return std::holds_alternative<protocol::Resync>(question) ? key_bytes_ : records_bytes_;
+  /// And soon; who watches the rooms takes his time.
+  [[nodiscard]] bool is_to_join() const {
+    return handshake_.state() == Handshake::State::kGreeting && !rooms_.is_on();
+  }
+  void tell_rooms(Time now) {
+    std::string line = protocol::encode(environment_.directory.list());
+    allowance_.charge_answer(line.size(), now);
+    push(Line(std::move(line)));
+    watch_next(now);
   }
   void push_record(Line line) {
-    std::size_t& longest = line->starts_with(R"({"type":"ghost")") ? ghost_bytes_ : records_bytes_;
+    std::size_t& longest = line->starts_with(R"({"type":"ghost")") ? sizes_.ghost : sizes_.records;
     longest = std::max(longest, line->size());
     if (line->size() <= limits_->outbox_bytes / 2) return push(std::move(line));
     say(protocol::ErrorMessage{std::string(protocol::code::kNoRecords),
@@ -238,8 +242,8 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
     const std::size_t size = part.lines->size();
     const bool is_header = part.kind == StreamPart::Kind::kHeader;
     const bool is_keyframe = part.kind == StreamPart::Kind::kKeyframe;
-    if (is_keyframe) key_bytes_ = size;
-    if (part.is_answer && part.kind == StreamPart::Kind::kSteps) key_bytes_ += size;
+    if (is_keyframe) sizes_.key = size;
+    if (part.is_answer && part.kind == StreamPart::Kind::kSteps) sizes_.key += size;
     if (is_header || (is_keyframe && has_header_)) allowance_.charge_answer(size, now());
     if (is_header || is_keyframe) has_header_ = is_header;
   }
@@ -325,11 +329,10 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   bool is_web_ = false;      ///< it came by the web port
   std::uint64_t parts_ = 0;  ///< of the stream, so far
   bool has_header_ = false;  ///< and no keyframe behind it yet
-  // Of the answers to get_map and, about, to resync; guesses until the welcome has come.
-  std::size_t map_bytes_ = 64u << 10, key_bytes_ = 4u << 10;
-  std::size_t records_bytes_ = 4u << 10, ghost_bytes_ = 16u << 10;  ///< of the longest so far, or guesses
+  AnswerSizes sizes_;
 
   std::unique_ptr<Alarm> watch_;
+  DirectoryWatch rooms_;
   Pulse pulse_;
   std::uint64_t pings_ = 0;
   bool is_end_told_ = false;  ///< in the log

@@ -19,6 +19,7 @@ bool Lobby::open(std::shared_ptr<Room> room, std::function<void()> ended) {
   if (stopped_ || find_in(rooms_, room->name()) != rooms_.end()) return false;
   room->start(std::move(ended));
   rooms_.push_back(std::move(room));
+  ++changes_;
   return true;
 }
 
@@ -32,6 +33,7 @@ bool Lobby::close(std::string_view name, const protocol::Bye& bye, const std::st
     room = std::move(*found);
     rooms_.erase(found);
     closing_.push_back(room);
+    ++changes_;
   }
   room->stop(bye, reason, [this, closing = room.get(), closed = std::move(closed)] {
     {

@@ -1,7 +1,9 @@
 // The rooms of a server, by name; they open and close while it runs.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -33,6 +35,7 @@ class Lobby final : public Directory {
   [[nodiscard]] std::shared_ptr<Door> find(std::string_view name) const override;
   [[nodiscard]] std::vector<std::string> names() const override;
   [[nodiscard]] protocol::Rooms list() const override;
+  [[nodiscard]] std::uint64_t changes() const override { return changes_.load(); }
   [[nodiscard]] bool is_too_late(Time now) const override;
   /// In the order they were opened.
   [[nodiscard]] std::vector<std::shared_ptr<Room>> rooms() const;
@@ -41,6 +44,7 @@ class Lobby final : public Directory {
   mutable std::mutex mutex_;
   std::vector<std::shared_ptr<Room>> rooms_;
   std::vector<std::shared_ptr<Room>> closing_;  ///< found by nobody, not at their end yet
+  std::atomic<std::uint64_t> changes_{0};
   bool stopped_ = false;
 };
 

@@ -182,6 +182,12 @@ Decoded read_respawn(FieldReader& reader) {
   return reader.finish<ClientMessage>(respawn);
 }
 
+Decoded read_list(FieldReader& reader) {
+  List list;
+  reader.boolean("watch", list.watch, Presence::kOptional);
+  return reader.finish<ClientMessage>(list);
+}
+
 Decoded read_list_records(FieldReader& reader) {
   ListRecords list;
   reader.choice("board", list.board, kBoardTexts, board_from_text, Presence::kOptional);
@@ -216,7 +222,7 @@ constexpr std::array<std::pair<std::string_view, Read>, 15> kTypes = {{
     {"join", read_join},
     {"input", read_input},
     {"chat", read_chat},
-    {"list", read_bare<List>},
+    {"list", read_list},
     {"get_map", read_bare<GetMap>},
     {"resync", read_bare<Resync>},
     {"respawn", read_respawn},

@@ -49,7 +49,11 @@ void append_line(std::string& out, const Input& input) {
 void append_line(std::string& out, const Chat& chat) {
   json::ObjectText(out, "chat").text("text", chat.text).end_line();
 }
-void append_line(std::string& out, const List&) { json::ObjectText(out, "list").end_line(); }
+void append_line(std::string& out, const List& list) {
+  json::ObjectText text(out, "list");
+  if (list.watch) text.boolean("watch", true);
+  text.end_line();
+}
 void append_line(std::string& out, const GetMap&) { json::ObjectText(out, "get_map").end_line(); }
 void append_line(std::string& out, const Resync&) { json::ObjectText(out, "resync").end_line(); }
 void append_line(std::string& out, const Respawn& respawn) {

@@ -98,6 +98,7 @@ struct Chat {
   friend bool operator==(const Chat&, const Chat&) = default;
 };
 struct List {
+  bool watch = false;  ///< the answer comes again whenever a room has opened or closed
   friend bool operator==(const List&, const List&) = default;
 };
 struct GetMap {

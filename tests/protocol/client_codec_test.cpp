@@ -69,6 +69,7 @@ TEST_CASE("every client message comes back as it was sent") {
                                                pair,
                                                Chat{"hello, you"},
                                                List{},
+                                               List{true},
                                                GetMap{},
                                                Resync{},
                                                Respawn{},

@@ -218,9 +218,17 @@ std::vector<ClientMessage> client_samples() {
   [[maybe_unused]] const auto& [board, rank] = ghost;
   const ListRecords list{Board::kBots};
   [[maybe_unused]] const auto& [its_board] = list;
-  return {whole_join(), plain,     again,   whole_input(), push,    chat, List{},
-          GetMap{},     Resync{},  respawn, Respawn{},     Skip{},  look, Look{},
-          Ping{123},    Pong{-99}, list,    ghost,         Leave{}, mute, Moderate{"say", "", "hello", {}}};
+  return {whole_join(), plain,
+          again,        whole_input(),
+          push,         chat,
+          List{},       List{true},
+          GetMap{},     Resync{},
+          respawn,      Respawn{},
+          Skip{},       look,
+          Look{},       Ping{123},
+          Pong{-99},    list,
+          ghost,        Leave{},
+          mute,         Moderate{"say", "", "hello", {}}};
 }
 
 std::vector<ServerMessage> server_samples() {

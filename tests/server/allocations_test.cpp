@@ -83,6 +83,7 @@ class OneRoom final : public Directory {
   [[nodiscard]] std::vector<std::string> names() const override { return {door_->name()}; }
   [[nodiscard]] protocol::Rooms list() const override { return {}; }
   [[nodiscard]] bool is_too_late(Time) const override { return false; }
+  [[nodiscard]] std::uint64_t changes() const override { return 0; }
 
  private:
   std::shared_ptr<Door> door_;

@@ -123,6 +123,16 @@ class Opened(unittest.TestCase):
             server.done("open", file="hills", name="evening")
             self.assertTrue(os.path.exists(server.path("evening.1.ndjson")))
 
+    def test_who_watches_the_rooms_hears_of_it(self):
+        with AdminServer() as server:
+            lobby = server.client()
+            lobby.send({"type": "list", "watch": True})
+            self.assertEqual(len(lobby.expect("rooms")["rooms"]), 1)
+            server.done("open", file="hills")
+            self.assertEqual([room["name"] for room in lobby.expect("rooms")["rooms"]], ["volcano", "hills"])
+            server.done("close", room="volcano")
+            self.assertEqual([room["name"] for room in lobby.expect("rooms")["rooms"]], ["hills"])
+
     def test_the_last_room_may_close_and_the_server_goes_on(self):
         with AdminServer() as server:
             server.done("close", room="volcano")

@@ -76,9 +76,11 @@ class FakeDirectory final : public Directory {
     for (const auto& door : doors_) list.rooms.push_back(door->census());
     return list;
   }
+  [[nodiscard]] std::uint64_t changes() const override { return times_changed; }
   [[nodiscard]] bool is_too_late(Time) const override { return are_ticks_overdue; }
 
   bool are_ticks_overdue = false;
+  std::uint64_t times_changed = 0;
 
  private:
   std::vector<std::shared_ptr<FakeDoor>> doors_;

@@ -52,6 +52,36 @@ TEST_CASE("a session says hello first, and all of it") {
   CHECK(stage.log.str().empty());
 }
 
+TEST_CASE("who watches the rooms hears of each change within a second, once, and need not join") {
+  Stage stage;
+  stage.start();
+  const auto times_told = [&stage] {
+    std::size_t times = 0;
+    for (std::size_t at = 0; (at = stage.far->received.find("{\"type\":\"rooms\"", at)) != std::string::npos;
+         ++at)
+      ++times;
+    return times;
+  };
+  stage.send("{\"type\":\"list\",\"watch\":true}\n");
+  CHECK(times_told() == 1);
+  stage.pass(seconds(3));
+  CHECK(times_told() == 1);
+  stage.directory.times_changed += 2;  // two rooms at once
+  stage.pass(seconds(1));
+  CHECK(times_told() == 2);
+  stage.pass(seconds(2));
+  CHECK(times_told() == 2);
+  stage.pass(seconds(stage.limits.handshake_s));
+  CHECK_FALSE(stage.has_got("handshake_timeout"));
+  stage.send("{\"type\":\"list\"}\n");
+  CHECK(times_told() == 3);
+  ++stage.directory.times_changed;
+  stage.pass(seconds(2));
+  CHECK(times_told() == 3);
+  stage.pass(seconds(stage.limits.handshake_s));
+  CHECK(stage.has_got("handshake_timeout"));
+}
+
 TEST_CASE("a session that is refused says why and bye, no hello, and hears nothing") {
   Stage stage;
   stage.start_refused({"too_many_connections", "close one first", true, {}});
