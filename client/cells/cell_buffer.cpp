@@ -2,31 +2,41 @@
 
 #include <algorithm>
 
+#include "client/cells/character_width.h"
 #include "shared/core/utf8.h"
 
 namespace woodlouse::client {
-namespace {
-
-bool is_one_column_wide(char32_t c, GlyphSet glyphs) {
-  if (c >= 0x20 && c < 0x7F) return true;
-  if (glyphs == GlyphSet::kAscii) return false;
-  // Latin, Greek and Cyrillic letters: no soft hyphen (U+00AD), no unassigned, no combining (U+0483..U+0489).
-  return (c >= 0xA1 && c <= 0x24F && c != 0xAD) ||
-         (c >= 0x386 && c <= 0x3FF && c != 0x38B && c != 0x38D && c != 0x3A2) || (c >= 0x400 && c <= 0x482) ||
-         (c >= 0x48A && c <= 0x4FF);
-}
-
-}  // namespace
-
 std::u32string printable(std::string_view utf8, GlyphSet glyphs) {
   std::u32string result;
-  while (!utf8.empty()) {
+  std::size_t last = 0;  // where the last character begins
+  for (; !utf8.empty();) {
     const core::Utf8Character character = core::first_character(utf8);
-    const bool is_shown = character.valid && is_one_column_wide(character.code, glyphs);
-    result.push_back(is_shown ? character.code : U'?');
     utf8.remove_prefix(character.size);
+    const int columns = character.valid ? columns_of(character.code) : -1;
+    if (columns == 0) {
+      const char32_t whole = last < result.size() ? composed(result[last], character.code) : 0;
+      if (whole != 0) result[last] = whole;
+      continue;
+    }
+    last = result.size();
+    result.push_back(columns > 0 ? character.code : U'?');
+    if (columns == 2) result.push_back(kWideTail);
   }
+  if (glyphs == GlyphSet::kHalfBlocks) return result;
+  std::erase(result, kWideTail);
+  for (char32_t& c : result) c = static_cast<char32_t>(ascii_of(c));
   return result;
+}
+
+Cell whole_cell(std::span<const Cell> row, std::size_t column) {
+  Cell cell = row[column];
+  const bool is_tail = cell.glyph == kWideTail;
+  if (!is_tail && (cell.glyph < 0x1100 || columns_of(cell.glyph) != 2)) return cell;
+  const bool is_whole = is_tail ? column > 0 && columns_of(row[column - 1].glyph) == 2
+                                : column + 1 < row.size() && row[column + 1].glyph == kWideTail;
+  if (!is_whole) cell.glyph = U' ';
+  if (is_tail && is_whole) cell.style = row[column - 1].style;
+  return cell;
 }
 
 void CellBuffer::resize(Size size) {

@@ -34,7 +34,8 @@ struct Style {
   friend constexpr bool operator==(const Style&, const Style&) = default;
 };
 
-/// One character cell. `glyph` is a printable code point exactly one column wide.
+/// One character cell. `glyph` is a printable code point one column wide, or two: then kWideTail
+/// (character_width.h) stands in the cell to its right.
 struct Cell {
   char32_t glyph = U' ';
   Style style;
@@ -44,13 +45,18 @@ struct Cell {
 /// Which characters may be drawn.
 enum class GlyphSet : std::uint8_t {
   kAscii,       ///< U+0020..U+007E only
-  kHalfBlocks,  ///< U+2580 and letters of the alphabets one column wide
+  kHalfBlocks,  ///< U+2580 and all that columns_of() has columns for
 };
 
-/// The code points of a UTF-8 text, each of them printable and one column wide: everything else (control and
-/// combining characters, wide ones, bad bytes; all but ASCII for kAscii) becomes '?', so that columns stay
-/// aligned and nothing a stranger typed reaches the terminal as a command.
+/// The printable code points of a UTF-8 text, one element a column: kWideTail follows a character two columns
+/// wide. Marks are composed with their letter or left out; everything else (control characters, bad bytes)
+/// becomes '?', so that columns stay aligned and nothing a stranger typed reaches the terminal as a command.
+/// For kAscii Latin letters lose their marks, and what is no ASCII becomes one '?' a character.
 std::u32string printable(std::string_view utf8, GlyphSet glyphs);
+
+/// The cell as it can be shown: half of a wide character, whose other half something was written over or
+/// which stands at an edge, is a blank. REQUIRES column < row.size().
+Cell whole_cell(std::span<const Cell> row, std::size_t column);
 
 class CellBuffer {
  public:

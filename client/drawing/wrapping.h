@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "client/cells/character_width.h"
+
 namespace woodlouse::client {
 
 /// `text` in lines of at most `width` >= 1 columns, broken at blanks where there are any; later lines are
@@ -17,6 +19,7 @@ inline std::vector<std::u32string> wrapped(std::u32string text, int width) {
     std::size_t cut = text.rfind(U' ', room);
     const std::size_t indent = lines.empty() ? 0 : 2;
     if (cut == std::u32string::npos || cut <= indent) cut = room;
+    if (text[cut] == kWideTail && cut > 1) --cut;  // a wide character stays whole
     lines.push_back(text.substr(0, cut));
     text.erase(0, cut);
     text.erase(0, text.find_first_not_of(U' '));

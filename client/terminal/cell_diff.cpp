@@ -3,6 +3,7 @@
 #include <charconv>
 #include <utility>
 
+#include "client/cells/character_width.h"
 #include "shared/core/utf8.h"
 
 namespace woodlouse::client {
@@ -83,7 +84,7 @@ std::string FrameEncoder::encode(const CellBuffer& frame) {
   for (int row = 0; row < size.rows; ++row) {
     const auto cells = frame.row(row);
     for (int column = 0; column < size.columns; ++column)
-      next_.at(column, row) = canonical(cells[static_cast<std::size_t>(column)], mode_);
+      next_.at(column, row) = canonical(whole_cell(cells, static_cast<std::size_t>(column)), mode_);
     encode_row(row, out);
   }
   std::swap(shown_, next_);
@@ -94,7 +95,7 @@ void FrameEncoder::encode_row(int row, std::string& out) {
   const int columns = next_.size().columns;
   for (int column = 0; column < columns; ++column) {
     const Cell& cell = next_.at(column, row);
-    if (cell == shown_.at(column, row)) continue;
+    if (cell == shown_.at(column, row) || cell.glyph == kWideTail) continue;
     move_to(column, row, out);
     Style style = cell.style;
     char32_t glyph = cell.glyph;
@@ -110,6 +111,8 @@ void FrameEncoder::encode_row(int row, std::string& out) {
     core::append_character(out, glyph);
     // After the last column terminals differ in where the cursor is; no cell has that place.
     cursor_column_ = column + 1;
+    // Whether the terminal takes it for as wide as we do nobody knows: the next cell is named.
+    if (column + 1 < columns && next_.at(column + 1, row).glyph == kWideTail) cursor_row_ = -1;
   }
 }
 
@@ -120,7 +123,7 @@ void FrameEncoder::move_to(int column, int row, std::string& out) {
     bool reprint = gap <= 3;
     for (int i = cursor_column_; reprint && i < column; ++i) {
       const Cell& cell = next_.at(i, row);
-      reprint = cell.glyph < 0x7F && cell.glyph != U' ' && cell.style == style_;
+      reprint = cell.glyph > U' ' && cell.glyph < 0x7F && cell.style == style_;
     }
     if (reprint) {
       for (int i = cursor_column_; i < column; ++i) core::append_character(out, next_.at(i, row).glyph);

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "client/cells/character_width.h"
 #include "client/drawing/layout.h"
 #include "client/terminal/null_screen.h"
 #include "tests/client/drawing/staged_game.h"
@@ -185,4 +186,33 @@ TEST_CASE("lice at impossible places are left out") {
       empty.lice.clear();
       CHECK(text_of(scene, {100, 30}) == text_of(empty, {100, 30}));
     }
+}
+
+TEST_CASE("a name of wide characters keeps every column of the panel and of the scoreboard in its place") {
+  Scene scene = still_life();
+  for (const char* name :
+       {"\u6F22\u5B57\u6F22\u5B57\u6F22\u5B57\u6F22\u5B57", "\uAC00\uB098 \U0001F41B", "a\u6F22e\u0301"}) {
+    scene.lice[0].name = scene.scores[0].name = name;
+    scene.chat = {{name, name}};
+    for (const Size size : {Size{60, 20}, Size{80, 24}, Size{120, 36}})
+      for (const Mode mode : {Mode::kPlay, Mode::kScoreboard}) {
+        scene.look = {ColorMode::kTruecolor, GlyphSet::kHalfBlocks};
+        scene.mode = mode;
+        Composer composer;
+        CellBuffer cells(size);
+        composer.draw(scene, cells);
+        std::size_t wide = 0;
+        for (int row = 0; row < size.rows; ++row)
+          for (int column = 0; column < size.columns; ++column) {
+            const Cell cell = whole_cell(cells.row(row), static_cast<std::size_t>(column));
+            if (cell.glyph == kWideTail || columns_of(cell.glyph) != 2) continue;
+            ++wide;
+            CHECK(whole_cell(cells.row(row), static_cast<std::size_t>(column + 1)).glyph == kWideTail);
+          }
+        CHECK(wide > 0);
+        // The metres end where they end beside an ASCII name.
+        const std::string text = text_of(scene, size);
+        CHECK(text.find("33 m") != std::string::npos);
+      }
+  }
 }

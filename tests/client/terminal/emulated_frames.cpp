@@ -32,18 +32,20 @@ void print(const CellBuffer& cells, ColorMode mode, const std::string& bytes) {
               bytes.size());
   std::fwrite(bytes.data(), 1, bytes.size(), stdout);
   for (int row = 0; row < cells.size().rows; ++row) {
-    for (const Cell& cell : cells.row(row))
+    for (int column = 0; column < cells.size().columns; ++column) {
+      const Cell cell = whole_cell(cells.row(row), static_cast<std::size_t>(column));
       std::printf("%x/%s/%s/%x ", static_cast<unsigned>(cell.glyph),
                   color_text(cell.style.foreground, mode).c_str(),
                   color_text(cell.style.background, mode).c_str(), cell.style.attributes);
+    }
     std::printf("\n");
   }
 }
 
 /// Changes some cells to anything that may stand in one.
 void scribble(CellBuffer& cells, core::Random& random) {
-  constexpr char32_t kGlyphs[] = {U' ',      U'a',      U'@',      U'#',     U'\u2580',
-                                  U'\u2584', U'\u00FC', U'\u0416', U'\u2500'};
+  constexpr char32_t kGlyphs[] = {U' ',      U'a',      U'@',      U'#',      U'\u2580',     U'\u2584',
+                                  U'\u00FC', U'\u0416', U'\u2500', U'\u6F22', U'\U0001F41B', U'\0'};
   if (cells.size().columns == 0 || cells.size().rows == 0) return;
   const auto below = [&](int n) { return static_cast<int>(random.next() % static_cast<std::uint64_t>(n)); };
   const auto color = [&]() -> Color {
@@ -58,7 +60,7 @@ void scribble(CellBuffer& cells, core::Random& random) {
     const int row = below(cells.size().rows);
     const int first = below(cells.size().columns);
     for (int column = first; column <= first + below(6); ++column)
-      cells.put(column, row, kGlyphs[below(9)], style);
+      cells.put(column, row, kGlyphs[below(12)], style);
   }
 }
 

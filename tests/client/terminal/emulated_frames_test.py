@@ -14,6 +14,8 @@ NAMES = ["black", "red", "green", "brown", "blue", "magenta", "cyan", "white"]
 
 def normal(glyph, fg, bg, bold, reverse):
     """One spelling for equal looks: a lower half is an upper half with its colours exchanged."""
+    if glyph in ("", "\0"):
+        return "", None, None, None, None
     if glyph == "\u2584" and not reverse:
         glyph, fg, bg = "\u2580", bg, fg
     if glyph == "\u2580" and not reverse and fg == bg:
