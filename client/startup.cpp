@@ -16,6 +16,7 @@
 #include "client/local_server.h"
 #include "client/opened_terminal.h"
 #include "client/play/game.h"
+#include "client/play/join_request.h"
 #include "client/play/modes/ghost_file.h"
 #include "client/play/session.h"
 #include "client/play/text_game.h"

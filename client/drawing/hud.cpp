@@ -78,6 +78,12 @@ void draw_players(const Scene& scene, const Badges& badges, const Styles& styles
 }
 
 void draw_you(const Scene& scene, const Styles& styles, PanelWriter& out) {
+  if (scene.silence) {
+    for (const char* unknown :
+         {"speed    -- m/s", "slope    --", "push     --", "way      -- m", "height   -- m"})
+      out.line(unknown, styles.dim);
+    return;
+  }
   const HudNumbers& hud = scene.hud;
   constexpr double kFullBar = 12.0;  ///< [m/s]
   const int bar = std::max(0, out.width() - 19);
@@ -221,17 +227,22 @@ void draw_status_line(const Scene& scene, CellBuffer& cells) {
     at = cells.text(at + 2, 0,
                     formatted("connection lost: coming back ... %.0f", std::ceil(scene.lost->seconds_left)),
                     styles.warning);
+  if (scene.silence && !scene.lost)
+    at = cells.text(at + 2, 0, formatted("no word for %.0f s", std::floor(*scene.silence)), styles.warning);
+  if (scene.paused) at = cells.text(at + 2, 0, "paused", styles.warning);
   at = cells.text(at + 2, 0, printable(scene.map_name, scene.look.glyphs), styles.bar, 24);
   if (scene.lost) return;  // the numbers are those of before
   if (columns >= 80) at = cells.text(at + 2, 0, view_text(scene), styles.dim_bar);
   std::string middle = scene.spectating ? "watching"
+                       : scene.silence  ? "#-- of --"
                        : hud.rank > 0   ? formatted("#%d of %d", hud.rank, hud.players)
                                         : "";
   at = cells.text(at + 3, 0, middle, styles.bar);
   if (scene.proof)
     at = cells.text(at + 2, 0, proof_text(*scene.proof), scene.proof->differs ? styles.warning : styles.bar);
-  std::string right = hud.rtt_ms ? formatted("rtt %.0f ms", *hud.rtt_ms) : "rtt --";
-  right += formatted("  srv %.0f  fps %.0f", hud.tick_hz, hud.fps);
+  std::string right = hud.rtt_ms && !scene.silence ? formatted("rtt %.0f ms", *hud.rtt_ms) : "rtt --";
+  right += scene.silence ? formatted("  srv --  fps %.0f", hud.fps)
+                         : formatted("  srv %.0f  fps %.0f", hud.tick_hz, hud.fps);
   cells.text(std::max(at + 2, columns - 1 - static_cast<int>(right.size())), 0, right, styles.bar);
 }
 

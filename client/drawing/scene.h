@@ -161,11 +161,14 @@ struct Scene {
   std::vector<LouseMark> lice;  ///< ascending id
   HudNumbers hud;
   std::vector<ScoreRow> scores;
-  std::vector<ChatLine> chat;          ///< the newest 50 or so
-  std::string chat_entry;              ///< what is being typed, UTF-8 (Mode::kChatEntry)
-  std::string notice;                  ///< one line over the key line; empty: none
-  Course course;                       ///< what a mode of play shows besides
-  std::string measured;                ///< what the scores are, for the scoreboard's title
+  std::vector<ChatLine> chat;  ///< the newest 50 or so
+  std::string chat_entry;      ///< what is being typed, UTF-8 (Mode::kChatEntry)
+  std::string notice;          ///< one line over the key line; empty: none
+  Course course;               ///< what a mode of play shows besides
+  std::string measured;        ///< what the scores are, for the scoreboard's title
+  std::optional<double>
+      silence;          ///< seconds without a word of the server's: numbers are not known; empty: it speaks
+  bool paused = false;  ///< no tick passes
   std::optional<ConnectionLost> lost;  ///< empty: the line is up
   std::optional<StateProof> proof;     ///< empty: nothing is verified
   std::optional<ReplayBar> replay;     ///< a recording is watched; empty: a game

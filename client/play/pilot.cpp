@@ -89,6 +89,15 @@ void Pilot::compare(std::uint64_t tick, const LouseSample& row) {
   if (std::hypot(off.x, off.y) > kStray) wants_state_ = true;
 }
 
+void Pilot::begin_anew() {
+  if (prediction_) prediction_->forget();
+  ahead_ = 0.0;
+  last_tick_ = 0;
+  wants_state_ = true;
+  asked_.reset();
+  correction_ = {};
+}
+
 void Pilot::respawned() {
   if (prediction_) ended_ = log_.finish(prediction_->tick());
   if (prediction_) prediction_->forget();

@@ -56,6 +56,9 @@ class Pilot {
   void acknowledge(const protocol::Ack& ack);
   /// The server's row of this louse: where it strays from what was predicted, an exact state is asked for.
   void compare(std::uint64_t tick, const LouseSample& row);
+  /// What was predicted is worth nothing, the server having stood still: the next ack says where the louse
+  /// is.
+  void begin_anew();
   /// Back at a spawn point: the next ack says where.
   void respawned();
 

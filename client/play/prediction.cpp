@@ -62,6 +62,7 @@ void Prediction::step() {
 void Prediction::forget() {
   if (id_) world_.erase(*id_);
   id_.reset();
+  tick_ = 0;
   pending_.clear();
   history_.clear();
   correction_ = {};

@@ -15,7 +15,6 @@
 namespace woodlouse::client {
 namespace {
 
-constexpr std::uint32_t kStreamHz = 20;   // parts of the stream a second
 constexpr double kTrailSpacings = 200.0;  // a trail's points are this part of the map's width apart
 
 template <typename... Cases>
@@ -36,29 +35,8 @@ std::int64_t microseconds(core::Time time) {
 
 }  // namespace
 
-protocol::Join make_join(protocol::Role role, const std::string& name, const std::string& room,
-                         Hashes hashes) {
-  protocol::Join join;
-  join.role = role;
-  join.may_resume = role != protocol::Role::kSpectator;
-  join.name = name;
-  join.room = room;
-  join.fields = wanted_columns();
-  if (hashes == Hashes::kVerified) {
-    join.fields = protocol::all_columns();
-    join.format = protocol::Format::kExact;
-  }
-  return join;
-}
-
-protocol::Join by_inputs(protocol::Join join) {
-  assert(join.role == protocol::Role::kSpectator);
-  join.stream = protocol::Stream::kInputs;
-  join.state_hz = kStreamHz;
-  return join;
-}
-
 core::Expected<void> RoomView::on_message(const protocol::ServerMessage& message, core::Time now) {
+  word_.heard(now);
   return std::visit(
       Overloaded{
           [&](const protocol::Welcome& m) -> core::Expected<void> {
@@ -157,6 +135,7 @@ void RoomView::begin_piloting() {
 void RoomView::take(const protocol::Frame& frame, core::Time now) {
   if (!view_) return;
   verifier_.take(frame);
+  goes_on(frame.tick, now);
   clock_->observe(frame.tick, now);
   measure_rate(frame.tick, now);
   switch (view_->merge(frame)) {
@@ -180,6 +159,7 @@ void RoomView::take(const protocol::Frame& frame, core::Time now) {
 
 bool RoomView::follow(std::string_view line, core::Time now) {
   if (!view_) return true;
+  word_.heard(now);
   if (!stream_.take(line)) {
     notice(to_text(*follower().difference()), now);
     return false;
@@ -191,11 +171,19 @@ bool RoomView::follow(std::string_view line, core::Time now) {
     trails_.clear();
   }
   if (stream_.is_on_time()) {
+    goes_on(match->tick(), now);
     clock_->observe(match->tick(), now);
     measure_rate(match->tick(), now);
   }
   if (auto picture = stream_.picture()) view_->show(std::move(*picture));
   return true;
+}
+
+/// After a pause everything is timed anew: what was counted on meanwhile never happened.
+void RoomView::goes_on(std::uint64_t tick, core::Time now) {
+  if (!word_.shown(tick, now)) return;
+  clock_.emplace(welcome_->tick_hz);
+  if (pilot_) pilot_->begin_anew();
 }
 
 void RoomView::measure_rate(std::uint64_t tick, core::Time now) {
@@ -254,6 +242,7 @@ void RoomView::notice(std::string text, core::Time now) {
 void RoomView::on_lost() {
   was_here_ |= welcome_.has_value();
   welcome_.reset();
+  word_ = {};
   clock_.reset();
   view_.reset();
   pilot_.reset();
@@ -293,12 +282,13 @@ void RoomView::update(core::Time now) {
     counted_ = now;
     outgoing_.emplace_back(protocol::List{});
   }
-  if (pilot_) {
+  const bool is_known = word_.goes_on(now);
+  if (pilot_ && is_known) {
     if (const auto input = pilot_->update(now, *clock_, rtt_seconds().value_or(0.0)))
       outgoing_.emplace_back(*input);
   }
   draw_lice(now);
-  if (clock_->running()) shown_tick_ = clock_->tick(now);
+  if (clock_->running() && is_known) shown_tick_ = clock_->tick(now);
   const auto own = pilot_ ? lice_.find(pilot_->id()) : lice_.end();
   own != lice_.end() ? own_game_.update(*pilot_, own->second.sample, shown_tick_, now) : own_game_.idle();
 }

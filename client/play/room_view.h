@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "client/net/server_clock.h"
+#include "client/net/server_word.h"
 #include "client/play/keyframe_verifier.h"
 #include "client/play/modes/own_game.h"
 #include "client/play/pilot.h"
@@ -59,6 +60,12 @@ class RoomView {
   void look(const protocol::View& view);
   /// Whether that is not everybody.
   [[nodiscard]] bool sees_part() const { return !looked_.is_whole(); }
+  /// Seconds without a word of the server's, when they are too many: what is shown is no longer known.
+  [[nodiscard]] std::optional<double> silence(core::Time now) const {
+    return welcome_ ? word_.silence(now) : std::nullopt;
+  }
+  /// The room is paused: no tick passes.
+  [[nodiscard]] bool stands() const { return welcome_ && word_.stands(); }
   void respawn() { outgoing_.emplace_back(protocol::Respawn{}); }
   /// A gate of your own where you are; what came of it is a notice.
   void set_gate(core::Time now);
@@ -94,6 +101,7 @@ class RoomView {
   void take(const protocol::Event& event, core::Time now);
   void take(const protocol::Pong& pong, core::Time now);
   void take(const protocol::Rooms& rooms);
+  void goes_on(std::uint64_t tick, core::Time now);
   void measure_rate(std::uint64_t tick, core::Time now);
   void begin_piloting();
   void draw_lice(core::Time now);
@@ -102,6 +110,7 @@ class RoomView {
   bool was_here_ = false;  ///< the line was cut since the last welcome
   std::shared_ptr<const map::Map> map_;
   std::optional<ServerClock> clock_;
+  ServerWord word_;
   std::optional<ViewState> view_;
   KeyVerifier verifier_;
   StreamView stream_;
@@ -124,11 +133,5 @@ class RoomView {
   std::string notice_;
   core::Time notice_until_{};
 };
-
-/// The join of our client: its columns, its format; its louse is to wait for it.
-protocol::Join make_join(protocol::Role role, const std::string& name, const std::string& room,
-                         Hashes hashes = Hashes::kIgnored);
-/// The same of a watcher by inputs, where the server offers that.
-protocol::Join by_inputs(protocol::Join join);
 
 }  // namespace woodlouse::client

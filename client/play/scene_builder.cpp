@@ -210,6 +210,8 @@ Scene build_scene(const Session& session, const Interface& interface, const Chat
     scene.course.target = 0.5 * (gate->a + gate->b);
     scene.course.lines.push_back(room.own_game().gate().line(facts.now));
   }
+  scene.silence = room.silence(facts.now);
+  scene.paused = room.stands() && !scene.silence;
   scene.proof = proof_of(room);
   if (room.verifier().difference()) scene.notice = to_text(*room.verifier().difference());
   if (const auto seconds = session.connection().seconds_left(facts.now))

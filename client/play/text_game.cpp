@@ -141,10 +141,12 @@ void TextGame::update() {
   const core::Time now = steady_clock::now();
   session_.update(now);
   tell_connection();
+  tell_silence(now);
   tell_news();
   tell_proof();
   teach();
-  if (now - state_told_ >= kStateEvery && session_.connection().phase() == Connection::Phase::kJoined) {
+  if (now - state_told_ >= kStateEvery && !is_silence_told_ &&
+      session_.connection().phase() == Connection::Phase::kJoined) {
     state_told_ = now;
     for (const std::string& line : words::goal(session_.room())) say(line);
     const auto lines = words::room(session_.room());
@@ -174,6 +176,13 @@ void TextGame::tell_connection() {
     losses_told_ = connection.losses();
     say("connection lost: " + connection.closing().reason + "; coming back");
   }
+}
+
+void TextGame::tell_silence(core::Time now) {
+  const bool is_silent = session_.room().silence(now).has_value();
+  if (is_silent == std::exchange(is_silence_told_, is_silent)) return;
+  if (is_silent) return say("no word from the server: what was told last is no longer known");
+  if (!session_.is_trying()) say("the server speaks again");
 }
 
 void TextGame::tell_news() {

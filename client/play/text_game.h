@@ -60,6 +60,7 @@ class TextGame {
   void tell_driving(Action action, core::Time now);
   void tell_news();
   void tell_connection();
+  void tell_silence(core::Time now);
   void tell_proof();
   void teach();
   void say(const std::string& line);
@@ -83,7 +84,8 @@ class TextGame {
   std::size_t lines_told_ = 0;  ///< of the roster's
   std::string notice_told_;
   bool is_difference_told_ = false;  ///< of the re-run
-  int losses_told_ = 0;              ///< of the connection's
+  bool is_silence_told_ = false;
+  int losses_told_ = 0;  ///< of the connection's
   core::Time state_told_{};
   std::optional<Outcome> outcome_;
 };

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 
+#include "client/play/join_request.h"
 #include "client/play/room_view.h"
 #include "shared/map/map_file.h"
 #include "shared/match/match.h"

@@ -1,3 +1,4 @@
+#include "client/play/join_request.h"
 #include "client/play/room_view.h"
 
 #include <catch2/catch.hpp>
@@ -6,49 +7,11 @@
 #include "client/play/scene_builder.h"
 #include "client/play/text_game.h"
 #include "shared/core/stable_hash.h"
-#include "shared/map/map_file.h"
+#include "staged_room.h"
 
 using namespace woodlouse;
 using namespace woodlouse::client;
 using namespace std::chrono_literals;
-
-namespace {
-
-const core::Time kStart{std::chrono::seconds(100)};
-
-std::shared_ptr<const map::Map> volcano() {
-  auto loaded = map::load_map(std::string(WOODLOUSE_SOURCE_DIR) + "/maps/volcano.json");
-  REQUIRE(loaded);
-  return *loaded;
-}
-
-protocol::Welcome welcome(const map::Map& map, std::uint32_t id) {
-  protocol::Welcome message;
-  message.id = id;
-  message.fields = wanted_columns();
-  message.map_hash = map.hash;
-  message.map_name = map.definition.name;
-  message.extent = {-20, -20, 20, 20};
-  message.players = {{1, "ada", protocol::Role::kPlayer}, {2, "gauss", protocol::Role::kBot}};
-  return message;
-}
-
-protocol::Frame key(std::uint64_t tick, std::vector<double> values) {
-  protocol::Frame frame;
-  frame.tick = frame.base = tick;
-  frame.columns = wanted_columns().size();
-  frame.values = std::move(values);
-  return frame;
-}
-
-template <typename Message>
-std::size_t count(const std::vector<protocol::ClientMessage>& messages) {
-  std::size_t found = 0;
-  for (const auto& message : messages) found += std::holds_alternative<Message>(message) ? 1 : 0;
-  return found;
-}
-
-}  // namespace
 
 TEST_CASE("the map is asked for once and kept over a reconnection to the same map") {
   const auto map = volcano();
