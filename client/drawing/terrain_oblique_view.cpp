@@ -129,6 +129,11 @@ void draw_lice_obliquely(const Scene& scene, const Badges& badges, const Relief&
       const core::Vec2 to = louse->position + (2.9 * half_length) * louse->heading;
       painter.line(painter.over_ground(from, louse->above), painter.over_ground(to, louse->above),
                    Color::of({255, 255, 255}));
+      if (const auto tip = camera.project(painter.over_ground(to, louse->above)))
+        labels.reserve(static_cast<int>(std::floor(std::min(tip->x, at->x))),
+                       static_cast<int>(std::floor(std::min(tip->y, at->y) / 2.0)),
+                       {static_cast<int>(std::abs(tip->x - at->x)) + 2,
+                        static_cast<int>(std::abs(tip->y - at->y) / 2.0) + 2});
     }
     const int reach = static_cast<int>(half_length_pixels);
     const Placed entry{
