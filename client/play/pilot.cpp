@@ -74,7 +74,9 @@ void Pilot::acknowledge(const protocol::Ack& ack) {
   wants_state_ = false;
   asked_.reset();
   if (!heading_taken_) {
-    steering_.point(ack.you->louse.heading);
+    const core::Vec2 way = look_at_ ? ways_.way(ack.you->louse.position, *look_at_) : core::Vec2{};
+    const double length = std::hypot(way.x, way.y);
+    steering_.point(length > 0.0 ? (1.0 / length) * way : ack.you->louse.heading);
     heading_taken_ = true;
   }
   if (!prediction_) return;

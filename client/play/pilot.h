@@ -61,6 +61,8 @@ class Pilot {
   void begin_anew();
   /// Back at a spawn point: the next ack says where.
   void respawned();
+  /// What a louse at a spawn looks at first: at rest on a slope it would look where it rolls.
+  void look_at(core::Vec2 place) { look_at_ = place; }
 
   /// The drive that a respawn has ended, once.
   std::optional<OwnDrive> take_drive() { return std::exchange(ended_, std::nullopt); }
@@ -96,8 +98,9 @@ class Pilot {
   std::uint32_t seq_;
   DriveLog log_;
   std::optional<OwnDrive> ended_;
-  std::uint64_t last_tick_ = 0;      ///< the step the last input asked for
-  double ahead_ = 0.0;               ///< fractional tick the louse is drawn at
+  std::uint64_t last_tick_ = 0;  ///< the step the last input asked for
+  double ahead_ = 0.0;           ///< fractional tick the louse is drawn at
+  std::optional<core::Vec2> look_at_;
   bool heading_taken_ = false;       ///< the steering points where the louse does
   bool wants_state_ = true;          ///< ask for an exact state with the next input, wanted or not
   std::optional<core::Time> asked_;  ///< when

@@ -129,6 +129,11 @@ void RoomView::begin_piloting() {
   const state::Mode mode = state::mode_from_text(welcome_->mode).value_or(state::Mode::kRoam);
   const bool has_mode = map_->definition.modes.has(mode);
   pilot_.emplace(*map_, welcome_->tick_hz, welcome_->id, has_mode ? mode : state::Mode::kRoam, last_seq_);
+  const map::Modes& modes = map_->definition.modes;
+  if (mode == state::Mode::kRace && modes.race && !modes.race->gates.empty())
+    pilot_->look_at(0.5 * (modes.race->gates.front().a + modes.race->gates.front().b));
+  if (mode == state::Mode::kHill && modes.hill && !modes.hill->places.empty())
+    pilot_->look_at(modes.hill->places.front().at);
   own_game_.begin(map_, welcome_->tick_hz, has_mode ? mode : state::Mode::kRoam);
 }
 

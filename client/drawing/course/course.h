@@ -42,7 +42,8 @@ struct RingMark {
 struct GhostMark {
   std::string name;
   core::Vec2 position;
-  core::Vec2 heading{1.0, 0.0};  ///< unit
+  core::Vec2 heading{1.0, 0.0};     ///< unit
+  std::vector<core::Vec2> trail{};  ///< oldest first
 };
 
 /// How a piece of a line is meant; never told by colour alone.

@@ -46,7 +46,7 @@ void draw_post(core::Vec2 foot, const Ink& ink, GroundCanvas& canvas) {
 
 void draw_gate(const GateMark& gate, GroundCanvas& canvas) {
   const Rgb color = gate.is_next ? kGoalColor : kOtherGate;
-  canvas.line(gate.a, gate.b, {color, gate.is_next ? U':' : U'.', gate.is_next ? 1.0 : 0.55, kBold},
+  canvas.line(gate.a, gate.b, {color, gate.is_next ? U':' : U'.', gate.is_next ? 0.75 : 0.5, kBold},
               canvas.has_pixels() ? 2 : 1);
   const Ink post{color, gate.is_next ? U'#' : U'+', gate.is_next ? 1.0 : 0.75, kBold};
   draw_post(gate.a, post, canvas);
@@ -57,7 +57,7 @@ void draw_crumb(const CrumbMark& crumb, GroundCanvas& canvas) {
   const auto at = canvas.spot(crumb.position);
   if (!at || at->is_hidden) return;
   const bool is_dear = crumb.value > 1;
-  const Ink ink{is_dear ? kGoalColor : kCrumb, is_dear ? U'*' : U'.', 1.0, kBold};
+  const Ink ink{is_dear ? kGoalColor : kCrumb, is_dear ? U'*' : U'o', 1.0, kBold};
   const int x = whole(at->x);
   const int y = whole(at->y);
   canvas.dot(x, y, ink);
@@ -85,6 +85,11 @@ double metres_per_dot(core::Vec2 place, const GroundCanvas& canvas) {
 }
 
 void draw_ghost(const GhostMark& ghost, GroundCanvas& canvas) {
+  for (std::size_t k = ghost.trail.size() % 2; k < ghost.trail.size(); k += 2) {  // a dotted way
+    const auto at = canvas.spot(ghost.trail[k]);
+    if (at && !at->is_hidden && canvas.has_pixels())
+      canvas.dot(whole(at->x), whole(at->y), {kGhost, U'.', kGhostStrength});
+  }
   if (!canvas.has_pixels()) {
     const auto at = canvas.spot(ghost.position);
     if (!at) return;
@@ -192,9 +197,10 @@ void draw_pointer(const LouseMark& you, core::Vec2 target, GroundCanvas& canvas)
   const int edge_column = std::clamp(static_cast<int>(here->x + std::max(0.0, t) * dx), 1, size.columns - 2);
   const int edge_row =
       std::clamp(static_cast<int>(here->y / rows + std::max(0.0, t) * dy / 2.0), kTop, size.rows - 3);
-  canvas.write(edge_column, edge_row, arrow, kGoalColor);
-  const int left = edge_column + 2 + text < size.columns ? edge_column + 2 : edge_column - 1 - text;
-  canvas.write(left, edge_row, metres, kGoalColor);
+  const bool fits = edge_column + 2 + text < size.columns;
+  const std::u32string told = fits ? arrow + U" " + metres : metres + U" " + arrow;
+  for (const int off : {0, -1, 1, -2})  // a louse may stand there
+    if (canvas.write(fits ? edge_column : edge_column - 1 - text, edge_row + off, told, kGoalColor)) return;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string_view>
@@ -49,8 +50,9 @@ class GroundCanvas {
   [[nodiscard]] const Look& look() const { return look_; }
   [[nodiscard]] int dots_per_row() const { return has_pixels_ ? 2 : 1; }
 
-  /// Where a place `height` [m] over the ground is seen; empty behind the camera.
+  /// Where a place `height` [m] over the ground is seen; empty behind the camera, and nowhere.
   [[nodiscard]] std::optional<Spot> spot(core::Vec2 place, double height = 0.0) const {
+    if (!std::isfinite(place.x) || !std::isfinite(place.y)) return std::nullopt;
     return projector_(place, height);
   }
   void dot(int x, int y, const Ink& ink);

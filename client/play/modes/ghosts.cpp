@@ -16,9 +16,8 @@ namespace {
 constexpr double kTickOfGhosts = 65536.0;  ///< a tick in moments
 constexpr double kShortestDrive = 3.0;     // [s]
 
-GhostMark ghost_mark(std::string name, const LouseSample& sample) {
-  return {std::move(name), sample.position, sample.heading};
-}
+constexpr std::size_t kTrailPoints = 30;
+constexpr double kTrailSpacings = 120.0;  ///< of a map's width
 
 }  // namespace
 
@@ -29,6 +28,7 @@ void Ghosts::begin(std::shared_ptr<const map::Map> map, std::uint32_t tick_hz, s
   tick_hz_ = tick_hz;
   mode_ = mode;
   records_.clear();
+  own_trail_ = Trail(trail_spacing());
   if (is_same) return;  // back on the line: own drives are still known
   kept_.clear();
   last_.reset();
@@ -45,10 +45,26 @@ bool Ghosts::add_record(const protocol::GhostLine& line) {
   assert(line.ghost.spawn < spawns.size());
   OwnDrive drive{map::louse_at(spawns[line.ghost.spawn], 1), line.ghost.inputs, line.ghost.ticks, 0};
   std::erase_if(records_, [&line](const Record& record) { return record.board == line.run.board; });
-  records_.push_back(
-      {line.run.board, line.run.name + " " + span_text(static_cast<std::int64_t>(line.run.time), tick_hz_),
-       static_cast<double>(line.start) / kTickOfGhosts, GhostRun(*map_, tick_hz_, mode_, std::move(drive))});
+  records_.push_back({line.run.board,
+                      line.run.name + " " + span_text(static_cast<std::int64_t>(line.run.time), tick_hz_),
+                      static_cast<double>(line.start) / kTickOfGhosts,
+                      GhostRun(*map_, tick_hz_, mode_, std::move(drive)), Trail(trail_spacing())});
   return true;
+}
+
+double Ghosts::trail_spacing() const {
+  const terrain::Rectangle& d = map_->terrain->domain();
+  return std::max(d.x_max - d.x_min, 1.0) / kTrailSpacings;
+}
+
+GhostMark Ghosts::mark(std::string name, const LouseSample& sample, Trail& trail) const {
+  trail.add(sample.position);
+  const auto& points = trail.points();
+  const std::size_t shown = std::min(points.size(), kTrailPoints);
+  return {std::move(name),
+          sample.position,
+          sample.heading,
+          {points.end() - static_cast<std::ptrdiff_t>(shown), points.end()}};
 }
 
 bool Ghosts::is_better(GhostRun& a, GhostRun& b) const {
@@ -109,12 +125,12 @@ std::vector<GhostMark> Ghosts::marks(std::optional<double> since_spawn, std::int
         run_start == 0 ? 0.0 : std::max(0.0, tick - static_cast<double>(run_start) / kTickOfGhosts);
     for (Record& record : records_)
       if (const auto sample = record.run.at(record.start + running))
-        marks.push_back(ghost_mark(record.name, *sample));
+        marks.push_back(mark(record.name, *sample, record.trail));
   }
   std::optional<GhostRun>& own = choice_ == GhostChoice::kBest ? best_ : last_;
   if (!own || !since_spawn) return marks;
   if (const auto sample = own->at(*since_spawn))
-    marks.push_back(ghost_mark(choice_ == GhostChoice::kBest ? "your best" : "your last", *sample));
+    marks.push_back(mark(choice_ == GhostChoice::kBest ? "your best" : "your last", *sample, own_trail_));
   return marks;
 }
 

@@ -12,6 +12,7 @@
 #include "client/drawing/course/course.h"
 #include "client/play/modes/drive.h"
 #include "client/play/modes/ghost_run.h"
+#include "client/play/trail.h"
 #include "shared/map/map_definition.h"
 #include "shared/protocol/records.h"
 
@@ -46,8 +47,11 @@ class Ghosts {
     std::string name;
     double start = 0.0;  ///< ticks from the spawn to the first gate
     GhostRun run;
+    Trail trail;
   };
 
+  [[nodiscard]] GhostMark mark(std::string name, const LouseSample& sample, Trail& trail) const;
+  [[nodiscard]] double trail_spacing() const;
   [[nodiscard]] bool is_better(GhostRun& a, GhostRun& b) const;
   void load();
   void save();
@@ -60,6 +64,7 @@ class Ghosts {
   std::vector<Record> records_;
   std::vector<OwnDrive> kept_;  ///< the newest last
   std::optional<GhostRun> last_, best_;
+  Trail own_trail_{1.0};
 };
 
 }  // namespace woodlouse::client

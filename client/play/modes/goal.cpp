@@ -301,6 +301,7 @@ std::string describe_ruling(const protocol::Event& event, std::uint32_t you, std
   switch (event.kind) {
     case EventKind::kGate:
       if (!is_you) return {};
+      if (value(2) == 0) return value(0) == 0 ? "through S: the clock runs" : std::string();
       return formatted("gate %ld %s", static_cast<long>(value(0)), span_text(value(2), tick_hz).c_str()) +
              (event.values[3] ? formatted(" %+.2f s", static_cast<double>(value(3)) / kMoments / tick_hz)
                               : "");

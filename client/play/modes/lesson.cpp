@@ -87,10 +87,12 @@ std::vector<GoalLine> Lesson::lines(const KeyLabels& keys) const {
   };
   switch (step_) {
     case Step::kPush:
-      return keys.compass ? told("1PUSH", "hold " + keys.up + ", or tap it", "you are pushed upwards here")
-                          : told("1PUSH", "hold " + keys.up + ", or tap it", "you are pushed where you head");
+      return keys.compass
+                 ? told("1PUSH", "hold " + keys.up + ", or tap it",
+                        keys.up + " " + keys.left + " " + keys.down + " " + keys.right + " push that way")
+                 : told("1PUSH", "hold " + keys.up + ", or tap it", "you are pushed where you head");
     case Step::kTurn:
-      return keys.compass ? told("2TURN", keys.left + " and " + keys.right, "each key pushes its own way")
+      return keys.compass ? told("2TURN", keys.left + " and " + keys.right, "a curve: two keys at once")
                           : told("2TURN", keys.left + " and " + keys.right + ", a quarter round",
                                  "a push goes the new way");
     case Step::kSwing:

@@ -1,0 +1,184 @@
+// What a mode of play shows, in characters and in pixels.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+
+#include "client/drawing/badges.h"
+#include "client/drawing/compose.h"
+#include "client/drawing/layout.h"
+#include "client/terminal/null_screen.h"
+#include "tests/client/drawing/staged_game.h"
+
+using namespace woodlouse;
+using namespace woodlouse::client;
+using namespace woodlouse::client::testing;
+
+namespace {
+
+constexpr Look kCourseInAscii{ColorMode::kMono, GlyphSet::kAscii};
+constexpr Look kCourseInHalves{ColorMode::kTruecolor, GlyphSet::kHalfBlocks};
+
+std::string course_shown(const Scene& scene, Size size) {
+  Composer composer;
+  CellBuffer cells(size);
+  composer.draw(scene, cells);
+  NullScreen screen;
+  screen.show(cells);
+  return screen.text();
+}
+
+bool shows(const Scene& scene, const char* text, Size size = {80, 24}) {
+  const std::string picture = course_shown(scene, size);
+  UNSCOPED_INFO("\"" << text << "\" in\n" << picture);
+  return picture.find(text) != std::string::npos;
+}
+
+Scene a_race() {
+  StagedGame game(named_terrain(terrain::FunctionName::kVolcano), 3, 4);
+  Scene scene = game.scene();
+  scene.lice[0].position = {0.0, 0.0};
+  scene.course.gates = {{{-12.0, 6.0}, {-6.0, 6.0}, "S", false, false},
+                        {{6.0, -9.0}, {6.0, -3.0}, "1", true, false}};
+  scene.course.target = core::Vec2{6.0, -6.0};
+  scene.course.lines = {
+      {{"race", Tone::kStrong}, {"  4:21", Tone::kUsual}, {"  gate 1 SE 8 m", Tone::kGoal}}};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("the next gate is told from the others without a colour, in every view of characters") {
+  for (const View view : {View::kMap, View::kOblique, View::kSlope}) {
+    Scene scene = a_race();
+    scene.view = view;
+    CHECK(shows(scene, "[1]"));
+    CHECK(shows(scene, "(S)"));
+    CHECK(shows(scene, "gate 1 SE 8 m"));
+    scene.course.gates.clear();
+    CHECK_FALSE(shows(scene, "[1]"));
+  }
+}
+
+TEST_CASE("gates, crumbs, rings and ghosts change the picture in every look and view, at every size") {
+  for (const Look look : {kCourseInAscii, kCourseInHalves, Look{ColorMode::k16, GlyphSet::kAscii},
+                          Look{ColorMode::k256, GlyphSet::kHalfBlocks}})
+    for (const View view : {View::kMap, View::kOblique, View::kFollow, View::kSlope})
+      for (const Size size : {Size{60, 20}, Size{80, 24}, Size{120, 36}}) {
+        Scene bare = a_race();
+        bare.look = look;
+        bare.view = view;
+        bare.course = {};
+        const auto picture = [&](const Scene& scene) {
+          Composer composer;
+          CellBuffer cells(size);
+          composer.draw(scene, cells);
+          return cells;
+        };
+        const CellBuffer before = picture(bare);
+        const auto changes = [&](const auto& add) {
+          Scene scene = bare;
+          add(scene.course);
+          return !(picture(scene) == before);
+        };
+        // Near the louse, that the following camera has them in its picture, and beside the other lice.
+        CHECK(changes([](Course& c) { c.gates = {{{-2.0, 2.0}, {2.0, 2.0}, "3", true, false}}; }));
+        CHECK(changes([](Course& c) { c.crumbs = {{{2.0, 2.0}, 1}}; }));
+        CHECK(changes([](Course& c) { c.crumbs = {{{2.0, 2.0}, 3}}; }));
+        CHECK(changes([](Course& c) { c.rings = {{{0.0, 0.0}, 3.0, RingMark::State::kFree, 0}}; }));
+        CHECK(changes([](Course& c) { c.ghosts = {{"ada", {2.0, 2.0}, {1.0, 0.0}, {}}}; }));
+        CHECK(changes([](Course& c) { c.splash = Splash{"-0.31", Tone::kGood}; }));
+        CHECK(changes([](Course& c) { c.podium = {{1, "ada", false, "12", "GOLD"}}; }));
+      }
+}
+
+TEST_CASE("impossible places of marks are left out") {
+  for (const Look look : {kCourseInAscii, kCourseInHalves})
+    for (const View view : {View::kMap, View::kOblique, View::kFollow}) {
+      Scene scene = a_race();
+      scene.look = look;
+      scene.view = view;
+      const double infinity = std::numeric_limits<double>::infinity();
+      for (const core::Vec2 place :
+           {core::Vec2{std::nan(""), 0.0}, core::Vec2{infinity, -infinity}, core::Vec2{1e300, 1e9}}) {
+        scene.course.gates.push_back({place, {0.0, 0.0}, "9", true, false});
+        scene.course.crumbs.push_back({place, 3});
+        scene.course.rings.push_back({place, 1e300, RingMark::State::kContested, 0});
+        scene.course.ghosts.push_back({"x", place, {0.0, 0.0}, {place}});
+        scene.course.target = place;
+        CHECK_FALSE(course_shown(scene, {100, 30}).empty());
+      }
+    }
+}
+
+TEST_CASE("what is out of the picture is pointed at from its edge, with the metres") {
+  Scene scene = a_race();
+  scene.view = View::kFollow;
+  scene.zoom = 2.0;
+  scene.course.target = core::Vec2{18.0, 0.0};
+  CHECK(shows(scene, "18 m >"));
+  scene.course.target = core::Vec2{0.0, -18.0};
+  CHECK(shows(scene, "v 18 m"));
+}
+
+TEST_CASE("big figures say a split with its sign where there is no colour") {
+  Scene scene = a_race();
+  scene.course.splash = Splash{"-0.31", Tone::kGood};
+  CHECK(shows(scene, "### # #    ###  # "));  // their middle
+}
+
+TEST_CASE("a podium names the best three, you among them, with medals") {
+  Scene scene = a_race();
+  scene.course.podium = {{2, "ada", false, "1:02.345", "GOLD"},
+                         {1, "mara", true, "1:10.000", ""},
+                         {3, "lin", false, "1:12.000", "BRONZE"}};
+  scene.course.podium_note = "you: 1:10.000, #2";
+  for (const Size size : {Size{60, 20}, Size{80, 24}, Size{120, 36}})
+    for (const char* text : {"ada", "you", "lin", "GOLD", "you: 1:10.000, #2"})
+      CHECK(shows(scene, text, size));
+}
+
+TEST_CASE("no letter is given twice, and behind the letters there is a sign that is none") {
+  Scene scene;
+  for (std::uint32_t id = 1; id <= 70; ++id) {
+    LouseMark louse;
+    louse.id = id;
+    louse.is_you = id == 30;
+    scene.lice.push_back(louse);
+  }
+  const Badges badges(scene);
+  std::multiset<char> letters;
+  for (const LouseMark& louse : scene.lice) letters.insert(badges.of(louse.id).letter);
+  CHECK(letters.count('@') == 1);
+  CHECK(letters.count('+') == 70 - 1 - 52);
+  for (const char first : {'a', 'A'})
+    for (int k = 0; k < 26; ++k) CHECK(letters.count(static_cast<char>(first + k)) == 1);
+}
+
+TEST_CASE("your own row stays in panel and scoreboard, with its rank, whoever is before you") {
+  StagedGame game(named_terrain(terrain::FunctionName::kVolcano), 60, 4);
+  Scene& scene = game.scene();
+  for (std::size_t i = 0; i < scene.scores.size(); ++i) {
+    scene.scores[i].is_you = i + 1 == scene.scores.size();
+    scene.scores[i].rank = static_cast<int>(i) + 1;
+  }
+  CHECK(shows(scene, "60 + you"));
+  scene.mode = Mode::kScoreboard;
+  CHECK(shows(scene, "60  + you", {60, 20}));
+}
+
+TEST_CASE("your name is shown in the densest crowd") {
+  StagedGame game(named_terrain(terrain::FunctionName::kVolcano), 80, 4);
+  Scene& scene = game.scene();
+  scene.look = kCourseInHalves;
+  for (LouseMark& louse : scene.lice) louse.position = {0.05 * (louse.id % 9), 0.05 * (louse.id % 7)};
+  for (const View view : {View::kMap, View::kOblique}) {
+    scene.view = view;
+    const std::string picture = course_shown(scene, {120, 36});
+    std::size_t on_map = 0;  // besides the panel's
+    for (std::size_t at = picture.find("you"); at != std::string::npos; at = picture.find("you", at + 1))
+      ++on_map;
+    CHECK(on_map >= 2);
+  }
+}
