@@ -98,7 +98,7 @@ void draw_you(const Scene& scene, const Styles& styles, PanelWriter& out) {
   out.line(slope_text(hud.slope_degrees, out.width()), styles.text);
   out.line(thrust_text(hud, out.width()), styles.text);
   out.line(formatted("way   %6.1f m", hud.distance), styles.text);
-  out.line(formatted("height %5.1f m", hud.height), styles.text);
+  out.line(formatted("height %5.1f m", std::abs(hud.height) < 0.05 ? 0.0 : hud.height), styles.text);
 }
 
 void draw_room(const Scene& scene, const Styles& styles, PanelWriter& out) {

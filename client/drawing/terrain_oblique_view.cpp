@@ -107,6 +107,15 @@ void draw_lice_obliquely(const Scene& scene, const Badges& badges, const Relief&
           trail_color(badge.color, is_recent ? TrailAge::kRecent : TrailAge::kOld, scene.look.color));
     }
   }
+  for (const LouseMark* louse : order) {  // before all bodies: a stalk stands among them
+    if (louse->above <= 0.0) continue;
+    const Vec3 foot = painter.over_ground(louse->position);
+    const auto at = camera.project(foot);
+    if (!at) continue;
+    painter.shadow(louse->position, 0.8 * half_length_pixels * camera.metres_per_pixel(at->depth));
+    painter.line(foot, painter.over_ground(louse->position, louse->above),
+                 trail_color(badges.of(louse->id).color, TrailAge::kOld, scene.look.color));
+  }
   for (const LouseMark* louse : order) {
     const Badge badge = badges.of(louse->id);
     const Vec3 foot = painter.over_ground(louse->position, louse->above);
@@ -116,11 +125,6 @@ void draw_lice_obliquely(const Scene& scene, const Badges& badges, const Relief&
       continue;
     }
     const double half_length = half_length_pixels * camera.metres_per_pixel(at->depth);
-    if (louse->above > 0.0) {
-      painter.shadow(louse->position, 0.8 * half_length);
-      painter.line(painter.over_ground(louse->position), foot,
-                   trail_color(badge.color, TrailAge::kOld, scene.look.color));
-    }
     const LouseShape shape(foot, exaggerated(louse->attitude, relief.exaggeration()), half_length);
     painter.solid(shape, half_length, badge.color, louse->is_you ? Owner::kYou : Owner::kOther);
     if (louse->is_you) {
