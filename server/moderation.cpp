@@ -10,6 +10,7 @@
 #include <map>
 #include <mutex>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include "server/admin/answer.h"
@@ -52,6 +53,12 @@ std::string why_unclear(const std::string& who, std::size_t found) {
                  fmt::format("{} of the lice here may be meant by {}: say which room (--room), or a "
                              "name; `rooms ROOM` lists them",
                              found, who));
+}
+
+/// As the server numbers a second one of a name: ann#2.
+bool is_numbered(std::string_view name) {
+  const std::size_t sign = name.rfind('#');
+  return sign != std::string_view::npos && sign != 0 && louse_of(std::string(name.substr(sign + 1)));
 }
 
 std::string nobody(const std::string& who) {
@@ -177,8 +184,12 @@ void Moderation::apply(const Ban& ban, const Answered& answered) {
   log_event(*log_, LogEvent::kBanned,
             fmt::format("admin: {} is banned {}", ban.who(), until_text(ban.until)));
   const std::string text =
-      fmt::format("{} is banned {}{}", core::printable(ban.who()), until_text(ban.until),
-                  desk_->has_file() ? "" : ", or as long as this server: it has no --ban-file");
+      fmt::format("{} is banned {}{}{}", core::printable(ban.who()), until_text(ban.until),
+                  desk_->has_file() ? "" : ", or as long as this server: it has no --ban-file",
+                  !ban.range && is_numbered(ban.name)
+                      ? ", who is called so because another one of the name came first: he may join again "
+                        "without the number; `rooms ROOM` shows his address"
+                      : "");
   const auto tell = [answered, text, ban](std::size_t ended) {
     answered(done(fmt::format("{}; {} connections ended", text, ended), [&](json::ObjectText& object) {
       object.text("who", ban.who()).integer("ended", ended);

@@ -155,6 +155,7 @@ class Banned(unittest.TestCase):
         with AdminServer() as server:
             first, second, other = server.player("ann"), server.player("ann"), server.player("anna")
             self.assertEqual(second.welcome["name"], "ann#2")
+            self.assertIn("without the number", server.done("ban", who="bob#2")["text"])
             self.assertIn("--ban-file", server.done("ban", who="ANN")["text"])
             self.assertEqual(first.until_end()[-1]["code"], "banned")
             self.assertEqual(second.until_end()[-1]["code"], "banned")
