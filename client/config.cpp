@@ -1,5 +1,8 @@
 #include "client/config.h"
 
+#include <pwd.h>
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cassert>
@@ -10,6 +13,7 @@
 #include <utility>
 
 #include "client/config_file.h"
+#include "client/option_words.h"
 #include "shared/core/whole_file.h"
 #include "shared/json/document.h"
 #include "shared/protocol/messages.h"
@@ -25,64 +29,6 @@ std::string environment(const char* name) {
   return value == nullptr ? std::string() : std::string(value);
 }
 
-/// The words an option takes, with their values. Used by the command line and the config file alike.
-template <typename T>
-struct Words {
-  std::vector<std::pair<std::string, T>> entries;
-
-  std::optional<T> find(const std::string& word) const {
-    for (const auto& [name, value] : entries) {
-      if (name == word) return value;
-    }
-    return std::nullopt;
-  }
-  std::string word(T value) const {
-    for (const auto& [name, known] : entries) {
-      if (known == value) return name;
-    }
-    return {};
-  }
-  std::string list() const {
-    std::string text;
-    for (const auto& [name, value] : entries) text += (text.empty() ? "" : "|") + name;
-    return text;
-  }
-};
-
-const Words<ColorChoice>& color_words() {
-  static const Words<ColorChoice> words{{{"auto", ColorChoice::kAuto},
-                                         {"truecolor", ColorChoice::kTruecolor},
-                                         {"256", ColorChoice::k256},
-                                         {"16", ColorChoice::k16},
-                                         {"mono", ColorChoice::kMono}}};
-  return words;
-}
-const Words<GlyphChoice>& glyph_words() {
-  static const Words<GlyphChoice> words{{{"auto", GlyphChoice::kAuto},
-                                         {"half", GlyphChoice::kHalfBlocks},
-                                         {"ascii", GlyphChoice::kAscii},
-                                         {"text", GlyphChoice::kText}}};
-  return words;
-}
-const Words<Palette>& palette_words() {
-  static const Words<Palette> words{
-      {{"default", Palette::kDefault}, {"deutan", Palette::kDeutan}, {"tritan", Palette::kTritan}}};
-  return words;
-}
-const Words<std::optional<View>>& view_words() {
-  static const Words<std::optional<View>> words{{{"auto", std::nullopt},
-                                                 {"map", View::kMap},
-                                                 {"oblique", View::kOblique},
-                                                 {"follow", View::kFollow},
-                                                 {"slope", View::kSlope}}};
-  return words;
-}
-
-const Words<SteerBy>& steer_words() {
-  static const Words<SteerBy> words{{{"heading", SteerBy::kHeading}, {"compass", SteerBy::kCompass}}};
-  return words;
-}
-
 /// Everything as it is written, before it is understood.
 struct Raw {
   std::string server, map, name, room, recording, maps, color, glyphs, palette, view, steer, token,
@@ -92,6 +38,8 @@ struct Raw {
   bool watch = false;
   bool verify = false;
   bool no_files = false;
+  bool bell = false;
+  bool asks_name = false;
 };
 
 constexpr std::string_view kNoFiles = "--no-files";
@@ -120,7 +68,9 @@ Raw raw_of(const Config& config) {
           .fps = config.fps,
           .watch = config.part == Part::kWatch,
           .verify = config.hashes == Hashes::kVerified,
-          .no_files = config.no_files};
+          .no_files = config.no_files,
+          .bell = config.bell,
+          .asks_name = config.asks_name};
 }
 
 /// As typed, or the first line of the file, which no list of processes shows.
@@ -131,10 +81,16 @@ core::Expected<std::string> token_of(const Raw& raw) {
   return text->substr(0, text->find_first_of("\r\n"));
 }
 
+/// The room of HOST:PORT/ROOM, whose name may have more of them; empty: none.
+std::string room_of(const std::string& server) {
+  const std::size_t slash = server.find('/');
+  return slash == std::string::npos ? std::string() : server.substr(slash + 1);
+}
+
 core::Expected<Config> understood(const Raw& raw) {
   Config config;
   if (!raw.server.empty()) {
-    auto address = parse_address(raw.server);
+    auto address = parse_address(raw.server.substr(0, raw.server.find('/')));
     if (!address) return tl::unexpected(address.error());
     config.server = std::move(*address);
   }
@@ -160,7 +116,9 @@ core::Expected<Config> understood(const Raw& raw) {
   config.no_files = raw.no_files;
   config.map = raw.map;
   config.name = raw.name;
-  config.room = raw.room;
+  config.room = room_of(raw.server).empty() ? raw.room : room_of(raw.server);
+  config.bell = raw.bell;
+  config.asks_name = raw.asks_name && !raw.no_files;
   auto token = token_of(raw);
   if (!token) return tl::unexpected(token.error());
   config.token = std::move(*token);
@@ -180,6 +138,8 @@ core::Expected<Config> understood(const Raw& raw) {
 
 std::string default_name() {
   std::string name = environment("USER");
+  if (const passwd* const account = getpwuid(getuid()); name.empty() && account != nullptr)
+    name = account->pw_name;
   if (name.empty()) name = "louse";
   if (name.size() > protocol::kMaxNameBytes) name.resize(protocol::kMaxNameBytes);
   return name;
@@ -189,6 +149,7 @@ std::string default_name() {
 core::Expected<Config> defaults(bool no_files) {
   Config config;
   config.no_files = no_files;
+  config.asks_name = !no_files;
   config.name = no_files ? std::string("louse") : default_name();  // the account's name is nobody's
   if (no_files) return config;
   const std::filesystem::path file = config_file();
@@ -209,7 +170,7 @@ Parsed mistake(const core::Error& error) {
 }
 
 void add_options(CLI::App& app, Raw& raw) {
-  app.add_option("server", raw.server, "HOST:PORT; without it a server is started here")
+  app.add_option("server", raw.server, "HOST:PORT or HOST:PORT/ROOM; without it a server is started here")
       ->envname("WOODLOUSE_SERVER");
   app.add_option("--map", raw.map, "map of the server started here: a file, or a name")
       ->envname("WOODLOUSE_MAP")
@@ -248,6 +209,9 @@ void add_options(CLI::App& app, Raw& raw) {
                "read and write no file of the account's: no config file, no recording, no server of its own; "
                "for who plays through ssh")
       ->envname("WOODLOUSE_NO_FILES");
+  app.add_flag("--bell,!--no-bell", raw.bell,
+               "ring the terminal's bell when you fall, hold the place, end a run or drive a record")
+      ->envname("WOODLOUSE_BELL");
   app.add_option("--fps", raw.fps, "frames a second, 5..60")->envname("WOODLOUSE_FPS")->capture_default_str();
   CLI::App* const replay =
       app.add_subcommand("replay", "watch a recording: play, pause, jump, follow; ? shows the keys");
@@ -284,20 +248,22 @@ core::Expected<Config> read_config_file(const std::string& text, const std::stri
     if (known != texts.end()) {
       if (!value.is(json::Kind::kString)) return core::fail(where, "it is not a string");
       *known->second = value.text();
+      if (key == "name") raw.asks_name = false;
     } else if (key == "fps") {
       const auto fps = value.integer();
       if (!fps) return core::fail(where, "it is not a whole number");
       raw.fps = static_cast<int>(std::clamp<std::int64_t>(*fps, -1, 1000));
-    } else if (key == "watch" || key == "verify") {
+    } else if (key == "watch" || key == "verify" || key == "bell") {
       if (!value.is(json::Kind::kBoolean)) return core::fail(where, "it is not true or false");
-      (key == "watch" ? raw.watch : raw.verify) = value.boolean();
+      (key == "watch" ? raw.watch : key == "verify" ? raw.verify : raw.bell) = value.boolean();
     } else if (key == "keys") {
       auto keys = keys_of(value);
       if (!keys) return core::fail(where + "." + keys.error().where, keys.error().what, keys.error().hint);
       raw.keys = std::move(*keys);
     } else {
-      return core::fail(where, "no such setting",
-                        "known: server map name room color glyphs palette view steer keys fps watch verify");
+      return core::fail(
+          where, "no such setting",
+          "known: server map name room color glyphs palette view steer keys fps watch verify bell");
     }
   }
   auto result = understood(raw);
@@ -332,6 +298,10 @@ Parsed parse_arguments(int argc, const char* const* argv) {
     return mistake({"arguments", error.what(), ""});
   }
   raw.no_files = raw.no_files || no_files;  // once asked for it stays
+  raw.asks_name = raw.asks_name && app.get_option("--name")->count() == 0;
+  const std::string room = room_of(raw.server);
+  if (!room.empty() && app.get_option("--room")->count() > 0 && raw.room != room)
+    return mistake({"room", "the address names " + room + ", --room " + raw.room, "name one of them"});
   auto config = understood(raw);
   if (!config) return mistake(config.error());
   if (config->no_files && !config->server)

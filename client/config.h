@@ -36,6 +36,8 @@ struct Config {
   Palette palette = Palette::kDefault;
   std::optional<View> view;  ///< none: what suits the terminal
   int fps = 30;              ///< 5..60
+  bool asks_name = false;    ///< nobody has said it yet: name is a suggestion
+  bool bell = false;         ///< rung when something happens to your louse
   SteerBy steer = SteerBy::kCompass;
   KeyMap keys;
   /// For who plays from another's account (ssh): nothing of it is read or written, no config file, map or

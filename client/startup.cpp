@@ -13,7 +13,9 @@
 #include <string>
 #include <utility>
 
+#include "client/config_file.h"
 #include "client/local_server.h"
+#include "client/name_question.h"
 #include "client/opened_terminal.h"
 #include "client/play/game.h"
 #include "client/play/join_request.h"
@@ -150,9 +152,19 @@ Outcome tell(boost::asio::io_context& context, Session& session, const Config& c
   return TextGame(context, session, *keys, write_line, manner, alive).run();
 }
 
+/// Asks for the name, and keeps it for the next time.
+void name_louse(Config& config) {
+  const auto name = ask_for_name(config.name, std::cin, std::cout);
+  if (!name) return;
+  config.name = *name;
+  const auto kept = remember_name(config_file(), *name);
+  if (!kept) std::cerr << "woodlouse: the name is not kept: " << kept.error().text() << "\n";
+}
+
 }  // namespace
 
-int run_client(const Config& config) {
+int run_client(const Config& given) {
+  Config config = given;
   assert(!config.no_files || (config.server && config.part != Part::kReplay));
   const bool as_text = config.glyphs == GlyphChoice::kText;
   if (config.part == Part::kReplay && (as_text || isatty(STDOUT_FILENO) == 0)) {
@@ -175,6 +187,8 @@ int run_client(const Config& config) {
     std::cerr << outcome.message;
     return outcome.exit_code;
   }
+  if (config.asks_name && config.part == Part::kPlay && !as_text && isatty(STDIN_FILENO) != 0)
+    name_louse(config);
   std::unique_ptr<LocalServer> local;
   if (!config.server) {
     const auto map = map::find_map(config.map);
@@ -194,12 +208,7 @@ int run_client(const Config& config) {
   Session session(context, local ? local->address() : *config.server, join);
   if (!data_of(config).empty()) session.room().own_game().ghosts().keep_in(data_of(config));
   if (const auto joined = session.join(); !joined) {
-    return complain(kExitUnreachable,
-                    "cannot connect to " + joined.error().where + ": " + joined.error().what,
-                    session.connection().was_answered()
-                        ? ""
-                        : "is the server up?   try:  woodlouse-server --map volcano --listen 0.0.0.0:" +
-                              std::to_string(session.connection().address().port));
+    return complain(kExitUnreachable, joined.error().where + ": " + joined.error().what, joined.error().hint);
   }
   const Outcome outcome = judged(
       as_text ? tell(context, session, config, local.get()) : play(context, session, config, local.get()),

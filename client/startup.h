@@ -7,6 +7,6 @@
 namespace woodlouse::client {
 
 /// Runs the client; returns its exit code. Messages for the player go to standard error.
-int run_client(const Config& config);
+int run_client(const Config& given);
 
 }  // namespace woodlouse::client

@@ -2,15 +2,27 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 
 namespace woodlouse::client {
 
+/// How far an attempt to join came.
+enum class Reached : std::uint8_t {
+  kNothing,  ///< the name is not known
+  kName,     ///< nobody took the connection
+  kHost,     ///< somebody did, who is no server of ours, or has not said so
+  kServer,   ///< it greeted
+};
+
+inline constexpr const char* kConnectionRefused = "connection refused";
+
 struct Closing {
   std::string reason;  ///< for people, one line
   std::string code{};  ///< the server's, of its bye or error; empty: it said nothing, the line broke
   std::optional<std::chrono::milliseconds> retry_after{};  ///< with rate_limited
+  Reached reached = Reached::kNothing;
 };
 
 /// Of an end that the server never announces: what answers there can't be talked to.

@@ -49,7 +49,6 @@ std::optional<double> Connection::seconds_left(core::Time now) const {
 }
 
 void Connection::on_message(const protocol::ServerMessage& message, core::Time arrival) {
-  was_answered_ = true;
   if (const auto* welcome = std::get_if<protocol::Welcome>(&message)) {
     phase_ = Phase::kJoined;
     was_joined_ = true;

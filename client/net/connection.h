@@ -32,7 +32,7 @@ class Connection final : public LinkListener {
 
   static constexpr std::chrono::seconds kComesBackFor{30};  ///< limits.resume_s of a server left as it is
   static constexpr std::chrono::seconds kAttemptEvery{1};
-  static constexpr std::chrono::seconds kFirstPatience{10};  ///< until the first welcome
+  static constexpr std::chrono::seconds kFirstPatience{10};  ///< from the greeting to the first welcome
   static constexpr std::chrono::seconds kPatience{5};        ///< until the welcome of an attempt to come back
 
   Connection(boost::asio::io_context& context, Address address, protocol::Join join,
@@ -47,12 +47,12 @@ class Connection final : public LinkListener {
   /// Leaves and joins anew, to be shown frames, now and whenever it comes back.
   void watch_by_frames();
 
+  /// The line's socket; -1: there is none.
+  [[nodiscard]] int descriptor() const { return link_ ? link_->descriptor() : -1; }
   [[nodiscard]] Phase phase() const { return phase_; }
   [[nodiscard]] const Address& address() const { return address_; }
   /// Why the last link ended, or the last attempt to get a new one.
   [[nodiscard]] const Closing& closing() const { return closing_; }
-  /// Whether the server ever sent a message.
-  [[nodiscard]] bool was_answered() const { return was_answered_; }
   /// Whether a server has ever welcomed us.
   [[nodiscard]] bool was_joined() const { return was_joined_; }
   /// How often the line broke, attempts to come back apart.
@@ -79,7 +79,6 @@ class Connection final : public LinkListener {
   Phase phase_ = Phase::kStopped;
   Closing closing_;
   bool was_joined_ = false;
-  bool was_answered_ = false;
   int losses_ = 0;
   core::Time started_{};             ///< the last attempt
   std::optional<core::Time> until_;  ///< while the line is down: when nothing is tried any more

@@ -20,7 +20,7 @@ namespace {
 std::string in_words(error_code error) {
   namespace asio = boost::asio;
   if (error == asio::error::eof) return "the server closed the connection";
-  if (error == asio::error::connection_refused) return "connection refused";
+  if (error == asio::error::connection_refused) return kConnectionRefused;
   if (error == asio::error::connection_reset) return "connection reset";
   if (error == asio::error::host_not_found || error == asio::error::host_not_found_try_again)
     return "host not found";
@@ -55,7 +55,8 @@ Link::Link(boost::asio::io_context& context, protocol::Join join, LinkListener& 
       watchdog_(context) {}
 
 void Link::open(const Address& address, std::chrono::seconds patience) {
-  watch(patience, "no answer within " + std::to_string(patience.count()) + " s");
+  patience_ = patience;
+  watch(kReachPatience, "no answer within " + std::to_string(kReachPatience.count()) + " s");
   resolver_.async_resolve(
       address.host, std::to_string(address.port),
       [self = shared_from_this()](error_code error, const Tcp::resolver::results_type& endpoints) {
@@ -66,10 +67,13 @@ void Link::open(const Address& address, std::chrono::seconds patience) {
 
 void Link::on_resolved(const Tcp::resolver::results_type& endpoints) {
   if (listener_ == nullptr) return;
+  reached_ = Reached::kName;
   boost::asio::async_connect(socket_, endpoints,
                              [self = shared_from_this()](error_code error, const Tcp::endpoint&) {
                                if (self->listener_ == nullptr) return;
                                if (error) return self->end({in_words(error)});
+                               self->reached_ = Reached::kHost;
+                               self->watch(kGreetPatience, "it takes the connection and says nothing");
                                error_code ignored_where_unsupported;  // without it inputs are only later
                                self->socket_.set_option(Tcp::no_delay(true), ignored_where_unsupported);
                                self->read();
@@ -116,6 +120,8 @@ void Link::take(const protocol::ServerMessage& message) {
                       std::to_string(protocol::kProtocolVersion),
                   kNoServerOfOurs});
     }
+    reached_ = Reached::kServer;
+    watch(patience_, "no welcome within " + std::to_string(patience_.count()) + " s");
     protocol::Join join = asked_of(*hello, join_);
     write(protocol::encode(protocol::ClientMessage(join)));
     if (join.stream == protocol::Stream::kInputs) by_frames_ = by_frames(std::move(join));
@@ -173,9 +179,12 @@ void Link::watch(std::chrono::seconds patience, std::string reason) {
 
 void Link::end(Closing closing) {
   LinkListener* const listener = listener_;
+  closing.reached = reached_;
   close();
   if (listener != nullptr) listener->on_closed(closing);
 }
+
+int Link::descriptor() { return socket_.is_open() ? socket_.native_handle() : -1; }
 
 void Link::close() {
   listener_ = nullptr;

@@ -35,17 +35,21 @@ class Link : public std::enable_shared_from_this<Link> {
  public:
   static constexpr std::size_t kMaxLineBytes = 160u << 20;  ///< the largest map fits
   static constexpr std::size_t kMaxUnsentBytes =
-      256u << 10;                                     ///< beyond it the link ends: the server takes nothing
+      256u << 10;  ///< beyond it the link ends: the server takes nothing
+  static constexpr std::chrono::seconds kReachPatience{3};  ///< until somebody takes the connection
+  static constexpr std::chrono::seconds kGreetPatience{2};  ///< until a server greets then
   static constexpr std::chrono::seconds kSilence{5};  ///< an open link says something at least every second
 
   Link(boost::asio::io_context& context, protocol::Join join, LinkListener& listener);
 
-  /// patience: for the time until the welcome.
+  /// patience: for the time from the greeting to the welcome.
   void open(const Address& address, std::chrono::seconds patience);
   /// Queues a message; nothing before the welcome and after the end.
   void send(const protocol::ClientMessage& message);
   /// Ends it without a report. The listener is not called again.
   void close();
+  /// The socket; -1: none is open.
+  [[nodiscard]] int descriptor();
 
  private:
   using Tcp = boost::asio::ip::tcp;
@@ -69,6 +73,8 @@ class Link : public std::enable_shared_from_this<Link> {
   std::string sending_;  ///< under way to the socket
   std::string unsent_;
   bool joined_ = false;
+  Reached reached_ = Reached::kNothing;
+  std::chrono::seconds patience_{0};
   std::optional<protocol::Join> by_frames_;  ///< asked for where the room can't be watched by inputs
   protocol::Welcome welcome_;
   std::optional<Closing> farewell_;  ///< what a fatal error or a bye gave as the reason

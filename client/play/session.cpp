@@ -1,10 +1,24 @@
 #include "client/play/session.h"
 
+#include <string>
 #include <utility>
+#include <variant>
 
+#include "client/net/unreachable.h"
+#include "client/terminal/terminal_guard.h"
+#include "shared/protocol/codec.h"
 #include "shared/protocol/codes.h"
 
 namespace woodlouse::client {
+namespace {
+
+/// Whoever vanishes without it leaves a louse that waits for him.
+void say_good_bye_by_signal(int socket) {
+  static const std::string kLeave = protocol::encode(protocol::ClientMessage(protocol::Leave{}));
+  TerminalGuard::set_last_words(socket, kLeave);
+}
+
+}  // namespace
 
 Session::Session(boost::asio::io_context& context, const Address& address, protocol::Join join)
     : context_(context), connection_(context, address, std::move(join), *this) {}
@@ -17,7 +31,7 @@ core::Expected<void> Session::join() {
   join_time_ =
       std::chrono::duration_cast<std::chrono::milliseconds>(std::chrono::steady_clock::now() - begin);
   if (connection_.phase() == Connection::Phase::kJoined) return {};
-  return core::fail(connection_.address().text(), connection_.closing().reason);
+  return tl::unexpected(why_not_joined(connection_.address(), connection_.closing()));
 }
 
 void Session::update(core::Time now) {
@@ -25,7 +39,10 @@ void Session::update(core::Time now) {
   for (const protocol::ClientMessage& message : room_.take_outgoing()) connection_.send(message);
 }
 
+Session::~Session() { say_good_bye_by_signal(-1); }
+
 void Session::leave() {
+  say_good_bye_by_signal(-1);
   if (connection_.phase() == Connection::Phase::kJoined) {
     connection_.send(protocol::Leave{});
     context_.restart();
@@ -38,6 +55,7 @@ void Session::leave() {
 }
 
 void Session::on_message(const protocol::ServerMessage& message, core::Time arrival) {
+  if (std::holds_alternative<protocol::Welcome>(message)) say_good_bye_by_signal(connection_.descriptor());
   const auto taken = room_.on_message(message, arrival);
   for (const protocol::ClientMessage& answer : room_.take_outgoing()) connection_.send(answer);
   if (taken) return;
@@ -48,11 +66,13 @@ void Session::on_message(const protocol::ServerMessage& message, core::Time arri
 void Session::on_recorded(std::string_view line, core::Time arrival) {
   if (room_.follow(line, arrival)) return;
   // What is shown from here on is the server's word, but it is the room.
+  say_good_bye_by_signal(-1);
   connection_.watch_by_frames();
   room_.on_lost();
 }
 
 void Session::on_lost() {
+  say_good_bye_by_signal(-1);
   room_.on_lost();
   if (connection_.phase() == Connection::Phase::kStopped && connection_.was_joined()) failure_ = farewell();
 }

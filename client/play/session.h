@@ -17,7 +17,11 @@ class Session final : private ConnectionListener {
  public:
   Session(boost::asio::io_context& context, const Address& address, protocol::Join join);
 
-  /// Runs the io_context until the server has welcomed us. Error: why it did not; the reason in `what`.
+  /// Ends the line. A signal says no more then.
+  ~Session() override;
+
+  /// Runs the io_context until the server has welcomed us; from then on a signal that ends the program says
+  /// good-bye, too. Error: why it did not.
   core::Expected<void> join();
   /// Runs the room on to now and sends what it has to say.
   void update(core::Time now);

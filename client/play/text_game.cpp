@@ -9,6 +9,7 @@
 
 #include "client/play/modes/course_builder.h"
 #include "client/play/scene_builder.h"
+#include "client/terminal/terminal_guard.h"
 
 namespace woodlouse::client {
 namespace {
@@ -113,6 +114,7 @@ TextGame::TextGame(boost::asio::io_context& context, Session& session, int keys,
 }
 
 Outcome TextGame::run() {
+  if (!keys_) TerminalGuard::speak_without_terminal();
   if (keys_) {
     keys_->start();
     say("keys: W push, S brake, A and D turn, Space cruise, Tab where everyone is, T chat, R respawn, Q "

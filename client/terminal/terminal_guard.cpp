@@ -292,6 +292,15 @@ bool TerminalGuard::take_resumed() {
   return was;
 }
 
+void TerminalGuard::speak_without_terminal() {
+  assert(!borrowed.in_use);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction before {};
+    if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
+      install(signal, on_deadly, nullptr);
+  }
+}
+
 Size terminal_size(int fd) {
   winsize size{};
   if (ioctl(fd, TIOCGWINSZ, &size) != 0) return {};

@@ -47,6 +47,8 @@ class TerminalGuard {
   [[nodiscard]] bool take_resumed();
   /// What a signal that ends the program still sends to `socket`: `words` must live for ever. -1: nothing.
   static void set_last_words(int socket, std::string_view words);
+  /// Has INT, TERM and HUP say them where no terminal was entered, nor will be.
+  static void speak_without_terminal();
 
  private:
   TerminalGuard() = default;

@@ -24,9 +24,10 @@ class Environment {
     std::filesystem::create_directories(folder_ / "woodlouse");
     if (!config_json.empty()) std::ofstream(folder_ / "woodlouse" / "config.json") << config_json;
     set("XDG_CONFIG_HOME", folder_.string());
-    for (const char* name : {"WOODLOUSE_NAME", "WOODLOUSE_FPS", "WOODLOUSE_COLOR", "WOODLOUSE_SERVER",
-                             "WOODLOUSE_GLYPHS", "WOODLOUSE_VIEW", "WOODLOUSE_ROOM", "WOODLOUSE_MAP",
-                             "WOODLOUSE_WATCH", "WOODLOUSE_VERIFY", "WOODLOUSE_NO_FILES"}) {
+    for (const char* name :
+         {"WOODLOUSE_NAME", "WOODLOUSE_FPS", "WOODLOUSE_COLOR", "WOODLOUSE_SERVER", "WOODLOUSE_GLYPHS",
+          "WOODLOUSE_VIEW", "WOODLOUSE_ROOM", "WOODLOUSE_MAP", "WOODLOUSE_STEER", "WOODLOUSE_BELL",
+          "WOODLOUSE_WATCH", "WOODLOUSE_VERIFY", "WOODLOUSE_NO_FILES"}) {
       ::unsetenv(name);
     }
   }
@@ -127,6 +128,56 @@ TEST_CASE("a bad config file is named with its field") {
     const Parsed parsed = parse({});
     REQUIRE(parsed.exit_code == 2);
     REQUIRE(parsed.output.find("config.json") != std::string::npos);
+  }
+}
+
+TEST_CASE("an address may name the room, and contradicts no other one") {
+  Environment environment(R"({"room": "home"})");
+  REQUIRE(parse({"farm:7001/crater_loop/race"}).config.room == "crater_loop/race");
+  REQUIRE(parse({"farm:7001/crater_loop/race"}).config.server == Address{"farm", 7001});
+  REQUIRE(parse({"[::1]/hills"}).config.room == "hills");
+  REQUIRE(parse({"farm"}).config.room == "home");
+  REQUIRE(parse({"farm/"}).config.room == "home");
+  REQUIRE(parse({"farm/hills", "--room", "hills"}).config.room == "hills");
+  REQUIRE(parse({"farm/hills", "--room", "volcano"}).exit_code == 2);
+}
+
+TEST_CASE("the name is asked for where nobody has said it, and no file is forbidden") {
+  {
+    Environment environment;
+    REQUIRE(parse({}).config.asks_name);
+    REQUIRE_FALSE(parse({"--name", "ida"}).config.asks_name);
+    REQUIRE_FALSE(parse({"--no-files", "farm"}).config.asks_name);
+    environment.set("WOODLOUSE_NAME", "ida");
+    REQUIRE_FALSE(parse({}).config.asks_name);
+  }
+  Environment environment(R"({"name": "ida"})");
+  REQUIRE_FALSE(parse({}).config.asks_name);
+}
+
+TEST_CASE("keys and steering of the config file rule, and mistakes in them are named") {
+  {
+    Environment environment(
+        R"({"steer": "heading", "bell": true, "keys": {"up": "z", "left": ["q", "Left"], "quit": ["k"]}})");
+    const Parsed parsed = parse({});
+    REQUIRE_FALSE(parsed.exit_code);
+    CHECK(parsed.config.steer == SteerBy::kHeading);
+    CHECK(parsed.config.bell);
+    CHECK(parsed.config.keys.find({.character = U'q'}) == Control::kLeft);
+    CHECK(parse({"--steer", "compass", "--no-bell"}).config.steer == SteerBy::kCompass);
+  }
+  for (const auto& [bad, told] : std::initializer_list<std::pair<const char*, const char*>>{
+           {R"({"keys": {"fly": "f"}})", "keys.fly: no such action"},
+           {R"({"keys": {"up": ["Shift"]}})", "keys.up: \"Shift\" is no key"},
+           {R"({"keys": {"up": "q"}})", "keys.quit: no key is left for it"},
+           {R"({"keys": {"up": [7]}})", "keys.up: a key is a string"},
+           {R"({"keys": {"up": 7}})", "keys.up: it has no key"},
+           {R"({"keys": "wasd"})", "it is no object"},
+           {R"({"steer": "wheel"})", "steer: \"wheel\" is none"}}) {
+    Environment environment(bad);
+    INFO(bad);
+    CHECK(parse({}).exit_code == 2);
+    CHECK(parse({}).output.find(told) != std::string::npos);
   }
 }
 

@@ -154,6 +154,20 @@ TEST_CASE("a join that is refused, or that nobody answers, is not made again") {
   CHECK(unanswered.host.joins().size() == 1);
 }
 
+TEST_CASE("a port that takes connections and says nothing is given up after 2 s") {
+  asio::io_context context{1};
+  Tcp::acceptor silent(context, Tcp::endpoint(asio::ip::address_v4::loopback(), 0));
+  Listener listener;
+  protocol::Join join;
+  join.name = "ann";
+  Connection connection(context, {"127.0.0.1", silent.local_endpoint().port()}, join, listener);
+  const auto begun = std::chrono::steady_clock::now();
+  connection.start();
+  while (connection.phase() != Connection::Phase::kStopped) context.run_one_for(100ms);
+  CHECK(std::chrono::steady_clock::now() - begun < 3s);
+  CHECK(connection.closing().reached == Reached::kHost);
+}
+
 TEST_CASE("while it tries, it says for how long it will") {
   Stage stage({welcome(false), refusal("rate_limited", 5000)});
   stage.run([&] { return stage.host.joins().size() == 2 && stage.listener.losses == 2; });

@@ -1,6 +1,7 @@
 """The client and a server that is not its own; other terminals, and none."""
 
 import fcntl
+import json
 import os
 import pty
 import re
@@ -60,7 +61,7 @@ class OverTheWire(InATerminal):
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
             port = probe.getsockname()[1]
-        self.terminal.run(f"{BIN}/woodlouse 127.0.0.1:{port}")
+        self.terminal.run(f"{BIN}/woodlouse 127.0.0.1:{port} --name mara")
         self.terminal.shows(r"cannot connect to 127.0.0.1:\d+: connection refused\s+is the server up\?")
         self.assertEqual(self.exit_code(), 69)
         self.assertEqual(self.terminal.state(), "0 1")
@@ -68,16 +69,46 @@ class OverTheWire(InATerminal):
     def test_a_server_that_refuses_is_not_said_to_be_down(self):
         server = Server()
         self.addCleanup(server.stop)
-        self.terminal.run(f"{BIN}/woodlouse --room nope {server.address}")
-        self.terminal.shows(r'cannot connect to 127.0.0.1:\d+: join.room: no room "nope"')
+        self.terminal.run(f"{BIN}/woodlouse --name mara {server.address}/nope")
+        self.terminal.shows(r'127.0.0.1:\d+ does not let you in: no room "nope"; there are: vol')
+        self.terminal.shows(r"name one of them:  woodlouse 127.0.0.1:\d+/ROOM")
         self.assertEqual(self.exit_code(), 69)
         self.assertNotIn("is the server up", self.terminal.screen())
+
+    def test_the_louse_of_who_leaves_is_gone_at_once_by_ctrl_c_too(self):
+        server = Server()
+        self.addCleanup(server.stop)
+        other = Terminal()
+        self.addCleanup(other.close)
+        other.run(f"{BIN}/woodlouse {LOOK} {server.address} --watch")
+        for ending in ("q q", "C-c"):
+            self.terminal.run(f"{BIN}/woodlouse {LOOK} {server.address} --name mara")
+            other.shows(r"\d \w mara")
+            self.terminal.keys(*ending.split())
+            wait_for("a room without mara", lambda: not re.search(r"\d \w mara", other.screen()), 5)
+
+    def test_the_name_is_asked_for_once_and_kept(self):
+        server = Server()
+        self.addCleanup(server.stop)
+        self.terminal.run(f"{BIN}/woodlouse {LOOK} {server.address}")
+        self.terminal.shows(r"What is your louse called\? \[\w+\]")
+        self.terminal.run("a name of more than twenty-four bytes")
+        self.terminal.shows(r"At most 24 bytes")
+        self.terminal.run("ida lou")
+        self.terminal.shows(r"@ you|@ ida lou")
+        self.terminal.keys("q", "q")
+        self.assertEqual(self.exit_code(), 0)
+        with open(os.path.join(self.terminal.folder, ".config", "woodlouse", "config.json")) as file:
+            self.assertEqual(json.load(file), {"name": "ida lou"})
+        self.terminal.run("clear")
+        self.terminal.run(f"{BIN}/woodlouse {LOOK} {server.address}")
+        self.terminal.shows(r"YOU -")
 
     def test_the_game_as_text_is_played_with_the_same_keys(self):
         before = self.terminal.stty()
         server = Server()
         self.addCleanup(server.stop)
-        self.terminal.run(f"{BIN}/woodlouse {server.address} --glyphs text --name mara")
+        self.terminal.run(f"{BIN}/woodlouse {server.address} --glyphs text --name mara --steer heading")
         self.terminal.shows(r"keys: W push")
         self.terminal.shows(r"number \d, you: [\d.]+ m (east|west)")
         self.terminal.keys("a")
@@ -104,7 +135,7 @@ class SpeakingTheKittyProtocol(unittest.TestCase):
         self.pid, self.terminal = pty.fork()
         if self.pid == 0:
             os.environ.update(TERM="xterm-256color", LC_ALL="C.UTF-8")
-            os.execv(f"{BIN}/woodlouse", ["woodlouse", self.server.address, *LOOK.split()])
+            os.execv(f"{BIN}/woodlouse", ["woodlouse", self.server.address, "--name", "mara", *LOOK.split()])
         self.addCleanup(os.close, self.terminal)
         fcntl.ioctl(self.terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
         self.said = b""
@@ -124,7 +155,7 @@ class SpeakingTheKittyProtocol(unittest.TestCase):
         return found
 
     def test_releases_end_a_push_and_the_flags_are_popped_at_the_end(self):
-        self.await_bytes(rb"\x1b\[\?u\x1b\[c")
+        self.await_bytes(rb"(?s)\x1b\[\?u.*\x1b\[c")
         os.write(self.terminal, b"\x1b[?0u\x1b[?62c")
         self.await_bytes(rb"\x1b\[>31u")
         self.await_bytes(rb"YOU")
@@ -142,7 +173,8 @@ class SpeakingTheKittyProtocol(unittest.TestCase):
         self.assertNotRegex(self.await_bytes(rb"hold").string, rb"none")
         self.await_bytes(rb"release")
         os.write(self.terminal, b"\x1b[99;5u")
-        self.await_bytes(rb"\x1b\[<u.*\x1b\[\?1049l")
+        self.await_bytes(rb"\x1b\[<u.*\x1b\[\?1049l\x1b\[c")
+        os.write(self.terminal, b"\x1b[99;5:3u\x1b[?62c")  # the release of Ctrl-C, before the last answer: nobody's
         _, status = os.waitpid(self.pid, 0)
         self.assertEqual(os.waitstatus_to_exitcode(status), 130)
 
