@@ -147,6 +147,13 @@ void Composer::Layers::draw_map(const Scene& scene, const Badges& badges, const 
     }
     draw_marks(scene, badges, canvas);
   }
+  for (const LouseMark& louse : scene.lice) {  // no text over yours
+    const auto at = louse.is_you && canvas.has_pixels() ? canvas.spot(louse.position) : std::nullopt;
+    constexpr int kColumns = 3, kRows = 1;
+    for (int y = -kRows; at && y <= kRows; ++y)
+      for (int x = -kColumns; x <= kColumns; ++x)
+        canvas.keep(static_cast<int>(std::floor(at->x)) + x, static_cast<int>(std::floor(at->y)) / 2 + y);
+  }
   draw_mark_labels(scene, canvas);
 }
 

@@ -73,6 +73,7 @@ void draw_ring(const RingMark& ring, const Badges& badges, GroundCanvas& canvas)
   if (ring.state == RingMark::State::kContested) ink = {kGoalColor, U'x', 1.0, kBold}, dash = 2;
   if (ring.state == RingMark::State::kComing) ink.glyph = U'.', ink.strength = 0.4, dash = 1;
   if (is_held) ink.glyph = U'@' == badges.of(ring.holder).letter ? U'@' : U'#';
+  if (ring.state != RingMark::State::kComing) canvas.disc(ring.at, ring.radius, {ink.color, U' ', 0.22});
   canvas.ellipse(ring.at, {1.0, 0.0}, ring.radius, ring.radius, ink, dash);
 }
 
@@ -155,8 +156,12 @@ void label_ghost(const GhostMark& ghost, GroundCanvas& canvas) {
   const int row = whole(at->y) / canvas.dots_per_row();
   const int left = whole(at->x) - static_cast<int>(name.size()) / 2;
   const int off = canvas.has_pixels() ? 2 : 1;
-  if (!canvas.write(left, row + off, name, scaled(kGhost, 0.75), kPlain))
-    canvas.write(left, row - off, name, scaled(kGhost, 0.75), kPlain);
+  const int beside = canvas.has_pixels() ? 6 : 3;
+  const int column = whole(at->x);
+  const int length = static_cast<int>(name.size());
+  for (const auto& [x, y] : {std::pair{left, row + off}, std::pair{left, row - off},
+                             std::pair{column + beside, row}, std::pair{column - beside - length, row}})
+    if (canvas.write(x, y, name, scaled(kGhost, 0.75), kPlain)) return;
 }
 
 /// Beside your louse, towards what is wanted; where that is out of the picture also at its edge, with the

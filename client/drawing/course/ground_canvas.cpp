@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <set>
 
 #include "client/drawing/pixels.h"
 #include "client/ground/relief.h"
@@ -110,6 +111,29 @@ void GroundCanvas::ellipse(core::Vec2 middle, core::Vec2 along, double axis, dou
     if (dash > 0 && count++ / dash % 2 != 0) continue;
     if (!here->is_hidden) dot(x, y, ink);
   }
+}
+
+void GroundCanvas::disc(core::Vec2 middle, double radius, const Ink& ink) {
+  const auto centre = spot(middle);
+  if (!has_pixels_ || !centre) return;
+  double reach = 0.0;
+  for (const core::Vec2 way : {core::Vec2{1.0, 0.0}, core::Vec2{0.0, 1.0}})
+    if (const auto rim = spot(middle + radius * way))
+      reach = std::max(reach, std::hypot(rim->x - centre->x, rim->y - centre->y));
+  constexpr double kLargest = 400.0;
+  if (!(reach > 0.0 && reach < kLargest)) return;
+  // Half a dot apart, so that none is missed; each is laid on once.
+  std::set<std::pair<int, int>> dots;
+  const int steps = static_cast<int>(std::ceil(2.0 * reach));
+  for (int j = -steps; j <= steps; ++j)
+    for (int i = -steps; i <= steps; ++i) {
+      const core::Vec2 off{radius * i / steps, radius * j / steps};
+      if (core::dot(off, off) > radius * radius) continue;
+      const auto here = spot(middle + off);
+      if (here && !here->is_hidden)
+        dots.emplace(static_cast<int>(std::floor(here->x)), static_cast<int>(std::floor(here->y)));
+    }
+  for (const auto& [x, y] : dots) dot(x, y, ink);
 }
 
 bool GroundCanvas::write(int column, int row, std::u32string_view text, Rgb color, Attributes attributes) {

@@ -56,12 +56,15 @@ class GroundCanvas {
     return projector_(place, height);
   }
   void dot(int x, int y, const Ink& ink);
-  /// Where dots are cells: nothing is drawn over this one any more.
+  /// Nothing is written over this cell any more, nor drawn where dots are cells.
   void keep(int column, int row) { kept_.emplace_back(column, row); }
   /// A straight line over the ground; of `dash` dots every second ones are left out (0: none).
   void line(core::Vec2 from, core::Vec2 to, const Ink& ink, int dash);
   /// The outline of an ellipse on the ground, `axis` its half axis along the unit vector `along`.
   void ellipse(core::Vec2 middle, core::Vec2 along, double axis, double across, const Ink& ink, int dash);
+
+  /// A circle's inside, laid on once; only where dots are pixels: characters would be buried.
+  void disc(core::Vec2 middle, double radius, const Ink& ink);
 
   /// Writes over the picture, whole or not at all: never outside, nor over other characters of a picture of
   /// pixels. (column, row) from the viewport's corner.

@@ -316,7 +316,8 @@ std::string describe_ruling(const protocol::Event& event, std::uint32_t you, std
     case EventKind::kHarvest:
       return "harvest: crumbs count twice";
     case EventKind::kHolds:
-      return event.id == 0 ? "nobody holds the place" : event.name + " holds the place";
+      return event.id == 0 ? std::string()
+                           : event.name + " holds the place";  // the lines say when nobody does
     case EventKind::kMoving:
       return "the place will move";
     case EventKind::kFell:

@@ -168,6 +168,18 @@ class Playing(InATerminal):
         wait_for("the end of the lesson", lambda: "TURN" not in self.terminal.screen())
         self.assertEqual(os.listdir(data), ["lesson"])
 
+    def test_a_race_shows_its_gates_its_clock_and_the_way_to_the_next_one(self):
+        self.terminal.run(f"{BIN}/woodlouse {LOOK} --name mara --map crater_loop --room crater_loop/race")
+        self.terminal.shows(r"Any key starts")
+        self.terminal.keys("Space")
+        self.terminal.shows(r"lap 1/3 starts at S")
+        screen = self.terminal.shows(r"gate S NE \d+ m").string
+        self.assertRegex(screen, r"\[S\]")
+        self.assertRegex(screen, r"\(3\)")
+        self.terminal.keys("Space")  # it faces the gate, wherever it rolls
+        self.terminal.shows(r"lap 1/3 0:0\d\.\d\d\d")
+        self.terminal.shows(r"gate 1 \w+ \d+ m")
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)
