@@ -12,6 +12,7 @@
 #include "client/drawing/hud.h"
 #include "client/drawing/landmarks.h"
 #include "client/drawing/layout.h"
+#include "client/drawing/lice_on_map.h"
 #include "client/drawing/overlays.h"
 #include "client/drawing/terrain_contour_view.h"
 #include "client/drawing/terrain_oblique_view.h"

@@ -1,7 +1,9 @@
 // Names beside lice that avoid each other.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,6 +24,12 @@ class LabelPlacer {
 
   /// Keeps a rectangle free of labels.
   void reserve(int column, int row, Size size) { taken_.push_back({column, row, size}); }
+
+  /// The rectangle that two cells span.
+  void reserve(Place a, Place b) {
+    const Place corner{std::min(a.column, b.column), std::min(a.row, b.row)};
+    reserve(corner.column, corner.row, {std::abs(a.column - b.column) + 1, std::abs(a.row - b.row) + 1});
+  }
 
   /// The same for who must be shown: where all are taken the first that is inside.
   std::optional<Place> force(int column, int row, int width, Size reach) {

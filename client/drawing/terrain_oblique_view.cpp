@@ -134,10 +134,8 @@ void draw_lice_obliquely(const Scene& scene, const Badges& badges, const Relief&
       painter.line(painter.over_ground(from, louse->above), painter.over_ground(to, louse->above),
                    Color::of({255, 255, 255}));
       if (const auto tip = camera.project(painter.over_ground(to, louse->above)))
-        labels.reserve(static_cast<int>(std::floor(std::min(tip->x, at->x))),
-                       static_cast<int>(std::floor(std::min(tip->y, at->y) / 2.0)),
-                       {static_cast<int>(std::abs(tip->x - at->x)) + 2,
-                        static_cast<int>(std::abs(tip->y - at->y) / 2.0) + 2});
+        labels.reserve(Place{static_cast<int>(at->x), static_cast<int>(at->y) / 2},
+                       Place{static_cast<int>(tip->x), static_cast<int>(tip->y) / 2});
     }
     const int reach = static_cast<int>(half_length_pixels);
     const Placed entry{

@@ -5,9 +5,7 @@
 #include <vector>
 
 #include "client/cells/cell_buffer.h"
-#include "client/drawing/badges.h"
-#include "client/drawing/layout.h"
-#include "client/drawing/scene.h"
+#include "client/cells/color.h"
 #include "client/ground/map_camera.h"
 #include "client/ground/relief.h"
 
@@ -18,10 +16,6 @@ enum class Paint { kElevation, kSteepness };
 /// What `camera` sees in `size` cells, row by row.
 std::vector<Cell> top_layer(const Relief& relief, const MapCamera& camera, Size size, ColorMode mode,
                             Paint paint);
-
-/// Trails as pixels, lice as a letter on their colour with a heading glyph beside, names where there is room.
-void draw_lice_on_map(const Scene& scene, const Badges& badges, const MapCamera& camera,
-                      const Viewport& viewport, CellBuffer& cells);
 
 /// How much darker a contour line is, given the rise across one pixel: 1 where there is none. Lines nearer
 /// than 3 pixels are thinned to every second, fourth, ... one; on nearly level ground there are twice as

@@ -162,7 +162,10 @@ Scene picture(const Sight& sight, const Interface& interface, const FrameFacts& 
     scene.map_name = sight.map->definition.name;
     scene.terrain = sight.map->terrain;
     const state::Parameters& physics = sight.map->definition.physics;
-    scene.landmarks = {physics.edges, physics.central_gravity > 0.0 ? physics.core_radius : 0.0};
+    const auto& hill = sight.map->definition.modes.hill;
+    const bool falls = sight.ruling.mode == state::Mode::kHill && hill && hill->falls;
+    scene.landmarks = {falls ? state::Edges::kOpen : physics.edges,
+                       physics.central_gravity > 0.0 ? physics.core_radius : 0.0};
   }
   const bool has_crumbs = sight.ruling.mode == state::Mode::kForage && sight.ruling.game != nullptr;
   const bool hides_trails = has_crumbs && !paints_pixels(facts.look);  // dots of characters, as crumbs are
