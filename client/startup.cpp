@@ -107,8 +107,8 @@ Outcome play(boost::asio::io_context& context, Session& session, const Config& c
                          terminal.error().hint + "\n"};
   Look look = (*terminal)->look();
   look.palette = config.palette;
-  GameSettings settings{look,        config.view,  config.fps,     Overlay::kNone,
-                        config.keys, config.steer, data_of(config)};
+  GameSettings settings{look,        config.view,  config.fps,  Overlay::kNone,
+                        config.keys, config.steer, config.bell, data_of(config)};
   if (local != nullptr) {
     introduce(config, session, look);
     const auto guard = (*terminal)->enter(TerminalUse::kKeysOnly);

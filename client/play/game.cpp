@@ -140,6 +140,8 @@ Scene Game::scene(core::Time now, double fps) {
     pilot->steering().look_along(up_in_picture(interface_.view, settings_.look));
   session_.update(now);
   check_server(now);
+  if (std::exchange(rung_, session_.room().bells()) != session_.room().bells() && settings_.bell)
+    screen_.ring();
   Scene scene =
       build_scene(session_, interface_, chat_, {settings_.look, fps, bindings_.release_seen(), now});
   scene.keys = bindings_.keys().labels();

@@ -28,6 +28,7 @@ struct GameSettings {
   Overlay first = Overlay::kNone;  ///< what lies over the first frame
   KeyMap keys{};
   SteerBy steer = SteerBy::kHeading;
+  bool bell = false;
   std::filesystem::path data{};  ///< where it is remembered who has had the lesson; empty: nowhere
 };
 
@@ -56,6 +57,7 @@ class Game final : private Performance {
   GameSettings settings_;
   std::function<bool()> server_alive_;
   KeyBindings bindings_;
+  unsigned rung_ = 0;  ///< of the room's bells
   RepeatDelay repeat_delay_;
   Interface interface_;
   ChatEntry chat_;

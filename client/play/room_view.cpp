@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "client/play/bell.h"
 #include "client/play/modes/goal.h"
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
@@ -205,6 +206,7 @@ void RoomView::measure_rate(std::uint64_t tick, core::Time now) {
 }
 
 void RoomView::take(const protocol::Event& event, core::Time now) {
+  if (welcome_ && rings(event, welcome_->id)) ++bells_;
   roster_.event(event);
   if (protocol::is_of_rules(event.kind) && welcome_) {
     const std::string told = describe_ruling(event, welcome_->id, welcome_->tick_hz);

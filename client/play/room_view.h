@@ -72,6 +72,8 @@ class RoomView {
   /// What the rules said of your louse, its ghosts and its gate.
   [[nodiscard]] OwnGame& own_game() { return own_game_; }
   [[nodiscard]] const OwnGame& own_game() const { return own_game_; }
+  /// How often the bell was to be rung so far.
+  [[nodiscard]] unsigned bells() const { return bells_; }
   /// A line over the key line for kNoticeFor.
   void notice(std::string text, core::Time now);
 
@@ -130,6 +132,7 @@ class RoomView {
   std::uint64_t rate_tick_ = 0;  ///< where the measured rate's window begins
   std::optional<core::Time> rate_time_;
   double measured_tick_hz_ = 0.0;
+  unsigned bells_ = 0;
   std::string notice_;
   core::Time notice_until_{};
 };

@@ -1,14 +1,8 @@
 #include "client/play/text_game.h"
 
-#include <array>
-#include <cmath>
-#include <cstdio>
-#include <numbers>
 #include <utility>
 #include <variant>
 
-#include "client/play/modes/course_builder.h"
-#include "client/play/scene_builder.h"
 #include "client/terminal/terminal_guard.h"
 
 namespace woodlouse::client {
@@ -16,79 +10,13 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr std::size_t kMostLice = 20;  // read out at once; your own always
-
-std::string number(double value, int decimals) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
-}
-
-std::string offset(double value, const char* positive, const char* negative) {
-  return number(std::abs(value), 1) + " m " + (value < 0.0 ? negative : positive);
+state::Mode mode_of_play(const RoomView& room) {
+  const protocol::Welcome* const welcome = room.welcome();
+  if (welcome == nullptr) return state::Mode::kRoam;
+  return state::mode_from_text(welcome->mode).value_or(state::Mode::kRoam);
 }
 
 }  // namespace
-
-namespace words {
-
-std::string compass(core::Vec2 direction) {
-  static constexpr std::array kNames = {"east", "north-east", "north", "north-west",
-                                        "west", "south-west", "south", "south-east"};
-  const double eighths = std::atan2(direction.y, direction.x) * (4.0 / std::numbers::pi);
-  return kNames[static_cast<std::size_t>(std::lround(eighths) + 8) % kNames.size()];
-}
-
-std::string louse(const RoomView& room, const Present& louse) {
-  const LouseSample& sample = louse.sample;
-  std::string line = (louse.is_you ? "you" : louse.name) + ": " + offset(sample.position.x, "east", "west") +
-                     ", " + offset(sample.position.y, "north", "south");
-  double speed = std::hypot(sample.velocity.x, sample.velocity.y);
-  if (room.map() != nullptr) {
-    const terrain::SurfaceSample ground = room.map()->terrain->sample(sample.position.x, sample.position.y);
-    const bool moves = speed > 0.05;
-    const core::Vec2 direction = moves ? (1.0 / speed) * sample.velocity : sample.heading;
-    speed = speed_in_space(ground, sample.velocity);
-    line += ", height " + number(ground.z, 1) + " m, " + number(speed, 1) + " m/s " + compass(direction) +
-            ", slope " + number(slope_degrees(ground, direction), 0) + " degrees";
-  }
-  return line + ", travelled " + number(sample.distance, 0) + " m";
-}
-
-std::vector<std::string> goal(const RoomView& room) {
-  const Sight sight = room.sight();
-  const std::uint32_t id = room.welcome() != nullptr ? room.welcome()->id : 0;
-  std::vector<std::string> lines;
-  for (const GoalLine& line :
-       goal_lines({sight, id, sample_of(sight, id), id != 0, &room.own_game().run(), 0}))
-    lines.push_back(plain_text(line));
-  return lines;
-}
-
-std::vector<std::string> room(const RoomView& view) {
-  std::vector<std::string> lines;
-  const std::vector<ScoreRow> rows = score_rows(view.sight());
-  std::size_t rank = 0;
-  for (const ScoreRow& row : rows) {
-    if (rank >= kMostLice && !row.is_you) {
-      ++rank;
-      continue;
-    }
-    ++rank;
-    const auto present = view.lice().find(row.id);
-    std::string line = row.rank > 0 ? "number " + std::to_string(row.rank) + ", " : "";
-    line += present != view.lice().end() ? louse(view, present->second) : row.name;
-    if (!row.measure.empty()) line += ", " + row.measure;
-    if (row.is_you)
-      lines.insert(lines.begin(), std::move(line));
-    else
-      lines.push_back(std::move(line));
-  }
-  if (rows.size() > kMostLice) lines.push_back("and " + std::to_string(rows.size() - kMostLice) + " more");
-  return lines;
-}
-
-}  // namespace words
 
 TextGame::TextGame(boost::asio::io_context& context, Session& session, int keys, Write write,
                    const Manner& manner, std::function<bool()> server_alive)
@@ -117,8 +45,7 @@ Outcome TextGame::run() {
   if (!keys_) TerminalGuard::speak_without_terminal();
   if (keys_) {
     keys_->start();
-    say("keys: W push, S brake, A and D turn, Space cruise, Tab where everyone is, T chat, R respawn, Q "
-        "quit");
+    say(words::keys(bindings_.keys().labels(), steer_, session_.room().welcome()->id != 0));
   }
   state_told_ = steady_clock::now();
   update();
@@ -145,6 +72,7 @@ void TextGame::update() {
   tell_connection();
   tell_silence(now);
   tell_news();
+  tell_ground(now);
   tell_proof();
   teach();
   if (now - state_told_ >= kStateEvery && !is_silence_told_ &&
@@ -185,6 +113,25 @@ void TextGame::tell_silence(core::Time now) {
   if (is_silent == std::exchange(is_silence_told_, is_silent)) return;
   if (is_silent) return say("no word from the server: what was told last is no longer known");
   if (!session_.is_trying()) say("the server speaks again");
+}
+
+/// Of your own louse, as it is thought to be now.
+void TextGame::tell_ground(core::Time now) {
+  const RoomView& room = session_.room();
+  const auto own = room.pilot() != nullptr ? room.lice().find(room.pilot()->id()) : room.lice().end();
+  if (own == room.lice().end() || room.map() == nullptr || is_silence_told_) return;
+  const std::string news = ground_.news(*room.map(), mode_of_play(room), own->second.sample.position, now);
+  if (!news.empty()) say(news);
+}
+
+/// Asked for: everything of the ground.
+void TextGame::read_ground() {
+  const RoomView& room = session_.room();
+  const auto own = room.pilot() != nullptr ? room.lice().find(room.pilot()->id()) : room.lice().end();
+  if (own == room.lice().end() || room.map() == nullptr) return say("there is no louse of yours");
+  const core::Vec2 place = own->second.sample.position;
+  const std::string rim = words::rim_at(*room.map(), mode_of_play(room), place, 1e6);
+  say(words::slope_at(*room.map(), place) + (rim.empty() ? "; the map has no end" : "; " + rim));
 }
 
 void TextGame::tell_news() {
@@ -266,6 +213,9 @@ void TextGame::perform(Action action) {
       if (pilot != nullptr) pilot->steering().reset();
       say(steer_ == SteerBy::kCompass ? "steering by the compass: the keys push north, west, south and east"
                                       : "steering by the heading: the keys push along it and turn it");
+      break;
+    case Action::kView:
+      read_ground();
       break;
     case Action::kRespawn:
       session_.room().respawn();

@@ -14,25 +14,15 @@
 #include "client/controls/key_bindings.h"
 #include "client/controls/repeat_delay.h"
 #include "client/play/chat_entry.h"
+#include "client/play/ground_words.h"
 #include "client/play/modes/teacher.h"
 #include "client/play/session.h"
+#include "client/play/spoken_words.h"
 #include "client/terminal/key_input.h"
 #include "client/terminal/outcome.h"
 #include "shared/core/clock.h"
 
 namespace woodlouse::client {
-
-/// What is read out.
-namespace words {
-/// "north-east" of a direction.
-std::string compass(core::Vec2 direction);
-/// One louse: "ada: 3.1 m east, 4.0 m north, 2.3 m/s south-west, slope -12 degrees, travelled 41 m".
-std::string louse(const RoomView& room, const Present& louse);
-/// What the rules of play want of you: a line or two; empty where there are none.
-std::vector<std::string> goal(const RoomView& room);
-/// The room, lice by rank: one line each, your own first.
-std::vector<std::string> room(const RoomView& room);
-}  // namespace words
 
 class TextGame {
  public:
@@ -59,6 +49,8 @@ class TextGame {
   void perform(Action action);
   void tell_driving(Action action, core::Time now);
   void tell_news();
+  void tell_ground(core::Time now);
+  void read_ground();
   void tell_connection();
   void tell_silence(core::Time now);
   void tell_proof();
@@ -74,6 +66,7 @@ class TextGame {
   boost::asio::steady_timer timer_;
   KeyBindings bindings_;
   RepeatDelay repeat_delay_;
+  GroundTeller ground_;
   SteerBy steer_;
   std::string driving_told_;
   core::Time driving_told_until_{};  ///< until then the same is not told again

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <utility>
 
 namespace woodlouse::client {
 namespace {
@@ -26,6 +27,7 @@ FrameResult TerminalScreen::show(const CellBuffer& frame) {
   if (!pending_.empty() && takes_bytes(fd_) && !write_pending()) return FrameResult::kFailed;
   if (!pending_.empty() || !takes_bytes(fd_)) return FrameResult::kDropped;
   pending_ = encoder_.encode(frame);
+  if (std::exchange(rings_, false)) pending_ += '\a';
   if (pending_.empty()) return FrameResult::kUnchanged;
   if (synchronized_ == SynchronizedUpdate::kOn && pending_.size() >= kWorthSynchronizing)
     pending_ = "\x1b[?2026h" + pending_ + "\x1b[?2026l";

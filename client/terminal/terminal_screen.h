@@ -24,6 +24,8 @@ class TerminalScreen final : public Screen {
   TerminalScreen(int fd, ColorMode mode, SynchronizedUpdate synchronized = SynchronizedUpdate::kOff);
 
   FrameResult show(const CellBuffer& frame) override;
+  /// Rings the terminal's bell with the next frame.
+  void ring() { rings_ = true; }
   void invalidate() override { encoder_.invalidate(); }
 
   /// Writes what is left of the last frame, as far as the terminal takes it. False: still something left.
@@ -39,6 +41,7 @@ class TerminalScreen final : public Screen {
   int fd_;
   SynchronizedUpdate synchronized_;
   FrameEncoder encoder_;
+  bool rings_ = false;
   std::string pending_;  ///< bytes of the last frame the terminal has not taken; at most one frame
   std::size_t bytes_written_ = 0;
 };

@@ -103,6 +103,19 @@ TEST_CASE("only big frames are wrapped in a synchronized update") {
   CHECK(pipe.read_all().find("2026") == std::string::npos);
 }
 
+TEST_CASE("the bell is one byte, once, with the next frame or without one") {
+  NarrowPipe pipe;
+  TerminalScreen screen(pipe.writer(), ColorMode::kMono);
+  const CellBuffer frame = full_of(U'a', {20, 5});
+  screen.ring();
+  screen.show(frame);
+  CHECK(pipe.read_all().ends_with('\a'));
+  CHECK(screen.show(frame) == FrameResult::kUnchanged);
+  screen.ring();
+  CHECK(screen.show(frame) == FrameResult::kShown);
+  CHECK(pipe.read_all() == "\a");
+}
+
 TEST_CASE("a terminal that is gone is reported") {
   std::signal(SIGPIPE, SIG_IGN);
   NarrowPipe pipe;

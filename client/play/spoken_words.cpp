@@ -1,0 +1,105 @@
+#include "client/play/spoken_words.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <utility>
+
+#include "client/play/modes/course_builder.h"
+#include "client/play/scene_builder.h"
+
+namespace woodlouse::client {
+namespace {
+
+constexpr std::size_t kMostLice = 20;  // read out at once; your own always
+
+std::string number(double value, int decimals) {
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+  return text.data();
+}
+
+std::string offset(double value, const char* positive, const char* negative) {
+  return number(std::abs(value), 1) + " m " + (value < 0.0 ? negative : positive);
+}
+
+}  // namespace
+
+namespace words {
+
+std::string compass(core::Vec2 direction) {
+  static constexpr std::array kNames = {"east", "north-east", "north", "north-west",
+                                        "west", "south-west", "south", "south-east"};
+  const double eighths = std::atan2(direction.y, direction.x) * (4.0 / std::numbers::pi);
+  return kNames[static_cast<std::size_t>(std::lround(eighths) + 8) % kNames.size()];
+}
+
+std::string louse(const RoomView& room, const Present& louse) {
+  const LouseSample& sample = louse.sample;
+  std::string line = (louse.is_you ? "you" : louse.name) + ": " + offset(sample.position.x, "east", "west") +
+                     ", " + offset(sample.position.y, "north", "south");
+  double speed = std::hypot(sample.velocity.x, sample.velocity.y);
+  if (room.map() != nullptr) {
+    const terrain::SurfaceSample ground = room.map()->terrain->sample(sample.position.x, sample.position.y);
+    const bool moves = speed > 0.05;
+    const core::Vec2 direction = moves ? (1.0 / speed) * sample.velocity : sample.heading;
+    speed = speed_in_space(ground, sample.velocity);
+    line += ", height " + number(ground.z, 1) + " m, " + number(speed, 1) + " m/s " + compass(direction) +
+            ", slope " + number(slope_degrees(ground, direction), 0) + " degrees";
+  }
+  return line + ", travelled " + number(sample.distance, 0) + " m";
+}
+
+std::vector<std::string> goal(const RoomView& room) {
+  const Sight sight = room.sight();
+  const std::uint32_t id = room.welcome() != nullptr ? room.welcome()->id : 0;
+  std::vector<std::string> lines;
+  for (const GoalLine& line :
+       goal_lines({sight, id, sample_of(sight, id), id != 0, &room.own_game().run(), 0}))
+    lines.push_back(plain_text(line));
+  return lines;
+}
+
+std::string keys(const KeyLabels& keys, SteerBy steer, bool plays) {
+  const auto spoken = [](const std::string& label) {
+    return label == "SPC" ? "Space" : label == "TAB" ? "Tab" : label;
+  };
+  const std::string all = spoken(keys.scores) + " where everyone is, " + keys.chat + " chat, ";
+  if (!plays) return "keys: " + all + keys.quit + " quit";
+  const std::string driving =
+      steer == SteerBy::kCompass
+          ? keys.up + " push north, " + keys.left + " west, " + keys.down + " south, " + keys.right +
+                " east, " + keys.brake + " brake"
+          : keys.up + " push, " + keys.down + " brake, " + keys.left + " and " + keys.right + " turn";
+  return "keys: " + driving + ", " + spoken(keys.cruise) + " cruise, " + keys.view +
+         " where the ground falls, " + all + keys.steer + " steer another way, " + keys.respawn +
+         " respawn, " + keys.quit + " quit";
+}
+
+std::vector<std::string> room(const RoomView& view) {
+  std::vector<std::string> lines;
+  const std::vector<ScoreRow> rows = score_rows(view.sight());
+  std::size_t rank = 0;
+  for (const ScoreRow& row : rows) {
+    if (rank >= kMostLice && !row.is_you) {
+      ++rank;
+      continue;
+    }
+    ++rank;
+    const auto present = view.lice().find(row.id);
+    std::string line = row.rank > 0 ? "number " + std::to_string(row.rank) + ", " : "";
+    line += present != view.lice().end() ? louse(view, present->second) : row.name;
+    if (!row.measure.empty()) line += ", " + row.measure;
+    if (row.is_you)
+      lines.insert(lines.begin(), std::move(line));
+    else
+      lines.push_back(std::move(line));
+  }
+  if (rows.size() > kMostLice) lines.push_back("and " + std::to_string(rows.size() - kMostLice) + " more");
+  return lines;
+}
+
+}  // namespace words
+
+}  // namespace woodlouse::client

@@ -1,0 +1,26 @@
+// What the game as text reads out: of lice, the room, the rules, the keys.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/controls/driving.h"
+#include "client/drawing/key_labels.h"
+#include "client/play/room_view.h"
+
+namespace woodlouse::client {
+
+namespace words {
+/// "north-east" of a direction.
+std::string compass(core::Vec2 direction);
+/// One louse: "ada: 3.1 m east, 4.0 m north, 2.3 m/s south-west, slope -12 degrees, travelled 41 m".
+std::string louse(const RoomView& room, const Present& louse);
+/// What the rules of play want of you: a line or two; empty where there are none.
+std::vector<std::string> goal(const RoomView& room);
+/// The keys that there are, for who plays and for who watches.
+std::string keys(const KeyLabels& keys, SteerBy steer, bool plays);
+/// The room, lice by rank: one line each, your own first.
+std::vector<std::string> room(const RoomView& room);
+}  // namespace words
+
+}  // namespace woodlouse::client
