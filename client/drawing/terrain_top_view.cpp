@@ -14,12 +14,17 @@ double contour_shade(double z, double z_right, double z_below, double interval) 
   constexpr double kPixelsApart = 3.0;
   const double rise = std::hypot(z_right - z, z_below - z);
   if (rise < kLeastRise * interval) return 1.0;
-  constexpr double kLonely = 14.0;  // pixels between lines beyond which a line half-way helps
+  constexpr double kLonely = 14.0;            // pixels between lines beyond which a line half-way helps
+  const double first = kOffRound * interval;  // the sparser lines are some of the denser ones
   while (rise * kPixelsApart > interval) interval *= 2.0;
-  if (rise * kLonely < interval) interval /= 2.0;
-  const double here = contour_number(z, interval);
-  return here != contour_number(z_right, interval) || here != contour_number(z_below, interval) ? kDarker
-                                                                                                : 1.0;
+  const auto crosses = [&](double step) {
+    const auto number = [&](double height) { return std::floor((height - first) / step); };
+    return number(z) != number(z_right) || number(z) != number(z_below);
+  };
+  if (crosses(interval)) return kDarker;
+  if (rise * kLonely >= interval || !crosses(interval / 2.0)) return 1.0;
+  // Fades in with the distance: a line that began at its full strength would look broken off.
+  return 1.0 - (1.0 - kDarker) * std::min(1.0, 0.35 + 0.65 * (interval / (rise * kLonely) - 1.0));
 }
 
 std::vector<Cell> top_layer(const Relief& relief, const MapCamera& camera, Size size, ColorMode mode,

@@ -78,8 +78,11 @@ inline constexpr double kLeastRise = 1e-6;
 /// Where the shadow of what flies a metre high lies, seen from above: away from the light [m].
 inline constexpr core::Vec2 kShadowWay{0.62 / 0.62, -0.48 / 0.62};
 
-/// Between which two contour lines a height lies. The lines lie off the round heights: maps made of whole
-/// metres have plains at those, on which a line would wander.
-inline double contour_number(double z, double interval) { return std::floor(z / interval - 0.43); }
+/// How far contour lines lie above multiples of their interval, in intervals: maps made of whole metres have
+/// plains at those, on which a line would wander.
+inline constexpr double kOffRound = 0.43;
+
+/// Between which two contour lines a height lies.
+inline double contour_number(double z, double interval) { return std::floor(z / interval - kOffRound); }
 
 }  // namespace woodlouse::client

@@ -58,7 +58,7 @@ TEST_CASE("a truecolor frame of 80x24 is three kilobytes or less in the mean") {
 
 TEST_CASE("a truecolor frame of 120x36 is eight kilobytes or less in the mean") {
   for (const auto map : kMaps)
-    for (const View view : {View::kOblique, View::kFollow})
+    for (const View view : {View::kMap, View::kOblique, View::kFollow})
       CHECK(mean_bytes(map, kPixels, view, {120, 36}) < 8192.0);
 }
 
