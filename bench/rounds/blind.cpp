@@ -17,9 +17,9 @@ void BlindPlayer::steer(match::Match& game) {
     steering_.toggle_cruise();
   }
   const std::uint64_t since = game.tick() - *began_;
-  if (kind_ == BlindKind::kSpaceAndA && since != 0 && since % tick_hz_ == 0)
-    steering_.turn(client::Turn::kLeft);
   const core::Time now{std::chrono::nanoseconds(1'000'000'000 * game.tick() / tick_hz_)};
+  if (kind_ == BlindKind::kSpaceAndA && since != 0 && since % tick_hz_ == 0)
+    steering_.turn(client::Turn::kLeft, now);
   if (const auto order = steering_.poll(now)) game.file({louse_, ++seq_, order->thrust, order->ticks, 0});
 }
 
