@@ -44,6 +44,7 @@ class NoRooms final : public server::Directory {
     return protocol::Rooms{{{"volcano", "volcano", 1, 2, 3}}};
   }
   [[nodiscard]] bool is_too_late(server::Time) const override { return false; }
+  [[nodiscard]] std::uint64_t changes() const override { return 0; }
 };
 
 /// A web port with one connection, whose other end the input is written to.

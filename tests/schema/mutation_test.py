@@ -47,7 +47,7 @@ class Mutation(unittest.TestCase):
         schema = validator("client")
         counts = self.compare(schema, "client", values, True)
         self.assertGreater(counts["refused by both"], 300)
-        self.required(schema, values, {"role", "room", "fields", "format", "resume", "state_hz", "ticks", "tick", "at", "board", "rank", "view", "louse", "stream",
+        self.required(schema, values, {"role", "room", "fields", "format", "resume", "state_hz", "ticks", "tick", "at", "board", "rank", "view", "louse", "stream", "watch",
                                            "radius", "rows", "token", "who", "seconds"})
 
     def test_each_message_of_a_server(self):

@@ -1,5 +1,5 @@
-#include "client/play/join_request.h"
 #include "client/play/room_view.h"
+#include "client/play/join_request.h"
 
 #include <catch2/catch.hpp>
 
