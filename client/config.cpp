@@ -301,7 +301,7 @@ Parsed parse_arguments(int argc, const char* const* argv) {
   raw.asks_name = raw.asks_name && app.get_option("--name")->count() == 0;
   const std::string room = room_of(raw.server);
   if (!room.empty() && app.get_option("--room")->count() > 0 && raw.room != room)
-    return mistake({"room", "the address names " + room + ", --room " + raw.room, "name one of them"});
+    return mistake({"room", "the address names " + room + ", --room names " + raw.room, "name one of them"});
   auto config = understood(raw);
   if (!config) return mistake(config.error());
   if (config->no_files && !config->server)

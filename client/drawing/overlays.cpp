@@ -201,7 +201,8 @@ void draw_too_small(const Scene& scene, CellBuffer& cells) {
   cells.text(left, ++row, "Enlarge it, or zoom out (Ctrl and -).", {});
   if (size.rows >= 6) ++row;
   if (!scene.replay) cells.text(left, ++row, "The game goes on: your louse keeps rolling.", {});
-  cells.text(left, ++row, scene.mode == Mode::kQuitQuestion ? "Leave? Y or N." : "Q leaves.", {});
+  cells.text(left, ++row, scene.mode == Mode::kQuitQuestion ? "Leave? Y or N." : scene.keys.quit + " leaves.",
+             {});
 }
 
 }  // namespace woodlouse::client

@@ -35,7 +35,8 @@ constexpr std::chrono::milliseconds kLastAnswer{1000};
 // alternate screen, no cursor, bracketed paste, focus reports
 constexpr std::string_view kEnter = "\x1b[?1049h\x1b[?25l\x1b[?2004h\x1b[?1004h\x1b[0m\x1b[2J";
 // The end of a synchronized update comes first: a signal may have cut a frame in two.
-constexpr std::string_view kLeave = "\x1b[?2026l\x1b[?1004l\x1b[?2004l\x1b[0m\x1b[?25h\x1b[?1049l";
+constexpr std::string_view kQuiet = "\x1b[?2026l\x1b[?1004l\x1b[?2004l\x1b[0m";
+constexpr std::string_view kLeave = "\x1b[?25h\x1b[?1049l";
 // Flags 31: press without ambiguity, releases, alternate keys, all keys, their text.
 constexpr std::string_view kPushKitty = "\x1b[>31u";
 constexpr std::string_view kPopKitty = "\x1b[<u";
@@ -145,11 +146,13 @@ void give_terminal_back() {
     pollfd writable{borrowed.output, POLLOUT, 0};
     if (poll(&writable, 1, 0) == 0) tcflush(borrowed.output, TCOFLUSH);
     if (borrowed.kitty) put(kPopKitty);
-    put(kLeave);
+    put(kQuiet);
   }
   drain();
   tcflush(borrowed.input, TCIFLUSH);  // half-typed keys are not for the shell
   tcsetattr(borrowed.input, TCSANOW, &borrowed.saved);
+  // Last: who sees the shell's screen may type.
+  if (borrowed.use == TerminalUse::kFullScreen) put(kLeave);
 }
 
 void on_deadly(int signal) {
