@@ -155,7 +155,7 @@ void Composer::Layers::draw_map(const Scene& scene, const Badges& badges, const 
       for (int x = -kColumns; x <= kColumns; ++x)
         canvas.keep(static_cast<int>(std::floor(at->x)) + x, static_cast<int>(std::floor(at->y)) / 2 + y);
   }
-  draw_mark_labels(scene, canvas);
+  draw_mark_labels(scene, badges, canvas);
 }
 
 Composer::Composer() : layers_(std::make_unique<Layers>()) {}

@@ -66,15 +66,34 @@ void draw_crumb(const CrumbMark& crumb, GroundCanvas& canvas) {
     canvas.dot(x + dx, y + dy, ink);
 }
 
+/// What a ring's line is drawn with, and how it is dashed.
+std::pair<Ink, int> line_of(const RingMark& ring, const Badges& badges) {
+  switch (ring.state) {
+    case RingMark::State::kHeld: {
+      const Badge holder = badges.of(ring.holder);
+      return {{holder.color, holder.letter == '@' ? U'@' : U'#', 1.0, kBold}, 0};
+    }
+    case RingMark::State::kContested:
+      return {{kGoalColor, U'x', 1.0, kBold}, 2};
+    case RingMark::State::kComing:
+      return {{kFreeRing, U'.', 0.4, kPlain}, 1};
+    case RingMark::State::kFree:
+      break;
+  }
+  return {{kFreeRing, U'o', 1.0, kBold}, 0};
+}
+
 void draw_ring(const RingMark& ring, const Badges& badges, GroundCanvas& canvas) {
-  const bool is_held = ring.state == RingMark::State::kHeld;
-  Ink ink{is_held && ring.holder != 0 ? badges.of(ring.holder).color : kFreeRing, U'o', 1.0, kBold};
-  int dash = 0;
-  if (ring.state == RingMark::State::kContested) ink = {kGoalColor, U'x', 1.0, kBold}, dash = 2;
-  if (ring.state == RingMark::State::kComing) ink.glyph = U'.', ink.strength = 0.4, dash = 1;
-  if (is_held) ink.glyph = U'@' == badges.of(ring.holder).letter ? U'@' : U'#';
+  const auto [ink, dash] = line_of(ring, badges);
   if (ring.state != RingMark::State::kComing) canvas.disc(ring.at, ring.radius, {ink.color, U' ', 0.22});
   canvas.ellipse(ring.at, {1.0, 0.0}, ring.radius, ring.radius, ink, dash);
+}
+
+/// Lice on the place hide its line: it shines through them.
+void draw_ring_over_lice(const RingMark& ring, const Badges& badges, GroundCanvas& canvas) {
+  auto [ink, dash] = line_of(ring, badges);
+  ink.strength *= 0.5;
+  if (canvas.has_pixels()) canvas.ellipse(ring.at, {1.0, 0.0}, ring.radius, ring.radius, ink, dash);
 }
 
 /// Metres that a dot covers around a place.
@@ -220,7 +239,8 @@ void draw_marks(const Scene& scene, const Badges& badges, GroundCanvas& canvas) 
   for (const GhostMark& ghost : scene.course.ghosts) draw_ghost(ghost, canvas);
 }
 
-void draw_mark_labels(const Scene& scene, GroundCanvas& canvas) {
+void draw_mark_labels(const Scene& scene, const Badges& badges, GroundCanvas& canvas) {
+  for (const RingMark& ring : scene.course.rings) draw_ring_over_lice(ring, badges, canvas);
   const auto you = std::find_if(scene.lice.begin(), scene.lice.end(), [&scene](const LouseMark& louse) {
     return louse.is_you || (scene.spectating && louse.id == scene.follow_id);
   });

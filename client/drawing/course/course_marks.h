@@ -12,7 +12,7 @@ namespace woodlouse::client {
 void draw_marks(const Scene& scene, const Badges& badges, GroundCanvas& canvas);
 
 /// Numbers, names and arrows: over the lice in a picture of pixels, where what stands is kept.
-void draw_mark_labels(const Scene& scene, GroundCanvas& canvas);
+void draw_mark_labels(const Scene& scene, const Badges& badges, GroundCanvas& canvas);
 
 /// What is wanted of you is drawn in this, and nothing else.
 inline constexpr Rgb kGoalColor{255, 236, 110};

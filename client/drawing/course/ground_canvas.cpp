@@ -151,6 +151,7 @@ bool GroundCanvas::write(int column, int row, std::u32string_view text, Rgb colo
       style.attributes = attributes;
       if (look_.color != ColorMode::kMono) style.foreground = Color::of(color);
       cells_.put(viewport_.column + column, viewport_.row + row, c, style);
+      keep(column, row);  // texts don't run into each other
     }
     ++column;
   }
