@@ -26,6 +26,13 @@ class ObliquePainter {
     return {p.x, p.y, (relief_.sample(p).z + above) * relief_.exaggeration()};
   }
 
+  /// The i-th point of a louse's trail.
+  [[nodiscard]] Vec3 of_trail(const LouseMark& louse, std::size_t i) const {
+    const double flight = i < louse.trail_flights.size() ? louse.trail_flights[i] : 0.0;
+    if (flight == 0.0) return over_ground(louse.trail[i]);
+    return {louse.trail[i].x, louse.trail[i].y, flight * relief_.exaggeration()};
+  }
+
   void line(Vec3 from, Vec3 to, Color color);
   /// Darkens the ground under something that flies, `half_length` metres long each way.
   void shadow(core::Vec2 under, double half_length);

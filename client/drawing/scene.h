@@ -65,6 +65,8 @@ struct LouseMark {
   double speed = 0.0;             ///< [m/s]
   double above = 0.0;             ///< height over the ground under it [m], >= 0; 0: on it
   std::vector<core::Vec2> trail;  ///< points of the world, oldest first; see trail.h
+  std::vector<double>
+      trail_flights;  ///< height of each while it flew [m], 0 on the ground; empty: it never flew
 };
 
 /// The numbers of the side panel and the status line.

@@ -103,7 +103,7 @@ void draw_lice_obliquely(const Scene& scene, const Badges& badges, const Relief&
     for (std::size_t i = 1; i < louse->trail.size(); ++i) {
       const bool is_recent = 2 * i >= louse->trail.size();
       painter.line(
-          painter.over_ground(louse->trail[i - 1]), painter.over_ground(louse->trail[i]),
+          painter.of_trail(*louse, i - 1), painter.of_trail(*louse, i),
           trail_color(badge.color, is_recent ? TrailAge::kRecent : TrailAge::kOld, scene.look.color));
     }
   }

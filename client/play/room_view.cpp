@@ -322,7 +322,8 @@ void RoomView::draw_lice(core::Time now) {
     louse.name = resident != nullptr ? resident->name : core::joined({"#", std::to_string(id)});
     louse.is_bot = resident != nullptr && resident->role == protocol::Role::kBot;
     louse.is_you = id == welcome_->id;
-    trails_.try_emplace(id, std::max(width, 1.0) / kTrailSpacings).first->second.add(louse.sample.position);
+    trails_.try_emplace(id, std::max(width, 1.0) / kTrailSpacings)
+        .first->second.add(louse.sample.position, louse.sample.flight_z);
   }
   std::erase_if(trails_, [this](const auto& entry) { return !lice_.contains(entry.first); });
 }

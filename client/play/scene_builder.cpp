@@ -20,13 +20,15 @@ core::Vec2 direction_of_travel(const LouseSample& louse) {
   return speed > kStill ? (1.0 / speed) * louse.velocity : louse.heading;
 }
 
-std::vector<core::Vec2> trail_of(const Sight& sight, std::uint32_t id, TrailLength length) {
+void lay_trail(const Sight& sight, std::uint32_t id, TrailLength length, LouseMark& mark) {
   const auto trail = sight.trails.find(id);
-  if (trail == sight.trails.end() || length == TrailLength::kOff) return {};
+  if (trail == sight.trails.end() || length == TrailLength::kOff) return;
   const auto& points = trail->second.points();
-  const std::size_t skip =
-      length == TrailLength::kShort && points.size() > kShortTrail ? points.size() - kShortTrail : 0;
-  return {points.begin() + static_cast<std::ptrdiff_t>(skip), points.end()};
+  const auto& flights = trail->second.flights();
+  const auto skip = static_cast<std::ptrdiff_t>(
+      length == TrailLength::kShort && points.size() > kShortTrail ? points.size() - kShortTrail : 0);
+  mark.trail.assign(points.begin() + skip, points.end());
+  mark.trail_flights.assign(flights.begin() + skip, flights.end());
 }
 
 LouseMark mark(const Sight& sight, std::uint32_t id, const Present& louse, TrailLength trails) {
@@ -44,7 +46,7 @@ LouseMark mark(const Sight& sight, std::uint32_t id, const Present& louse, Trail
   const bool flies = result.above > 0.0;
   result.attitude = physics::attitude(travel, flies ? core::Vec2{} : core::Vec2{ground.zx, ground.zy});
   result.speed = speed_in_space(ground, louse.sample.velocity);
-  result.trail = trail_of(sight, id, trails);
+  lay_trail(sight, id, trails, result);
   return result;
 }
 

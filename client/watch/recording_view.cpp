@@ -86,7 +86,7 @@ void RecordingView::extend_trails() {
   const terrain::Rectangle& domain = archive_->map()->terrain->domain();
   const double spacing = std::max(domain.x_max - domain.x_min, 1.0) / kTrailSpacings;
   for (const state::Louse& louse : playback_->match().world().lice())
-    trails_.try_emplace(louse.id, spacing).first->second.add(louse.position);
+    trails_.try_emplace(louse.id, spacing).first->second.add(louse.position, louse.flight_z);
 }
 
 void RecordingView::take_lice() {

@@ -103,3 +103,17 @@ TEST_CASE("who flies is drawn above its shadow, in every look") {
       CHECK_FALSE(drawn(scene) == grounded);
     }
 }
+
+TEST_CASE("the trail of a flight is drawn where it was flown") {
+  Scene scene = scene_on(0.0, kHalves, View::kOblique);
+  LouseMark louse;
+  louse.id = 1;
+  louse.position = {5.0, 2.0};
+  for (int i = 0; i < 20; ++i) louse.trail.push_back({-15.0 + i, 2.0});
+  scene.lice.push_back(louse);
+  const CellBuffer rolled = drawn(scene);
+  scene.lice[0].trail_flights.assign(20, 0.0);
+  CHECK(drawn(scene) == rolled);
+  for (std::size_t i = 5; i < 15; ++i) scene.lice[0].trail_flights[i] = 4.0;
+  CHECK_FALSE(drawn(scene) == rolled);
+}
