@@ -234,7 +234,7 @@ void draw_status_line(const Scene& scene, CellBuffer& cells) {
   if (scene.lost) return;  // the numbers are those of before
   if (columns >= 80) at = cells.text(at + 2, 0, view_text(scene), styles.dim_bar);
   std::string middle = scene.spectating ? "watching"
-                       : scene.silence  ? "#-- of --"
+                       : scene.silence  ? (columns < 80 ? "" : "#-- of --")
                        : hud.rank > 0   ? formatted("#%d of %d", hud.rank, hud.players)
                                         : "";
   at = cells.text(at + 3, 0, middle, styles.bar);

@@ -33,8 +33,8 @@ core::Error why_not_joined(const Address& address, const Closing& closing) {
     case Reached::kHost:
       return {where, closing.reason,
               "is " + port +
-                  " another program's port, or one for TLS or web pages? It is the one of  woodlouse-server "
-                  "--listen"};
+                  " another program's port, or one for TLS or web pages? Players come to that of  "
+                  "woodlouse-server --listen"};
     case Reached::kServer:
       break;
   }

@@ -77,6 +77,35 @@ TEST_CASE("the help, the scoreboard and a lost connection are as they were agree
   CHECK(text_of(scene, {80, 24}) == golden("connection_lost_80x24.txt"));
 }
 
+TEST_CASE("what is not known of a silent server is not shown, at any size") {
+  Scene scene = still_life();
+  scene.silence = 2.7;
+  for (const Size size : {Size{60, 20}, Size{80, 24}, Size{120, 36}, Size{200, 60}}) {
+    const std::string text = text_of(scene, size);
+    CHECK(text.find("no word for 2 s") != std::string::npos);
+    CHECK(text.find("speed    -- m/s") != std::string::npos);
+    CHECK(text.find("rtt --  srv --") != std::string::npos);
+    CHECK(text.find("rtt 23 ms") == std::string::npos);
+  }
+  scene.silence.reset();
+  scene.paused = true;
+  CHECK(text_of(scene, {60, 20}).find("WOODLOUSE  paused") != std::string::npos);
+}
+
+TEST_CASE("the keys that rule are those that are shown, and the help of who watches names none that drives") {
+  Scene scene = still_life();
+  scene.keys.up = "Z", scene.keys.quit = "F10", scene.keys.chat = "ENTER";
+  CHECK(text_of(scene, {80, 24}).find("Z push S brake A/D turn") != std::string::npos);
+  CHECK(text_of(scene, {80, 24}).find("CHAT  (ENTER to talk)") != std::string::npos);
+  CHECK(text_of(scene, {120, 36}).find("F10 quit") != std::string::npos);
+  scene.keys.compass = true;
+  CHECK(text_of(scene, {60, 20}).find("ZASD push X brake") != std::string::npos);
+  scene.mode = Mode::kHelp;
+  CHECK(text_of(scene, {60, 20}).find("Z A S D") != std::string::npos);
+  scene.spectating = true;
+  CHECK(text_of(scene, {80, 24}).find("push") == std::string::npos);
+}
+
 TEST_CASE("who looks on is counted under the players, for a watcher among the room's numbers") {
   Scene scene = still_life();
   CHECK(text_of(scene, {80, 24}).find("watching") == std::string::npos);
