@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostBytes = 4u << 20;
+constexpr std::size_t kMostBytes = 8u << 20;
 
 fs::path file_of(const fs::path& folder, const map::Map& map, state::Mode mode) {
   return folder / "ghosts" /
