@@ -1,6 +1,7 @@
 #include "client/ground/height_ceiling.h"
 
 #include <cmath>
+#include <limits>
 
 namespace woodlouse::client {
 
@@ -35,6 +36,14 @@ HeightCeiling::HeightCeiling(const terrain::Terrain& terrain)
         for (std::size_t x = i == 0 ? 0 : i - 1; x <= i + 2; ++x)
           steepest = std::max(steepest, at(slopes, x, y));
       ceilings_[j * kCells + i] = highest + 1.5 * steepest * reach + 1e-9 * (1.0 + std::abs(highest));
+    }
+  for (std::size_t j = 0; j < kCells; ++j)
+    for (std::size_t i = 0; i < kCells; ++i) {
+      const core::Vec2 p{domain_.x_min + (static_cast<double>(i) + 0.41) / per_x_,
+                         domain_.y_min + (static_cast<double>(j) + 0.57) / per_y_};
+      if (terrain.sample(p.x, p.y).z <= ceilings_[j * kCells + i]) continue;
+      std::fill(ceilings_.begin(), ceilings_.end(), std::numeric_limits<double>::infinity());
+      return;
     }
 }
 

@@ -2,8 +2,8 @@
 // surface, which is most of what a ray or a shadow asks for.
 //
 // A ceiling is the highest of a cell's corners and what the steepest gradient nearby, half as much again, can
-// add on the way from the nearest corner. A surface that bends more within a cell (a 192nd of the map) can
-// pass it.
+// add on the way from the nearest corner. A surface that bends more within a cell (a 192nd of the map)
+// passes it: each cell is asked at one more place, and where one ceiling is too low there is none anywhere.
 #pragma once
 
 #include <algorithm>

@@ -175,3 +175,19 @@ TEST_CASE("a ceiling is over the ground everywhere, and near it where the ground
     CHECK((relief.is_flat() || low > kPoints / 2));
   }
 }
+
+TEST_CASE("ground with peaks between the places that ceilings are made of has none") {
+  core::Random random(5);
+  terrain::HeightGrid peaks;
+  peaks.columns = peaks.rows = 385;  // two knots a cell
+  for (std::size_t j = 0; j < peaks.rows; ++j)
+    for (std::size_t i = 0; i < peaks.columns; ++i)
+      peaks.heights.push_back(i % 2 == 1 && j % 2 == 1 ? 20.0 : 0.0);
+  const Relief relief(std::make_shared<terrain::Terrain>(terrain::BicubicSpline(peaks)));
+  const terrain::Rectangle& d = relief.terrain().domain();
+  for (int i = 0; i < 2000; ++i) {
+    const core::Vec2 p{d.x_min + (d.x_max - d.x_min) * random.uniform(),
+                       d.y_min + (d.y_max - d.y_min) * random.uniform()};
+    REQUIRE(relief.ceiling(p) >= relief.sample(p).z);
+  }
+}
