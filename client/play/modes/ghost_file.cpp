@@ -12,6 +12,8 @@
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
 #include "shared/core/whole_file.h"
+#include "shared/map/map_search_file.h"
+#include "shared/match/ghost.h"
 #include "shared/match/match.h"
 #include "shared/protocol/ack_line.h"
 #include "shared/protocol/codec.h"
@@ -112,6 +114,24 @@ std::vector<OwnDrive> read_ghost_drives(const fs::path& folder, const map::Map& 
 void write_ghost_drives(const fs::path& folder, const map::Map& map, std::uint32_t tick_hz, state::Mode mode,
                         const std::vector<OwnDrive>& drives) {
   write_whole(file_of(folder, map, mode), ghost_drives_text(drives, tick_hz, mode));
+}
+
+std::optional<protocol::GhostLine> read_author_ghost(const map::Map& map, std::uint32_t tick_hz) {
+  const std::string& name = map.definition.name;  // a server's word: no path may come of it
+  const bool is_plain = !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+  const auto file = is_plain ? map::find_map(name + ".json") : core::fail(name, "no shipped map's name");
+  if (!file) return std::nullopt;
+  const fs::path folder = file->parent_path();
+  const auto text = core::read_whole_file_within(folder, folder / "ghosts" / (name + ".json"), kMostBytes);
+  const auto message = text ? decoded(std::string_view(*text).substr(0, text->find('\n'))) : std::nullopt;
+  const auto* line = message ? std::get_if<protocol::GhostLine>(&*message) : nullptr;
+  if (line == nullptr || line->behavior != match::kBehavior || line->tick_hz != tick_hz) return std::nullopt;
+  match::RunTimes said{{line->start}};
+  for (const std::uint64_t split : line->run.splits) said.gates.push_back(line->start + split);
+  if (!match::why_not_proven(map, tick_hz, line->ghost, said).empty()) return std::nullopt;
+  return *line;
 }
 
 bool is_done(const fs::path& folder, std::string_view name) {

@@ -7,12 +7,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "client/play/modes/drive.h"
 #include "shared/map/map_definition.h"
+#include "shared/protocol/records.h"
 
 namespace woodlouse::client {
 
@@ -31,6 +33,10 @@ std::vector<OwnDrive> read_ghost_drives(const std::filesystem::path& folder, con
 /// Whole, or not at all.
 void write_ghost_drives(const std::filesystem::path& folder, const map::Map& map, std::uint32_t tick_hz,
                         state::Mode mode, const std::vector<OwnDrive>& drives);
+
+/// The ghost that came with the shipped map of that name, where it proves its run on this one; none: else.
+/// REQUIRES a map with a race, in full detail.
+std::optional<protocol::GhostLine> read_author_ghost(const map::Map& map, std::uint32_t tick_hz);
 
 /// Whether `name` was marked as done in that folder, and marks it.
 bool is_done(const std::filesystem::path& folder, std::string_view name);

@@ -29,27 +29,34 @@ void Ghosts::begin(std::shared_ptr<const map::Map> map, std::uint32_t tick_hz, s
   mode_ = mode;
   records_.clear();
   own_trail_ = Trail(trail_spacing());
+  const bool is_exact = map_->detail == map::Detail::kExact;
+  if (folder_ && is_exact && mode == state::Mode::kRace)
+    if (const auto author = read_author_ghost(*map_, tick_hz_)) add_run(std::nullopt, "author", *author);
   if (is_same) return;  // back on the line: own drives are still known
   kept_.clear();
   last_.reset();
   best_.reset();
-  if (map_->detail == map::Detail::kExact) load();
+  if (is_exact) load();
 }
 
 bool Ghosts::add_record(const protocol::GhostLine& line) {
   if (map_ == nullptr || mode_ != state::Mode::kRace || map_->detail != map::Detail::kExact) return false;
   if (line.behavior != match::kBehavior || line.tick_hz != tick_hz_) return false;
   if (!match::why_no_ghost(*map_, tick_hz_, line.ghost).empty()) return false;
+  add_run(line.run.board, line.run.name, line);
+  return true;
+}
+
+void Ghosts::add_run(std::optional<protocol::Board> board, const std::string& name,
+                     const protocol::GhostLine& line) {
   const map::RaceMode& race = *map_->definition.modes.race;
   const auto& spawns = race.spawns.empty() ? map_->definition.spawns : race.spawns;
   assert(line.ghost.spawn < spawns.size());
   OwnDrive drive{map::louse_at(spawns[line.ghost.spawn], 1), line.ghost.inputs, line.ghost.ticks, 0};
-  std::erase_if(records_, [&line](const Record& record) { return record.board == line.run.board; });
-  records_.push_back({line.run.board,
-                      line.run.name + " " + span_text(static_cast<std::int64_t>(line.run.time), tick_hz_),
+  std::erase_if(records_, [&board](const Record& record) { return record.board == board; });
+  records_.push_back({board, name + " " + span_text(static_cast<std::int64_t>(line.run.time), tick_hz_),
                       static_cast<double>(line.start) / kTickOfGhosts,
                       GhostRun(*map_, tick_hz_, mode_, std::move(drive)), Trail(trail_spacing())});
-  return true;
 }
 
 double Ghosts::trail_spacing() const {

@@ -22,8 +22,8 @@ enum class GhostChoice : std::uint8_t { kBest, kLast, kOff };
 
 class Ghosts {
  public:
-  /// Own drives are kept there from now on, and those of before are shown again (ghost_file.h); else they end
-  /// with the program.
+  /// Own drives are kept there from now on, and those of before are shown again, beside the author's of a
+  /// shipped race (ghost_file.h); else no file is read, and own drives end with the program.
   void keep_in(std::filesystem::path folder) { folder_ = std::move(folder); }
 
   /// A game begins. The map outlives it or the next call.
@@ -43,7 +43,7 @@ class Ghosts {
 
  private:
   struct Record {
-    protocol::Board board;
+    std::optional<protocol::Board> board;  ///< none: the race's author's
     std::string name;
     double start = 0.0;  ///< ticks from the spawn to the first gate
     GhostRun run;
@@ -53,6 +53,8 @@ class Ghosts {
   [[nodiscard]] GhostMark mark(std::string name, const LouseSample& sample, Trail& trail) const;
   [[nodiscard]] double trail_spacing() const;
   [[nodiscard]] bool is_better(GhostRun& a, GhostRun& b) const;
+  void add_run(std::optional<protocol::Board> board, const std::string& name,
+               const protocol::GhostLine& line);
   void load();
   void save();
 

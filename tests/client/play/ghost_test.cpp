@@ -150,6 +150,23 @@ TEST_CASE("a record's ghost is raced from the first gate on, and one that can't 
   CHECK_FALSE(ghosts.add_record(line));
 }
 
+TEST_CASE(
+    "a shipped race has its author's ghost where files may be read, and a server's word names no file") {
+  const auto map = map_of("crater_loop");
+  REQUIRE(read_author_ghost(*map, 60));
+  CHECK_FALSE(read_author_ghost(*map, 30));  // another rate
+  map::Map renamed = *map;
+  for (const char* name : {"../maps/crater_loop", "/etc/passwd", "figure_eight", ""}) {
+    renamed.definition.name = name;
+    CHECK_FALSE(read_author_ghost(renamed, 60));
+  }
+  Ghosts ghosts;
+  ghosts.keep_in("/nowhere");
+  ghosts.begin(map, 60, state::Mode::kRace);
+  REQUIRE(ghosts.marks(std::nullopt, 0, 0.0).size() == 1);
+  CHECK(ghosts.marks(std::nullopt, 0, 0.0)[0].name.starts_with("author 1:01"));
+}
+
 TEST_CASE("a gate of one's own times laps through it, one way alone") {
   PrivateGate gate;
   const rules::Images flat({});

@@ -152,3 +152,21 @@ TEST_CASE("on a jittery line few inputs come late and what that moves is hardly 
   REQUIRE(report.late * 4 <= report.acks);
   REQUIRE(report.worst_jump < 0.1);
 }
+
+TEST_CASE("whoever begins looks at what is wanted, not where the slope rolls the louse") {
+  auto map = map::load_map(std::string(WOODLOUSE_SOURCE_DIR) + "/maps/volcano.json");
+  REQUIRE(map);
+  Pilot pilot(**map, kTickHz, 1);
+  protocol::Ack ack;
+  ack.you = protocol::ExactState{10, {}};
+  ack.you->louse.id = 1;
+  ack.you->louse.position = {3.0, 1.0};
+  ack.you->louse.heading = {-1.0, 0.0};
+  pilot.look_at({3.0, 9.0});
+  pilot.acknowledge(ack);
+  CHECK(pilot.steering().heading().y == Approx(1.0));
+  pilot.respawned();
+  ack.you->louse.position = {5.0, 9.0};
+  pilot.acknowledge(ack);
+  CHECK(pilot.steering().heading().x == Approx(-1.0));
+}
