@@ -8,6 +8,7 @@ namespace woodlouse::client {
 
 MapCamera FollowCamera::over(core::Vec2 louse, double zoom, Margin margin) {
   assert(zoom > 0.0);
+  zoom_to(zoom);
   const terrain::Rectangle& d = relief_.terrain().domain();
   const double row = camera_for(d, size_, margin).row / zoom;
   // Each way by itself: along a wall the louse stays off the middle for long.
@@ -15,8 +16,9 @@ MapCamera FollowCamera::over(core::Vec2 louse, double zoom, Margin margin) {
                        double high) {
     if (now && std::abs(at - *now) < kLeaves * half) return *now;
     const double reach = half - cell;
-    if (at < low || at > high) return at;  // beyond the walls nothing keeps the picture
-    return high - low <= 2.0 * reach ? (low + high) / 2.0 : std::clamp(at, low + reach, high - reach);
+    const double full =
+        high - low <= 2.0 * reach ? (low + high) / 2.0 : std::clamp(at, low + reach, high - reach);
+    return std::abs(at - full) < half ? full : at;  // far beyond an open edge nothing keeps the picture
   };
   const auto x = over_ ? std::optional(over_->x) : std::nullopt;
   const auto y = over_ ? std::optional(over_->y) : std::nullopt;
@@ -43,6 +45,7 @@ double FollowCamera::off_middle(const ObliqueCamera& camera, Vec3 louse) const {
 
 ObliqueCamera FollowCamera::before(Vec3 louse, double zoom) {
   assert(zoom > 0.0);
+  zoom_to(zoom);
   if (before_) {
     const ObliqueCamera standing = around(*before_, zoom);
     if (off_middle(standing, louse) < kLeaves) return standing;

@@ -39,8 +39,15 @@ class FollowCamera {
   /// The larger of both ways: 0 in the middle of the picture, 1 at its edge.
   [[nodiscard]] double off_middle(const ObliqueCamera& camera, Vec3 louse) const;
 
+  /// Another picture is drawn whole in any case: it begins where it is best.
+  void zoom_to(double zoom) {
+    if (zoom != zoom_) over_.reset(), before_.reset();
+    zoom_ = zoom;
+  }
+
   const Relief& relief_;
   Size size_;
+  double zoom_ = 0.0;
   std::optional<ObliqueCamera> whole_;
   std::optional<core::Vec2> over_;
   std::optional<Vec3> before_;

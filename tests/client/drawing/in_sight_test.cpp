@@ -133,6 +133,22 @@ TEST_CASE("a following camera has your louse in every picture, wherever it is an
   }
 }
 
+TEST_CASE("a louse at a wall, or a hair beyond it, leaves the picture full of map") {
+  for (const auto& map : shipped_maps()) {
+    const Relief relief(map->terrain);
+    const terrain::Rectangle& d = map->terrain->domain();
+    const Size size{47, 21};
+    for (const double beyond : {0.0, 1e-9, 1e-3}) {
+      FollowCamera camera(relief, size);
+      camera.over({(d.x_min + d.x_max) / 2.0, (d.y_min + d.y_max) / 2.0}, 4.0, kCharacterMargin);
+      const MapCamera seen = camera.over({d.x_max + beyond, d.y_max + beyond}, 4.0, kCharacterMargin);
+      INFO(map->definition.name << ", " << beyond << " m beyond");
+      CHECK(seen.row_of({d.x_max, d.y_max}) < 1.5);
+      CHECK(seen.column_of({d.x_max, d.y_max}) > size.columns - 1.5);
+    }
+  }
+}
+
 TEST_CASE("a followed louse is in the picture that is drawn, in characters and in pixels") {
   for (const auto& map : shipped_maps())
     for (const Look look : {kCharacters, kPixels}) {
