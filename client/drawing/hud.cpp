@@ -229,7 +229,7 @@ void draw_status_line(const Scene& scene, CellBuffer& cells) {
                     styles.warning);
   if (scene.silence && !scene.lost)
     at = cells.text(at + 2, 0, formatted("no word for %.0f s", std::floor(*scene.silence)), styles.warning);
-  if (scene.paused) at = cells.text(at + 2, 0, "paused", styles.warning);
+  if (scene.paused) at = cells.text(at + 2, 0, "stands still", styles.warning);
   at = cells.text(at + 2, 0, printable(scene.map_name, scene.look.glyphs), styles.bar, 24);
   if (scene.lost) return;  // the numbers are those of before
   if (columns >= 80) at = cells.text(at + 2, 0, view_text(scene), styles.dim_bar);

@@ -12,6 +12,7 @@
 #include "shared/core/stable_hash.h"
 #include "shared/map/map_text.h"
 #include "shared/protocol/codes.h"
+#include "shared/protocol/codes.h"
 
 namespace woodlouse::client {
 namespace {
@@ -62,6 +63,7 @@ core::Expected<void> RoomView::on_message(const protocol::ServerMessage& message
             return {};
           },
           [&](const protocol::Notice& m) -> core::Expected<void> {
+            if (m.code == protocol::code::kPaused) word_.paused();
             return roster_.note(m.text), core::Expected<void>();
           },
           [&](const protocol::ErrorMessage& m) -> core::Expected<void> {
@@ -96,6 +98,7 @@ void RoomView::take(const protocol::Welcome& welcome, core::Time now) {
   own_game_.take(welcome);
   roster_.welcome(welcome);
   clock_.emplace(welcome.tick_hz);
+  word_.expect(welcome.state_hz);
   view_.emplace(welcome.tick_hz, welcome.fields);
   pilot_.reset();
   rate_time_.reset();
@@ -189,6 +192,7 @@ bool RoomView::follow(std::string_view line, core::Time now) {
 void RoomView::goes_on(std::uint64_t tick, core::Time now) {
   if (!word_.shown(tick, now)) return;
   clock_.emplace(welcome_->tick_hz);
+  rate_time_.reset();
   if (pilot_) pilot_->begin_anew();
 }
 
@@ -219,6 +223,8 @@ void RoomView::take(const protocol::Event& event, core::Time now) {
 void RoomView::take(const protocol::Pong& pong, core::Time now) {
   const double seconds = static_cast<double>(microseconds(now) - pong.t) * 1e-6;
   if (!(seconds >= 0.0 && seconds < 60.0)) return;  // not an answer to a ping of this run
+  word_.answered(now -
+                 std::chrono::duration_cast<core::Time::duration>(std::chrono::duration<double>(seconds)));
   round_trips_.push_back(seconds);
   if (round_trips_.size() > kRoundTrips) round_trips_.pop_front();
 }
@@ -280,7 +286,8 @@ Sight RoomView::sight() const {
 void RoomView::update(core::Time now) {
   if (!notice_.empty() && now >= notice_until_) notice_.clear();
   if (!welcome_) return;
-  if (!pinged_ || now - *pinged_ >= kPingEvery) {
+  const bool asks = word_.is_late(now) && !word_.stands();
+  if (!pinged_ || now - *pinged_ >= (asks ? ServerWord::kLate : kPingEvery)) {
     pinged_ = now;
     outgoing_.emplace_back(protocol::Ping{microseconds(now)});
   }

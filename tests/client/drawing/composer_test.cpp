@@ -89,7 +89,7 @@ TEST_CASE("what is not known of a silent server is not shown, at any size") {
   }
   scene.silence.reset();
   scene.paused = true;
-  CHECK(text_of(scene, {60, 20}).find("WOODLOUSE  paused") != std::string::npos);
+  CHECK(text_of(scene, {60, 20}).find("WOODLOUSE  stands still") != std::string::npos);
 }
 
 TEST_CASE("the keys that rule are those that are shown, and the help of who watches names none that drives") {

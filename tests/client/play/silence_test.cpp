@@ -70,3 +70,40 @@ TEST_CASE("in a paused room, of which frames go on to come, your louse stands") 
   frame(84, kStart + 6100ms);
   CHECK(count<protocol::Input>(room.take_outgoing()) > 0);
 }
+
+TEST_CASE("a room of which answers come and no frames stands still, a line that stalls does not") {
+  const auto map = volcano();
+  RoomView room;
+  REQUIRE(room.on_message(welcome(*map, 3), kStart));
+  REQUIRE(room.on_message(protocol::MapMessage{"volcano", map->hash, map->canonical}, kStart));
+  const auto frame = [&](std::uint64_t tick, core::Time now) {
+    REQUIRE(room.on_message(key(tick, {3, 1, 1, 3, 0, 1, 0, 5, 0}), now));
+    room.update(now);
+  };
+  for (auto t = 0ms; t <= 1000ms; t += 50ms)
+    frame(60 + static_cast<std::uint64_t>(t.count() * 60 / 1000), kStart + t);
+  std::vector<protocol::Pong> answers;
+  const auto run = [&](std::chrono::milliseconds from, std::chrono::milliseconds to) {
+    for (auto t = from; t < to; t += 20ms) {
+      room.update(kStart + t);
+      for (const auto& sent : room.take_outgoing())
+        if (const auto* ping = std::get_if<protocol::Ping>(&sent)) answers.push_back({ping->t});
+    }
+  };
+  // Everything comes 600 ms late, in its order: what was said before the answer is here before it.
+  run(1020ms, 1600ms);
+  REQUIRE_FALSE(answers.empty());
+  for (std::uint64_t tick = 123; tick <= 156; tick += 3) frame(tick, kStart + 1600ms);
+  for (const protocol::Pong& pong : answers) REQUIRE(room.on_message(pong, kStart + 1600ms));
+  CHECK_FALSE(room.stands());
+  answers.clear();
+  // The same answers, and no frames.
+  run(1620ms, 2200ms);
+  REQUIRE_FALSE(answers.empty());
+  for (const protocol::Pong& pong : answers) REQUIRE(room.on_message(pong, kStart + 2200ms));
+  CHECK(room.stands());
+  frame(159, kStart + 4s);
+  CHECK_FALSE(room.stands());
+  REQUIRE(room.on_message(protocol::Notice{"paused", "the operator has paused this room"}, kStart + 4s));
+  CHECK(room.stands());
+}
