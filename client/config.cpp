@@ -118,7 +118,7 @@ core::Expected<Config> understood(const Raw& raw) {
   config.name = raw.name;
   config.room = room_of(raw.server).empty() ? raw.room : room_of(raw.server);
   config.bell = raw.bell;
-  config.asks_name = raw.asks_name && !raw.no_files;
+  config.asks_name = raw.asks_name;
   auto token = token_of(raw);
   if (!token) return tl::unexpected(token.error());
   config.token = std::move(*token);
@@ -149,7 +149,7 @@ std::string default_name() {
 core::Expected<Config> defaults(bool no_files) {
   Config config;
   config.no_files = no_files;
-  config.asks_name = !no_files;
+  config.asks_name = true;
   config.name = no_files ? std::string("louse") : default_name();  // the account's name is nobody's
   if (no_files) return config;
   const std::filesystem::path file = config_file();

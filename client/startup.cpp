@@ -152,11 +152,12 @@ Outcome tell(boost::asio::io_context& context, Session& session, const Config& c
   return TextGame(context, session, *keys, write_line, manner, alive).run();
 }
 
-/// Asks for the name, and keeps it for the next time.
+/// Asks for the name, and keeps it for the next time where files may be written.
 void name_louse(Config& config) {
   const auto name = ask_for_name(config.name, std::cin, std::cout);
   if (!name) return;
   config.name = *name;
+  if (config.no_files) return;
   const auto kept = remember_name(config_file(), *name);
   if (!kept) std::cerr << "woodlouse: the name is not kept: " << kept.error().text() << "\n";
 }

@@ -91,6 +91,7 @@ void Game::perform(Action action) {
   if (Pilot* pilot = session_.room().pilot();
       pilot != nullptr && drive(action, handling(), pilot->steering(), now))
     return;
+  if (action == Action::kSteer && session_.room().pilot() == nullptr) return;  // who watches steers nothing
   if (interface_.apply(action)) {
     if (action != Action::kSteer) return;
     if (Pilot* pilot = session_.room().pilot())

@@ -12,7 +12,6 @@
 #include "shared/core/stable_hash.h"
 #include "shared/map/map_text.h"
 #include "shared/protocol/codes.h"
-#include "shared/protocol/codes.h"
 
 namespace woodlouse::client {
 namespace {

@@ -209,8 +209,9 @@ void TextGame::perform(Action action) {
   if (pilot != nullptr && drive(action, handling, pilot->steering(), now)) return tell_driving(action, now);
   switch (action) {
     case Action::kSteer:
+      if (pilot == nullptr) break;
       steer_ = steer_ == SteerBy::kHeading ? SteerBy::kCompass : SteerBy::kHeading;
-      if (pilot != nullptr) pilot->steering().reset();
+      pilot->steering().reset();
       say(steer_ == SteerBy::kCompass ? "steering by the compass: the keys push north, west, south and east"
                                       : "steering by the heading: the keys push along it and turn it");
       break;

@@ -142,12 +142,12 @@ TEST_CASE("an address may name the room, and contradicts no other one") {
   REQUIRE(parse({"farm/hills", "--room", "volcano"}).exit_code == 2);
 }
 
-TEST_CASE("the name is asked for where nobody has said it, and no file is forbidden") {
+TEST_CASE("the name is asked for where nobody has said it, by each guest of an account again") {
   {
     Environment environment;
     REQUIRE(parse({}).config.asks_name);
     REQUIRE_FALSE(parse({"--name", "ida"}).config.asks_name);
-    REQUIRE_FALSE(parse({"--no-files", "farm"}).config.asks_name);
+    REQUIRE(parse({"--no-files", "farm"}).config.asks_name);
     environment.set("WOODLOUSE_NAME", "ida");
     REQUIRE_FALSE(parse({}).config.asks_name);
   }
