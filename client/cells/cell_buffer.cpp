@@ -31,7 +31,9 @@ std::u32string printable(std::string_view utf8, GlyphSet glyphs) {
 Cell whole_cell(std::span<const Cell> row, std::size_t column) {
   Cell cell = row[column];
   const bool is_tail = cell.glyph == kWideTail;
-  if (!is_tail && (cell.glyph < 0x1100 || columns_of(cell.glyph) != 2)) return cell;
+  // Asked of every cell of every frame: letters of Europe, lines and blocks need no table.
+  const bool is_narrow = cell.glyph < 0x1100 || (cell.glyph >= 0x2500 && cell.glyph < 0x25A0);
+  if (!is_tail && (is_narrow || columns_of(cell.glyph) != 2)) return cell;
   const bool is_whole = is_tail ? column > 0 && columns_of(row[column - 1].glyph) == 2
                                 : column + 1 < row.size() && row[column + 1].glyph == kWideTail;
   if (!is_whole) cell.glyph = U' ';
