@@ -1,5 +1,6 @@
 #include "client/terminal/cell_diff.h"
 
+#include <algorithm>
 #include <charconv>
 #include <utility>
 
@@ -76,6 +77,7 @@ std::string FrameEncoder::encode(const CellBuffer& frame) {
     out += "\x1b[0m\x1b[2J\x1b[H";
     shown_.resize(size);
     next_.resize(size);
+    given_.resize({});  // no row is as it was given
     style_ = {};
     cursor_column_ = 0;
     cursor_row_ = 0;
@@ -83,11 +85,13 @@ std::string FrameEncoder::encode(const CellBuffer& frame) {
   }
   for (int row = 0; row < size.rows; ++row) {
     const auto cells = frame.row(row);
+    if (given_.size() == size && std::ranges::equal(cells, given_.row(row))) continue;
     for (int column = 0; column < size.columns; ++column)
       next_.at(column, row) = canonical(whole_cell(cells, static_cast<std::size_t>(column)), mode_);
     encode_row(row, out);
+    for (int column = 0; column < size.columns; ++column) shown_.at(column, row) = next_.at(column, row);
   }
-  std::swap(shown_, next_);
+  given_ = frame;
   return out;
 }
 

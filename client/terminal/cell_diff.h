@@ -30,6 +30,7 @@ class FrameEncoder {
   bool known_ = false;  ///< shown_, cursor and style are what the terminal has
   CellBuffer shown_;    ///< quantised
   CellBuffer next_;     ///< quantised; kept to save the allocation
+  CellBuffer given_;    ///< the last frame as it came: a row that is the same is not looked at again
   Style style_;         ///< in force at the terminal
   int cursor_column_ = 0;
   int cursor_row_ = 0;
