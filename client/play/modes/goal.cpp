@@ -146,7 +146,7 @@ void add_next(const GoalFacts& facts, GoalLine& line) {
   const Ruling& ruling = facts.sight.ruling;
   if (ruling.mode != state::Mode::kHill || !ruling.game->hill || ruling.game->hill->moves_at == 0) return;
   const auto seconds = static_cast<long>(std::ceil(seconds_until(facts, ruling.game->hill->moves_at)));
-  line.push_back({formatted("  moves in %ld s", seconds), seconds <= 5 ? Tone::kGoal : Tone::kDim});
+  line.push_back({formatted("  moves in %lds", seconds), seconds <= 5 ? Tone::kGoal : Tone::kDim});
 }
 
 /// "gate 3 NE 27 m": what is aimed at.
@@ -269,7 +269,8 @@ std::vector<GoalLine> goal_lines(const GoalFacts& facts) {
       first.push_back({formatted("  round %u begins in ", round) + seconds_left(facts), Tone::kGoal});
       break;
     case protocol::GamePhase::kPlay:
-      first.push_back({"  " + seconds_left(facts), Tone::kStrong});
+      // A hill's round is long, and where the line is cut off what its place does matters more.
+      if (ruling.mode != state::Mode::kHill) first.push_back({"  " + seconds_left(facts), Tone::kStrong});
       if (is_harvest(facts)) first.push_back({"  HARVEST x2", Tone::kGoal});
       break;
     case protocol::GamePhase::kPodium:
@@ -278,6 +279,8 @@ std::vector<GoalLine> goal_lines(const GoalFacts& facts) {
   }
   if (GoalSpan way = aim(facts); !way.text.empty()) first.push_back(std::move(way));
   add_next(facts, first);
+  if (ruling.mode == state::Mode::kHill && ruling.game->phase == protocol::GamePhase::kPlay)
+    first.push_back({"  " + seconds_left(facts), Tone::kDim});
   const GoalLine own = own_line(facts);
   return own.empty() ? std::vector<GoalLine>{first} : std::vector<GoalLine>{first, own};
 }

@@ -125,6 +125,25 @@ TEST_CASE("a race's lines say the way to the next gate, the clock and the medal 
   REQUIRE(course.target);
 }
 
+TEST_CASE("a hill's lines say where the place is, when it moves, and who holds it") {
+  SeenRoom room = race();
+  room.mode = state::Mode::kHill;
+  room.map = shipped_map("table");
+  room.game.hill = protocol::GameHill{0, 9, false, 6000 + 44 * 60};
+  room.add(2, 60, 10.0, true);
+  room.lice.at(2).sample.position = {0.0, 10.0};
+  const Sight sight = room.sight();
+  const LouseSample& you = room.lice.at(2).sample;
+  const std::string text = text_of(goal_lines({sight, 2, &you, true, nullptr, 1}));
+  CHECK(text.substr(0, 33) == "hill  place S 10 m  moves in 44s ");  // what fits beside a panel of 24
+  CHECK(text.find("held 1.0 s of 30 s  louse9 holds it") != std::string::npos);
+  CHECK(course_of({sight, 2, &you, true, nullptr, 1}).rings.size() == 1);
+  room.game.hill->moves_at = 6000 + 10 * 60;  // soon: the next one is shown, too
+  CHECK(course_of({sight, 2, &you, true, nullptr, 1}).rings.size() == 2);
+  const std::string out = text_of(goal_lines({sight, 2, nullptr, true, nullptr, 0}));
+  CHECK(out.find("out: back at a spawn soon") != std::string::npos);
+}
+
 TEST_CASE("medals are the author's time, and 6, 20 and 50 percent more") {
   const auto medal = [](double seconds) {
     return medal_of(60'000, static_cast<std::int64_t>(seconds * kSecond), 60);
