@@ -61,6 +61,18 @@ std::vector<std::string> goal(const RoomView& room) {
   return lines;
 }
 
+std::vector<std::string> podium(const RoomView& room) {
+  const Sight sight = room.sight();
+  const std::uint32_t id = room.welcome() != nullptr ? room.welcome()->id : 0;
+  const Course course = course_of({sight, id, sample_of(sight, id), id != 0, &room.own_game().run(), 0});
+  std::vector<std::string> lines;
+  for (const PodiumStep& step : course.podium)
+    lines.push_back("place " + std::to_string(lines.size() + 1) + ": " + (step.is_you ? "you" : step.name) +
+                    ", " + step.measure + (step.medal.empty() ? "" : ", " + step.medal));
+  if (!lines.empty() && !course.podium_note.empty()) lines.push_back(course.podium_note);
+  return lines;
+}
+
 std::string keys(const KeyLabels& keys, SteerBy steer, bool plays) {
   const auto spoken = [](const std::string& label) {
     return label == "SPC" ? "Space" : label == "TAB" ? "Tab" : label;

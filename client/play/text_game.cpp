@@ -75,6 +75,7 @@ void TextGame::update() {
   tell_ground(now);
   tell_proof();
   teach();
+  tell_podium();
   if (now - state_told_ >= kStateEvery && !is_silence_told_ &&
       session_.connection().phase() == Connection::Phase::kJoined) {
     state_told_ = now;
@@ -145,6 +146,14 @@ void TextGame::tell_news() {
   const std::string& notice = session_.room().notice_line();
   if (notice != notice_told_ && !notice.empty()) say(notice);
   notice_told_ = notice;
+}
+
+void TextGame::tell_podium() {
+  const Sight sight = session_.room().sight();
+  const protocol::Game* const game = sight.ruling.game;
+  if (game == nullptr || game->phase != protocol::GamePhase::kPodium || game->round == podium_told_) return;
+  podium_told_ = game->round;
+  for (const std::string& line : words::podium(session_.room())) say(line);
 }
 
 void TextGame::teach() {

@@ -55,6 +55,7 @@ class TextGame {
   void tell_silence(core::Time now);
   void tell_proof();
   void teach();
+  void tell_podium();
   void say(const std::string& line);
   void finish(Outcome outcome);
 
@@ -78,7 +79,8 @@ class TextGame {
   std::string notice_told_;
   bool is_difference_told_ = false;  ///< of the re-run
   bool is_silence_told_ = false;
-  int losses_told_ = 0;  ///< of the connection's
+  std::optional<std::uint32_t> podium_told_;  ///< of which round
+  int losses_told_ = 0;                       ///< of the connection's
   core::Time state_told_{};
   std::optional<Outcome> outcome_;
 };
