@@ -174,9 +174,8 @@ std::string four_keys(const KeyLabels& keys) {
   return joined.size() == 4 ? joined : keys.up + "/" + keys.left + "/" + keys.down + "/" + keys.right;
 }
 
-std::string keys_text(const Scene& scene, int columns) {
+std::string keys_text(const Scene& scene, bool is_narrow) {
   const KeyLabels& keys = scene.keys;
-  const bool is_narrow = columns < 80;
   const std::string gap = is_narrow ? " " : "  ";
   const std::string scores = keys.scores + " scores" + gap;
   const std::string end = keys.help + " help" + gap + keys.quit + " quit";
@@ -267,7 +266,9 @@ void draw_key_line(const Scene& scene, const Layout& layout, CellBuffer& cells) 
     draw_scrubber(scene, layout, cells);
     draw_replay_key_line(scene, layout, cells);
   } else {
-    cells.text(0, layout.key_row, keys_text(scene, columns), styles.bar);
+    const std::string wide = keys_text(scene, false);
+    const bool fits = columns >= 80 && static_cast<int>(wide.size()) <= columns;
+    cells.text(0, layout.key_row, fits ? wide : keys_text(scene, true), styles.bar);
   }
   const std::string& said =
       scene.notice.empty() && scene.lost ? scene.lost->reason : scene.notice;  // a notice passes

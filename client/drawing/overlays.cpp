@@ -164,8 +164,8 @@ void draw_quit_question(const Scene& scene, const Styles& styles, CellBuffer& ce
   draw_box(box, "LEAVE?", scene.look, styles, cells);
   cells.text(box.column + 3, box.row + 1,
              scene.spectating ? "Stop watching?" : "Your louse leaves the hill with you.", styles.text);
-  cells.text(box.column + 3, box.row + 3, "Y or " + scene.keys.quit + " leave     any other key: stay",
-             styles.strong);
+  cells.text(box.column + 3, box.row + 3, "Y or " + scene.keys.quit + " leaves, any other key stays",
+             styles.strong, box.size.columns - 5);
 }
 
 }  // namespace

@@ -33,8 +33,7 @@ std::string_view terminal_questions() {
 }
 
 bool TerminalAnswers::take(const TerminalInput& input) {
-  if (const auto* attributes = std::get_if<DeviceAttributes>(&input))
-    return finished_ = attributes != nullptr;
+  if (std::holds_alternative<DeviceAttributes>(input)) return finished_ = true;
   if (std::holds_alternative<KittyFlags>(input)) return kitty_ = true;
   if (const auto* mode = std::get_if<ModeReport>(&input)) {
     // 3 and 4 can't be changed: it is always so, or never.
