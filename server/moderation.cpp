@@ -10,7 +10,6 @@
 #include <map>
 #include <mutex>
 #include <set>
-#include <string_view>
 #include <utility>
 
 #include "server/admin/answer.h"
@@ -25,11 +24,11 @@ namespace {
 namespace asio = boost::asio;
 using Kind = RosterEntry::Kind;
 
-/// The number of a louse: digits alone.
+/// The number of a louse: digits alone, as numbers are written.
 std::optional<match::PlayerId> louse_of(const std::string& who) {
   match::PlayerId louse = 0;
   const auto [end, error] = std::from_chars(who.data(), who.data() + who.size(), louse);
-  if (error != std::errc() || end != who.data() + who.size() || louse == 0) return std::nullopt;
+  if (error != std::errc() || end != who.data() + who.size() || who.starts_with('0')) return std::nullopt;
   return louse;
 }
 
@@ -40,25 +39,19 @@ std::function<bool(const RosterEntry&)> called(const std::string& who) {
   };
 }
 
-std::optional<WallTime> end_of(const Command& command, WallTime now) {
-  if (!command.seconds) return std::nullopt;
-  return now + std::chrono::seconds(static_cast<std::int64_t>(*command.seconds));
-}
-
 /// A number is a louse of each room: who is put out must not hang on who else is called so. Empty: it is
-/// clear.
-std::string why_unclear(const std::string& who, std::size_t found) {
-  if (found < 2 || !louse_of(who)) return {};
+/// clear. Of a name all are meant that have it.
+std::string why_unclear(const std::string& who, std::size_t found, bool is_name) {
+  if (found < 2 || is_name || !louse_of(who)) return {};
   return refused(admin_code::kNotNow,
                  fmt::format("{} of the lice here may be meant by {}: say which room (--room), or a "
                              "name; `rooms ROOM` lists them",
                              found, who));
 }
 
-/// As the server numbers a second one of a name: ann#2.
-bool is_numbered(std::string_view name) {
-  const std::size_t sign = name.rfind('#');
-  return sign != std::string_view::npos && sign != 0 && louse_of(std::string(name.substr(sign + 1)));
+/// In a room people are meant: there a name may look like an address.
+std::optional<AddressRange> address_of(const Command& command) {
+  return command.room.empty() ? AddressRange::parse(command.who) : std::nullopt;
 }
 
 std::string nobody(const std::string& who) {
@@ -89,17 +82,52 @@ void Moderation::find(const IsMeant& is_meant, const std::string& room, OnFound 
     });
 }
 
-/// Also those who are away and might come back.
+/// Who has it as his name comes before whose louse has that number: else a name would be a shield.
+void Moderation::find_called(const std::string& who, const std::string& room,
+                             std::function<void(std::vector<Found> found, std::string why_not)> on_found) {
+  find(called(who), room, [who, on_found = std::move(on_found)](std::vector<Found> found) {
+    const auto has_name = [&who](const Found& one) { return is_same_name(one.entry.name, who); };
+    const bool is_name = std::any_of(found.begin(), found.end(), has_name);
+    if (is_name) std::erase_if(found, [&](const Found& one) { return !has_name(one); });
+    const bool has_bots =
+        std::erase_if(found, [](const Found& one) { return one.entry.kind == Kind::kHouse; }) != 0;
+    std::string why_not = why_unclear(who, found.size(), is_name);
+    if (found.empty())
+      why_not = has_bots ? refused(admin_code::kNotNow,
+                                   fmt::format("\"{}\" is one of the house's own bots: --bots says how "
+                                               "many there are",
+                                               core::printable(who)))
+                         : nobody(who);
+    on_found(std::move(found), std::move(why_not));
+  });
+}
+
+/// Also those who are away and might come back, and who has done so since they were found.
 void Moderation::expel(const std::vector<Found>& found, protocol::ErrorMessage why,
                        std::function<void()> done) {
-  std::set<SessionId> sessions;
-  for (const Found& one : found) {
-    if (one.entry.kind == Kind::kSession) sessions.insert(one.entry.session);
-    if (one.entry.kind == Kind::kAway) one.room->give_up(one.entry.louse);
-  }
-  acceptor_.expel(
-      [sessions = std::move(sessions)](SessionId id, const std::string&) { return sessions.contains(id); },
-      std::move(why), [done = std::move(done)](std::size_t) { done(); });
+  struct Round {
+    std::mutex mutex;
+    std::set<SessionId> sessions;
+    std::size_t missing = 0;
+  };
+  std::map<std::shared_ptr<Room>, std::vector<RosterEntry>> of_room;
+  for (const Found& one : found) of_room[one.room].push_back(one.entry);
+  if (of_room.empty()) return done();
+  const auto round = std::make_shared<Round>();
+  round->missing = of_room.size();
+  for (auto& [room, entries] : of_room)
+    room->put_out(std::move(entries), [this, round, why, done](const std::vector<SessionId>& here) {
+      std::set<SessionId> sessions;
+      {
+        const std::lock_guard lock(round->mutex);
+        round->sessions.insert(here.begin(), here.end());
+        if (--round->missing != 0) return;
+        sessions = std::move(round->sessions);
+      }
+      acceptor_.expel([sessions = std::move(sessions)](SessionId id,
+                                                       const std::string&) { return sessions.contains(id); },
+                      why, [done](std::size_t) { done(); });
+    });
 }
 
 void Moderation::list(const Command& command, const Answered& answered) {
@@ -139,180 +167,66 @@ void Moderation::list(const Command& command, const Answered& answered) {
 void Moderation::kick(const Command& command, Answered answered) {
   if (!command.room.empty() && chosen_rooms(lobby_, command.room).empty())
     return answered(no_such_room(lobby_, command.room));
-  find(called(command.who), command.room, [this, who = command.who, answered](std::vector<Found> found) {
-    const bool has_bots =
-        std::erase_if(found, [](const Found& one) { return one.entry.kind == Kind::kHouse; }) != 0;
-    if (found.empty() && has_bots)
-      return answered(
-          refused(admin_code::kNotNow,
-                  fmt::format("\"{}\" is one of the house's own bots: --bots says how many there are",
-                              core::printable(who))));
-    if (found.empty()) return answered(nobody(who));
-    if (auto unclear = why_unclear(who, found.size()); !unclear.empty()) return answered(std::move(unclear));
-    log_event(*log_, LogEvent::kKicked, fmt::format("admin: kicked \"{}\"", who));
-    std::string text;
-    for (const Found& one : found)
-      text += fmt::format("{}kicked \"{}\" from {}", text.empty() ? "" : "\n",
-                          core::printable(one.entry.name), core::printable(one.room->name()));
-    expel(found, {std::string(protocol::code::kKicked), "the operator has ended your connection", true, {}},
-          [answered, text, count = found.size()] {
-            answered(done(text, [count](json::ObjectText& object) { object.integer("count", count); }));
-          });
-  });
-}
-
-void Moderation::ban(const Command& command, const Answered& answered) {
-  assert(desk_);
-  const WallTime now = wall_now();
-  const auto ban = Bans::parse(command.who, now, end_of(command, now));
-  if (!ban) return answered(refused(protocol::code::kBadField, ban.error().text()));
-  const bool is_taken = desk_->change(
-      [ban = *ban](Bans& bans) { return bans.add(ban); },
-      [this, ban = *ban, answered](const core::Expected<void>& changed) {
-        if (!changed) {
-          log_event(*log_, LogEvent::kBanFailed,
-                    fmt::format("admin: {} is NOT banned: {}", ban.who(), changed.error().text()));
-          return answered(refused(admin_code::kFailed, changed.error().text()));
-        }
-        asio::post(strand_, [this, ban, answered] { apply(ban, answered); });
+  find_called(
+      command.who, command.room,
+      [this, who = command.who, answered](const std::vector<Found>& found, std::string why_not) {
+        if (!why_not.empty()) return answered(std::move(why_not));
+        log_event(*log_, LogEvent::kKicked, fmt::format("admin: kicked \"{}\"", who));
+        std::string text;
+        for (const Found& one : found)
+          text += fmt::format("{}kicked \"{}\" from {}", text.empty() ? "" : "\n",
+                              core::printable(one.entry.name), core::printable(one.room->name()));
+        expel(found,
+              {std::string(protocol::code::kKicked), "the operator has ended your connection", true, {}},
+              [answered, text, count = found.size()] {
+                answered(done(text, [count](json::ObjectText& object) { object.integer("count", count); }));
+              });
       });
-  if (!is_taken) answered(refused(admin_code::kNotNow, "too many changes wait for the disk"));
-}
-
-/// Who is here and should not be goes.
-void Moderation::apply(const Ban& ban, const Answered& answered) {
-  log_event(*log_, LogEvent::kBanned,
-            fmt::format("admin: {} is banned {}", ban.who(), until_text(ban.until)));
-  const std::string text =
-      fmt::format("{} is banned {}{}{}", core::printable(ban.who()), until_text(ban.until),
-                  desk_->has_file() ? "" : ", or as long as this server: it has no --ban-file",
-                  !ban.range && is_numbered(ban.name)
-                      ? ", who is called so because another one of the name came first: he may join again "
-                        "without the number; `rooms ROOM` shows his address"
-                      : "");
-  const auto tell = [answered, text, ban](std::size_t ended) {
-    answered(done(fmt::format("{}; {} connections ended", text, ended), [&](json::ObjectText& object) {
-      object.text("who", ban.who()).integer("ended", ended);
-      if (ban.until) object.integer("until", ban.until->time_since_epoch().count());
-    }));
-  };
-  if (ban.range)
-    return acceptor_.expel(
-        [range = *ban.range](SessionId, const std::string& address) {
-          const auto its = AddressRange::parse(address);
-          return its && range.contains(*its);
-        },
-        banned_error(ban), tell);
-  find(
-      [ban](const RosterEntry& entry) { return entry.kind != Kind::kHouse && goes_by(entry.name, ban.name); },
-      {},
-      [this, ban, tell](const std::vector<Found>& found) {
-        expel(found, banned_error(ban), [tell, count = found.size()] { tell(count); });
-      });
-}
-
-void Moderation::enforce_bans(std::function<void(std::size_t)> done) {
-  asio::post(strand_, [this, done = std::move(done)] {
-    const auto bans = std::make_shared<const Bans>(doorman_.bans());
-    const auto any = [bans](const auto& is_meant) {
-      return std::any_of(bans->all().begin(), bans->all().end(),
-                         [&](const Ban& ban) { return !ban.is_over(wall_now()) && is_meant(ban); });
-    };
-    const protocol::ErrorMessage why{
-        std::string(protocol::code::kBanned), "the operator has banned you", true, {}};
-    const auto is_banned = [any](const RosterEntry& entry) {
-      return entry.kind != Kind::kHouse &&
-             any([&](const Ban& ban) { return !ban.range && goes_by(entry.name, ban.name); });
-    };
-    find(is_banned, {}, [this, any, why, done](const std::vector<Found>& found) {
-      expel(found, why, [this, any, why, done, count = found.size()] {
-        const auto is_meant = [any](SessionId, const std::string& address) {
-          const auto its = AddressRange::parse(address);
-          return its && any([&](const Ban& ban) { return ban.range && ban.range->contains(*its); });
-        };
-        acceptor_.expel(is_meant, why, [done, count](std::size_t ended) { done(count + ended); });
-      });
-    });
-  });
-}
-
-void Moderation::unban(const Command& command, const Answered& answered) {
-  assert(desk_);
-  const auto ban = Bans::parse(command.who, wall_now(), std::nullopt);
-  if (!ban) return answered(refused(protocol::code::kBadField, ban.error().text()));
-  const bool is_taken = desk_->change(
-      [ban = *ban](Bans& bans) -> core::Expected<void> {
-        if (bans.remove(ban)) return {};
-        return core::fail(ban.who(), "is not banned", "`bans` says who is");
-      },
-      [this, ban = *ban, answered](const core::Expected<void>& changed) {
-        if (!changed) return answered(refused(admin_code::kFailed, changed.error().text()));
-        log_event(*log_, LogEvent::kUnbanned, fmt::format("admin: {} is banned no more", ban.who()));
-        answered(done(fmt::format("{} is banned no more", core::printable(ban.who()))));
-      });
-  if (!is_taken) answered(refused(admin_code::kNotNow, "too many changes wait for the disk"));
-}
-
-std::string Moderation::bans() const {
-  Bans bans = doorman_.bans();
-  bans.drop_over(wall_now());
-  std::string text;
-  for (const Ban& ban : bans.all())
-    text += fmt::format("{}{:<40} {}", text.empty() ? "" : "\n", core::printable(ban.who()),
-                        until_text(ban.until));
-  return done(text.empty() ? "nobody is banned" : text, [&bans](json::ObjectText& object) {
-    object.objects("bans", bans.all(), [](json::ObjectText& row, const Ban& ban) {
-      row.text(ban.range ? "address" : "name", ban.who());
-      row.integer("since", ban.since.time_since_epoch().count());
-      if (ban.until) row.integer("until", ban.until->time_since_epoch().count());
-    });
-  });
 }
 
 void Moderation::mute(const Command& command, const Answered& answered) {
   const WallTime now = wall_now();
   const auto until = end_of(command, now);
-  if (const auto range = AddressRange::parse(command.who)) {
+  if (const auto range = address_of(command)) {
     const WallTime end = until.value_or(now + kMuteOfAddress);
     doorman_.mute({*range, end}, now);
     log_event(*log_, LogEvent::kMuted, fmt::format("admin: {} is muted {}", range->text(), until_text(end)));
     return answered(done(fmt::format("{} is muted {}", range->text(), until_text(end))));
   }
-  find(called(command.who), command.room,
-       [this, who = command.who, until, now, answered](std::vector<Found> found) {
-         std::erase_if(found, [](const Found& one) { return one.entry.kind == Kind::kHouse; });
-         if (found.empty()) return answered(nobody(who));
-         if (auto unclear = why_unclear(who, found.size()); !unclear.empty())
-           return answered(std::move(unclear));
-         for (const Found& one : found)
-           one.room->mute(one.entry, until ? std::optional<Duration>(*until - now) : std::nullopt);
-         log_event(*log_, LogEvent::kMuted, fmt::format("admin: \"{}\" is muted", who));
-         answered(done(
-             fmt::format("\"{}\" is muted {}", core::printable(who),
-                         until ? until_text(until) + ", or as long as he is here" : "as long as he is here"),
-             [&found](json::ObjectText& object) { object.integer("count", found.size()); }));
-       });
+  find_called(
+      command.who, command.room,
+      [this, who = command.who, until, now, answered](const std::vector<Found>& found, std::string why_not) {
+        if (!why_not.empty()) return answered(std::move(why_not));
+        for (const Found& one : found)
+          one.room->mute(one.entry, until ? std::optional<Duration>(*until - now) : std::nullopt);
+        log_event(*log_, LogEvent::kMuted, fmt::format("admin: \"{}\" is muted", who));
+        answered(done(
+            fmt::format("\"{}\" is muted {}", core::printable(who),
+                        until ? until_text(until) + ", or as long as he is here" : "as long as he is here"),
+            [&found](json::ObjectText& object) { object.integer("count", found.size()); }));
+      });
 }
 
 void Moderation::unmute(const Command& command, const Answered& answered) {
-  if (const auto range = AddressRange::parse(command.who)) {
+  if (const auto range = address_of(command)) {
     if (doorman_.unmute(*range) == 0)
       return answered(refused(admin_code::kNobody, range->text() + " is not muted"));
     return answered(done(range->text() + " is muted no more"));
   }
-  find(called(command.who), command.room,
-       [this, who = command.who, answered](const std::vector<Found>& found) {
-         std::size_t count = 0;
-         for (const Found& one : found)
-           if (one.entry.is_muted) {
-             one.room->unmute(one.entry);
-             ++count;
-           }
-         if (count == 0)
-           return answered(refused(admin_code::kNobody,
-                                   fmt::format("nobody called \"{}\" is muted", core::printable(who))));
-         answered(done(fmt::format("\"{}\" is muted no more", core::printable(who))));
-       });
+  find_called(command.who, command.room,
+              [who = command.who, answered](const std::vector<Found>& found, std::string why_not) {
+                if (!why_not.empty()) return answered(std::move(why_not));
+                std::size_t count = 0;
+                for (const Found& one : found)
+                  if (one.entry.is_muted) {
+                    one.room->unmute(one.entry);
+                    ++count;
+                  }
+                if (count == 0)
+                  return answered(refused(admin_code::kNobody, fmt::format("nobody called \"{}\" is muted",
+                                                                           core::printable(who))));
+                answered(done(fmt::format("\"{}\" is muted no more", core::printable(who))));
+              });
 }
 
 std::string Moderation::say(const Command& command) {

@@ -60,7 +60,15 @@ class Moderation {
   using IsMeant = std::function<bool(const RosterEntry&)>;
   /// Those in the room that is named, or in all; on the strand.
   void find(const IsMeant& is_meant, const std::string& room, OnFound on_found);
+  /// Who is called so, by name or by the number of a louse, but for the house's bots; why_not: the answer
+  /// where that is nobody, or not clear.
+  void find_called(const std::string& who, const std::string& room,
+                   std::function<void(std::vector<Found> found, std::string why_not)> on_found);
   void expel(const std::vector<Found>& found, protocol::ErrorMessage why, std::function<void()> done);
+  static std::optional<WallTime> end_of(const Command& command, WallTime now) {
+    if (!command.seconds) return std::nullopt;
+    return now + std::chrono::seconds(static_cast<std::int64_t>(*command.seconds));
+  }
   void apply(const Ban& ban, const Answered& answered);
 
   Strand strand_;

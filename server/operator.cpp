@@ -121,8 +121,8 @@ void Operator::moderate(protocol::Moderate wish, std::string room, std::string w
   const auto refuse = [answered](const std::string& text) {
     answered(protocol::ErrorMessage{std::string(protocol::code::kNotModerated), text, false, {}});
   };
-  // Whole networks are the operator's.
-  if (command.verb != Verb::kSay && (command.who.empty() || AddressRange::parse(command.who)))
+  // In his room alone: whole networks are the operator's.
+  if (command.verb != Verb::kSay && command.who.empty())
     return refuse("moderate.who: a name, or the number of a louse");
   log_event(*log_, LogEvent::kModerator,
             fmt::format("moderator, {}: {} {}{}", who, wish.action, command.who, command.text));
@@ -196,7 +196,8 @@ void Operator::drain(const Command& command, const Answered& answered) {
   server_.doorman.drain(wall_now() + std::chrono::seconds(seconds));
   const std::string text = fmt::format("the server stops in {} s and takes nobody any more", seconds);
   log_event(*log_, LogEvent::kDraining, "admin: drain: " + text);
-  for (const auto& room : lobby_.rooms()) room->say({std::string(protocol::code::kDraining), text});
+  for (const auto& room : lobby_.rooms())
+    room->say_from_now_on({std::string(protocol::code::kDraining), text});
   answered(done(text, [seconds](json::ObjectText& object) { object.integer("seconds", seconds); }));
   drained_.expires_after(std::chrono::seconds(seconds));
   drained_.async_wait([this](const boost::system::error_code& error) {

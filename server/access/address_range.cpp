@@ -17,7 +17,11 @@ namespace ip = boost::asio::ip;
 constexpr unsigned kV4Bits = 96;  // before an IPv4 address within IPv6
 
 ip::address_v6 within_v6(const ip::address& address) {
-  return address.is_v4() ? ip::make_address_v6(ip::v4_mapped, address.to_v4()) : address.to_v6();
+  if (address.is_v4()) return ip::make_address_v6(ip::v4_mapped, address.to_v4());
+  // By which of this machine's networks it came is no part of whose it is.
+  ip::address_v6 v6 = address.to_v6();
+  v6.scope_id(0);
+  return v6;
 }
 
 }  // namespace

@@ -94,11 +94,13 @@ void Bans::drop_over(WallTime now) {
 }
 
 const Ban* Bans::of(const boost::asio::ip::address& address, WallTime now) const {
-  if (bans_.empty()) return nullptr;
-  const AddressRange one = AddressRange::of(address);
+  return bans_.empty() ? nullptr : of(AddressRange::of(address), now);
+}
+
+const Ban* Bans::of(const AddressRange& addresses, WallTime now) const {
   const Ban* longest = nullptr;
   for (const Ban& ban : bans_)
-    if (ban.range && !ban.is_over(now) && ban.range->contains(one) &&
+    if (ban.range && !ban.is_over(now) && ban.range->contains(addresses) &&
         (longest == nullptr || lasts_longer(ban, *longest)))
       longest = &ban;
   return longest;

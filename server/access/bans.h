@@ -59,6 +59,8 @@ class Bans {
 
   /// Why that address, or that name, may not come in; null: it may. The one that lasts longest.
   [[nodiscard]] const Ban* of(const boost::asio::ip::address& address, WallTime now) const;
+  /// All of them.
+  [[nodiscard]] const Ban* of(const AddressRange& addresses, WallTime now) const;
   [[nodiscard]] const Ban* of(std::string_view name, WallTime now) const;
   [[nodiscard]] const std::vector<Ban>& all() const { return bans_; }
 

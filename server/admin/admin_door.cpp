@@ -37,14 +37,15 @@ void AdminDoor::start() {
 }
 
 void AdminDoor::take(AdminPort::Socket socket) {
-  if (is_stopping_ || talks_.size() >= kMostTalks + kCourtesy) return;  // closed by its end
+  if (is_stopping_) return;  // closed by its end
+  if (served_ >= kMostTalks) end_oldest_stranger(true);
+  if (guests_.size() >= kMostTalks + kCourtesy && !end_oldest_stranger(false)) return;
   const auto talk = std::make_shared<AdminTalk>(std::move(socket), control_, *watch_, timekeeper_);
-  if (served_ >= kMostTalks) end_oldest_stranger();
-  talks_.push_back(talk);
   const bool is_served = served_ < kMostTalks;
+  guests_.push_back({talk, is_served});
   if (is_served) ++served_;
   auto closed = [this, gone = std::weak_ptr(talk), is_served] {
-    std::erase(talks_, gone.lock());
+    std::erase_if(guests_, [talk = gone.lock()](const Guest& guest) { return guest.talk == talk; });
     if (is_served) --served_;
     tell_when_empty();
   };
@@ -54,11 +55,14 @@ void AdminDoor::take(AdminPort::Socket socket) {
                       std::move(closed));
 }
 
-/// Who has not said who he is keeps nobody out who might.
-void AdminDoor::end_oldest_stranger() {
-  const auto stranger =
-      std::find_if(talks_.begin(), talks_.end(), [](const auto& talk) { return talk->is_stranger(); });
-  if (stranger != talks_.end()) std::shared_ptr(*stranger)->end();  // which leaves the list
+/// Who has not said who he is keeps nobody out who might. False: there is none.
+bool AdminDoor::end_oldest_stranger(bool is_served) {
+  const auto stranger = std::find_if(guests_.begin(), guests_.end(), [is_served](const Guest& guest) {
+    return guest.is_served == is_served && (guest.talk->is_stranger() || !is_served);
+  });
+  if (stranger == guests_.end()) return false;
+  std::shared_ptr(stranger->talk)->give_way();  // which leaves the list
+  return true;
 }
 
 void AdminDoor::stop(std::function<void()> stopped) {
@@ -67,14 +71,14 @@ void AdminDoor::stop(std::function<void()> stopped) {
     is_stopping_ = true;
     port_.close();
     stopped_ = std::move(stopped);
-    const auto talks = talks_;  // those that end at once leave
-    for (const auto& talk : talks) talk->end();
+    const auto guests = guests_;  // those that end at once leave
+    for (const Guest& guest : guests) guest.talk->end();
     tell_when_empty();
   });
 }
 
 void AdminDoor::tell_when_empty() {
-  if (stopped_ && talks_.empty()) std::exchange(stopped_, nullptr)();
+  if (stopped_ && guests_.empty()) std::exchange(stopped_, nullptr)();
 }
 
 }  // namespace woodlouse::server

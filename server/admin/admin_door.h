@@ -39,7 +39,11 @@ class AdminDoor {
 
  private:
   void take(AdminPort::Socket socket);
-  void end_oldest_stranger();
+  struct Guest {
+    std::shared_ptr<AdminTalk> talk;
+    bool is_served = false;  ///< may command
+  };
+  bool end_oldest_stranger(bool is_served);
   void tell_when_empty();
 
   AdminPort::Strand strand_;
@@ -48,8 +52,8 @@ class AdminDoor {
   AdminPort port_;
   // The strand's:
   std::optional<AdminWatch> watch_;
-  std::vector<std::shared_ptr<AdminTalk>> talks_;  ///< as they came
-  std::size_t served_ = 0;                         ///< of them, those that may command
+  std::vector<Guest> guests_;  ///< as they came
+  std::size_t served_ = 0;     ///< of them, those that may command
   bool is_stopping_ = false;
   std::function<void()> stopped_;
 };

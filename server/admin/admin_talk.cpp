@@ -125,6 +125,7 @@ void AdminTalk::take_request() {
     if (verdict == AdminWatch::Verdict::kWrong)
       return write(response_text(refusal(401, "Authorization: Bearer TOKEN is needed"), request->is_head),
                    true);
+    is_trusted_ = true;
   }
   write(response_text(control_.page(request->path), request->is_head), true);
 }

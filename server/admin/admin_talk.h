@@ -37,8 +37,10 @@ class AdminTalk : public std::enable_shared_from_this<AdminTalk> {
   void start(std::function<void()> closed);
   /// Instead: that line alone.
   void start_refused(std::string line, std::function<void()> closed);
-  /// It has shown no token yet, and nothing is on its way to it.
-  [[nodiscard]] bool is_stranger() const { return !is_trusted_ && state_ == State::kReading; }
+  /// It has shown no token.
+  [[nodiscard]] bool is_stranger() const { return !is_trusted_; }
+  /// Ends at once, whatever is on its way.
+  void give_way() { close(); }
   /// The server stops: what is being written is the last.
   void end();
 

@@ -9,7 +9,9 @@ FrameSlots::Outcome FrameSlots::put(Frame frame) {
   const bool is_key = frame.kind == FrameKind::kKey;
   if (is_key ? newest_key_ && frame.tick < *newest_key_ : newest_ && frame.tick <= *newest_)
     return Outcome::kStale;
+  if (is_key && newest_key_ == frame.tick) newest_.reset();  // and so may the newest delta
   if (is_key) newest_key_ = frame.tick;
+  if (delta_ && (!newest_ || delta_->tick > *newest_)) newest_ = delta_->tick;
   if (!newest_ || frame.tick > *newest_) newest_ = frame.tick;
 
   const bool loses = is_key ? (key_ || delta_) : delta_.has_value();

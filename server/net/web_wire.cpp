@@ -161,6 +161,7 @@ struct WebLink {
 
   websocket::stream<SharedStream<Stream>, false> socket;
   std::uint32_t controls = 0;  ///< that nothing which went out made up for
+  bool is_closing = false;     ///< Beast has been asked to: it bears to be asked once
 };
 
 /// Without compression: a batch is packed for each client anew, and shared buffers would be shared no more.
@@ -236,6 +237,7 @@ class WebWire final : public Wire {
   /// With the code for a normal end, whatever it was: the bye before it says why.
   [[nodiscard]] error_code shut_down_sending() override {
     if (!link_->socket.is_open()) return asio::error::not_connected;
+    if (std::exchange(link_->is_closing, true)) return {};
     link_->socket.async_close({websocket::close_code::normal}, [kept = link_](const error_code&) {});
     return {};
   }
@@ -261,6 +263,8 @@ class WebWire final : public Wire {
     if (error == websocket::error::closed) return handler(asio::error::eof, 0);
     if (error) return handler(error, 0);
     if (!link_->socket.got_text()) {
+      if (std::exchange(link_->is_closing, true))
+        return read_some(into, handler);  // till the other side ends
       link_->socket.async_close({websocket::close_code::unknown_data},
                                 [handler](const error_code&) { handler(asio::error::eof, 0); });
       return;

@@ -181,7 +181,8 @@ void Display::stand(Seats& seats) {
   if (by_inputs_ != 0) outlet_.show_steps_left();
   answer_asked();
   if (layouts_.empty()) return;
-  if (game_->tick() % ticks_a_frame() != 0) outlet_.show_now(FrameKind::kDelta, snapshot());
+  if (game_->tick() % ticks_a_frame() != 0) outlet_.show(FrameKind::kDelta, snapshot());
+  outlet_.flush();
   // Who is sent but some of the frames may not have had the last one.
   seats.for_each<SessionOccupant>([&](const Seat&, const SessionOccupant& occupant) {
     if (occupant.channel != kByInputs && occupant.state_hz < settings_.state_hz) show_newest(occupant);

@@ -68,6 +68,7 @@ void Members::give_louse(Seat& seat) {
   if (taken) {
     seat.louse = taken->louse;
     seat.next_seq = taken->next_seq;
+    seat.muted_until = std::max(seat.muted_until, taken->muted_until);
     if (is_session)
       log_event(*log_, LogEvent::kLouseTakenOver,
                 fmt::format("room {}: \"{}\" takes over louse {} of the recording", settings_.name, seat.name,
@@ -113,12 +114,12 @@ std::optional<protocol::ErrorMessage> Members::why_not(const Arrival& arrival) {
   if (outlet_->backlog() > Broadcaster::kMaxBacklog)
     return error(code::kRateLimited, "join: too much is happening in room " + settings_.name, 1000);
   if (role == protocol::Role::kSpectator) return std::nullopt;  // nobody else hears of it
-  if (!may_wait()) return error(code::kPaused, "join: too many have joined since the room was paused");
   if (const auto wait = budgets_.spend(Spending::kJoin, arrival.address, arrival.at))
     return error(code::kRateLimited,
                  core::joined({"join: room ", settings_.name, " takes ",
                                std::to_string(settings_.limits.join_per_s_room), " players a second"}),
                  retry_after_ms(*wait));
+  if (!may_wait()) return error(code::kPaused, "join: too many have joined since the room was paused");
   return std::nullopt;
 }
 
@@ -176,7 +177,8 @@ bool Members::welcome_back(const Arrival& arrival) {
 /// The seat has all but its channel.
 void Members::seat(Seat seat, const Arrival& arrival, bool is_back) {
   display_.welcome(seat, arrival, is_back, company());
-  for (const protocol::Notice& notice : notices_) arrival.subscriber->answer(notice);
+  for (const auto* told : {&standing_, &notices_})
+    for (const protocol::Notice& notice : *told) arrival.subscriber->answer(notice);
   display_.subscribe(std::get<SessionOccupant>(seat.occupant), events_.next());
   const Seat& added = seats_.add(std::move(seat));
   if (!is_back && added.louse != 0) send(events_.joined(game_->tick(), added));
@@ -232,8 +234,10 @@ void Members::give_up_vacant() {
 /// The seat is nobody's any more.
 void Members::end(const Seat& seat) {
   if (seat.louse != 0) game_->leave(seat.louse);
-  places_.give_back(seat.role, seat.address);
-  count(seat.role, -1);
+  if (!std::holds_alternative<Nobody>(seat.occupant)) {  // who has a place
+    places_.give_back(seat.role, seat.address);
+    count(seat.role, -1);
+  }
   if (seat.louse != 0) send(events_.left(game_->tick(), seat));
 }
 
@@ -286,7 +290,7 @@ bool Members::refuse_when_busy(const Seat& seat, Spending what, Time arrived) {
 
 /// Inputs reach at most InputQueue's horizon ahead, so that this is soon.
 void Members::on_message(Seat&, const SessionOccupant& occupant, const protocol::Leave&, Time) {
-  if (occupant.acked_from <= game_->tick())
+  if (may_wait_ || occupant.acked_from <= game_->tick())  // in a paused room none is on its way
     return outlet_->let_go(occupant.session, occupant.subscriber->lane());
   leaving_.emplace(occupant.acked_from, occupant.session);
 }

@@ -67,6 +67,8 @@ class Members {
   void announce(const protocol::Notice& notice);
   /// To who is here.
   void say(const protocol::Notice& notice);
+  /// To who is here, and to whoever joins while it is so: in place of one of the same code.
+  void say_from_now_on(const protocol::Notice& notice);
   /// No tick passes till resume(): who joins hears so, too, and what waits for the next tick is bounded.
   void pause();
   void resume();
@@ -76,8 +78,9 @@ class Members {
   void refill() {
     if (may_wait_) may_wait_ = kMostPaused;
   }
-  /// The louse's player may come back no more; where he is here, nothing.
-  void give_up(match::PlayerId louse);
+  /// He comes back no more: a louse that nobody steers now goes. Who sits there, and is still to be ended;
+  /// 0: nobody.
+  [[nodiscard]] SessionId put_out(const RosterEntry& whom);
   /// His chat is refused until then, also when he has gone and comes back to his louse; Time{}: no more.
   void mute(const RosterEntry& whom, Time until) {
     if (Seat* seat = seats_.find(whom)) seat->muted_until = until;
@@ -174,8 +177,9 @@ class Members {
   Places places_;
   RoomBudgets budgets_;
   std::multimap<std::uint64_t, SessionId>
-      leaving_;                            ///< by the tick from which on all their inputs are acknowledged
-  std::vector<protocol::Notice> notices_;  ///< announced so far; a watcher has one or two
+      leaving_;                             ///< by the tick from which on all their inputs are acknowledged
+  std::vector<protocol::Notice> notices_;   ///< of this game, announced so far; a watcher has one or two
+  std::vector<protocol::Notice> standing_;  ///< of the operator, one of a code: true of every game
   Events events_;
   HouseCrew crew_;
   std::map<SessionId, AddressId> skip_votes_;  ///< of players who are here

@@ -70,8 +70,7 @@ void Outlet::show(FrameKind kind, SharedSnapshot now) {
   });
 }
 
-void Outlet::show_now(FrameKind kind, SharedSnapshot now) {
-  show(kind, std::move(now));
+void Outlet::flush() {
   asio::post(strand_, [self = shared_from_this()] { self->encode(); });
 }
 

@@ -39,8 +39,8 @@ class Outlet : public std::enable_shared_from_this<Outlet> {
   void event(std::uint64_t number, Line line);
   void let_go(SessionId session, std::size_t lane);
   void show(FrameKind kind, SharedSnapshot now);
-  /// Before anything that is called after this.
-  void show_now(FrameKind kind, SharedSnapshot now);
+  /// What is to be shown is, before anything that is called after this.
+  void flush();
   /// Who is a member is shown frames or, of kByInputs, the stream.
   void change(SessionId session, std::size_t lane, ChannelId channel);
 

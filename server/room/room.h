@@ -98,8 +98,11 @@ class Room : public std::enable_shared_from_this<Room> {
   /// long as he is here.
   void mute(const RosterEntry& whom, std::optional<Duration> lasts);
   void unmute(const RosterEntry& whom);
-  /// A player who is away may come back no more.
-  void give_up(match::PlayerId louse);
+  /// To who is here, and to whoever joins while it is so.
+  void say_from_now_on(const protocol::Notice& notice);
+  /// They come back no more: lice that nobody steers now go. put_out: told, on the room's strand, the
+  /// sessions of those who are here, which are still to be ended.
+  void put_out(std::vector<RosterEntry> entries, std::function<void(std::vector<SessionId>)> put_out);
   /// No tick passes from now on, whoever is here, till resume(). Nothing is made up for then.
   void pause(Ordered answered);
   void resume(Ordered answered);

@@ -38,8 +38,19 @@ void Room::say(const protocol::Notice& notice) {
   asio::post(strand_, [self = shared_from_this(), this, notice] { members_.say(notice); });
 }
 
-void Room::give_up(match::PlayerId louse) {
-  asio::post(strand_, [self = shared_from_this(), this, louse] { members_.give_up(louse); });
+void Room::say_from_now_on(const protocol::Notice& notice) {
+  asio::post(strand_, [self = shared_from_this(), this, notice] { members_.say_from_now_on(notice); });
+}
+
+void Room::put_out(std::vector<RosterEntry> entries, std::function<void(std::vector<SessionId>)> put_out) {
+  assert(put_out);
+  asio::post(strand_,
+             [self = shared_from_this(), this, entries = std::move(entries), put_out = std::move(put_out)] {
+               std::vector<SessionId> here;
+               for (const RosterEntry& entry : entries)
+                 if (const SessionId session = members_.put_out(entry)) here.push_back(session);
+               put_out(std::move(here));
+             });
 }
 
 void Room::mute(const RosterEntry& whom, std::optional<Duration> lasts) {
@@ -48,7 +59,9 @@ void Room::mute(const RosterEntry& whom, std::optional<Duration> lasts) {
   });
 }
 
-void Room::unmute(const RosterEntry& whom) { mute(whom, Duration{}); }
+void Room::unmute(const RosterEntry& whom) {
+  asio::post(strand_, [self = shared_from_this(), this, whom] { members_.mute(whom, Time{}); });
+}
 
 void Room::pause(Ordered answered) {
   order(std::move(answered), [this](const Ordered& done) {
@@ -193,22 +206,32 @@ void Members::say(const protocol::Notice& notice) {
       [&](const Seat&, const SessionOccupant& occupant) { occupant.subscriber->answer(notice); });
 }
 
+void Members::say_from_now_on(const protocol::Notice& notice) {
+  std::erase_if(standing_, [&](const protocol::Notice& one) { return one.code == notice.code; });
+  standing_.push_back(notice);
+  say(notice);
+}
+
 void Members::pause() {
   may_wait_ = kMostPaused;
-  announce({std::string(protocol::code::kPaused), "the operator has paused this room: it stands still"});
+  say_from_now_on(
+      {std::string(protocol::code::kPaused), "the operator has paused this room: it stands still"});
 }
 
 void Members::resume() {
   may_wait_.reset();
-  std::erase_if(notices_,
+  std::erase_if(standing_,
                 [](const protocol::Notice& notice) { return notice.code == protocol::code::kPaused; });
   say({std::string(protocol::code::kResumed), "the room goes on"});
 }
 
-void Members::give_up(match::PlayerId louse) {
-  bool is_away = false;
-  seats_.for_each<Vacant>([&](const Seat& seat, const Vacant&) { is_away |= seat.louse == louse; });
-  if (is_away) end(seats_.take_vacant(louse));
+SessionId Members::put_out(const RosterEntry& whom) {
+  Seat* seat = seats_.find(whom);
+  if (seat == nullptr) return 0;
+  seats_.forget_token(*seat);
+  if (const auto* session = std::get_if<SessionOccupant>(&seat->occupant)) return session->session;
+  if (!std::holds_alternative<BotOccupant>(seat->occupant)) end(seats_.take_away(*seat));
+  return 0;
 }
 
 }  // namespace woodlouse::server

@@ -84,6 +84,12 @@ Seat Seats::take_vacant(match::PlayerId louse) {
   return take(found);
 }
 
+Seat Seats::take_away(const Seat& seat) {
+  const auto found = seats_.find(place_of(seat));
+  assert(found != seats_.end() && &found->second == &seat);
+  return take(found);
+}
+
 std::optional<Seat> Seats::take_away(SessionId session) {
   const auto found = seats_.find(session_place(session));
   if (found == seats_.end()) return std::nullopt;
@@ -163,13 +169,11 @@ std::vector<RosterEntry> Seats::roster(Time now) const {
 }
 
 Seat* Seats::find(const RosterEntry& entry) {
-  for (auto& [place, seat] : seats_) {
-    const auto* session = std::get_if<SessionOccupant>(&seat.occupant);
-    const bool is_his = entry.session != 0 && session != nullptr
-                            ? session->session == entry.session
-                            : seat.louse != 0 && seat.louse == entry.louse && seat.name == entry.name;
-    if (is_his) return &seat;
-  }
+  if (entry.session != 0)
+    if (Seat* seat = find(entry.session)) return seat;
+  // He may have come back since over another connection, or gone for a while.
+  for (auto& [place, seat] : seats_)
+    if (seat.louse != 0 && seat.louse == entry.louse && seat.name == entry.name) return &seat;
   return nullptr;
 }
 

@@ -91,6 +91,12 @@ class Seats {
   /// The vacant seat of a louse that nobody comes back to, which is gone from here. REQUIRES that there is
   /// one.
   Seat take_vacant(match::PlayerId louse);
+  /// One of these, which is gone from here.
+  Seat take_away(const Seat& seat);
+  /// Nobody comes back to it any more.
+  void forget_token(Seat& seat) {
+    if (seat.token) tokens_.erase(*std::exchange(seat.token, std::nullopt));
+  }
   /// The session's seat, which is gone from here; nothing where it has none.
   std::optional<Seat> take_away(SessionId session);
   /// Another game begins: who is here, or may come back, joins it under his name; the house's bots and who is

@@ -189,6 +189,7 @@ core::Expected<std::optional<Difference>> Rerun::step(const StepLine& line, cons
         match_->join_as(change.player, change.label);
         break;
       case match::RosterAction::kLeave:
+        if (lice > 0) --lice;
         match_->leave(change.player);
         break;
       case match::RosterAction::kRespawn:

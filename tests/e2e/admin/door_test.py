@@ -228,6 +228,15 @@ class APort(unittest.TestCase):
                 self.assertEqual(late.answer()["code"], "too_many_connections")
             for door in silent + trusted:
                 door.__exit__()
+            # Those who are just being told that they may not keep nobody out either.
+            told = []
+            for _ in range(60):
+                told.append(server.door())
+                told[-1].send("status", token="no")
+            with server.door() as door:
+                self.assertEqual(door.ask("status", token=TOKEN)["code"], "rate_limited")  # so many guesses are
+            for door in told:
+                door.__exit__()
 
     def test_wrong_tokens_are_limited_and_then_no_token_is_looked_at(self):
         with AdminServer("--admin-token-file", self.token, admin="127.0.0.1:0") as server:

@@ -135,6 +135,11 @@ class Moderators(WithPasswords):
             ann.expect("error", code="muted")
             judge.send({"type": "moderate", "action": "unmute", "who": "ann"})
             judge.expect("notice", code="moderated")
+            shy = server.player("::1", room="volcano", token=PLAYER)  # a name that looks like an address
+            judge.send({"type": "moderate", "action": "mute", "who": "::1"})
+            judge.expect("notice", code="moderated")
+            shy.send({"type": "chat", "text": "hello"})
+            shy.expect("error", code="muted")
             for who in ("far", "127.0.0.1", "nobody"):  # another room's, an address
                 judge.send({"type": "moderate", "action": "kick", "who": who})
                 judge.expect("error", code="not_moderated")

@@ -40,6 +40,21 @@ class Kicked(unittest.TestCase):
             bot = server.player("bob").welcome["players"][0]
             self.assertIn("house", server.refused("kick", "not_now", who=bot["name"]))
 
+    def test_a_number_for_a_name_is_no_shield(self):
+        with AdminServer() as server:
+            ann, eve = server.player("ann"), server.player("bob")
+            two = server.player(str(eve.id), role="spectator")
+            one = server.player(str(ann.id))
+            self.assertEqual(server.done("kick", who=str(eve.id))["count"], 1)
+            self.assertEqual(two.until_end()[-1]["code"], "kicked")
+            server.done("kick", who=str(one.id))  # nobody is called so: the louse is meant
+            one.until_end()
+            server.done("kick", who=str(eve.id), room="volcano")
+            eve.until_end()
+            server.refused("kick", "nobody", who="0" + str(ann.id))
+            ann.send({"type": "ping", "t": 1})
+            ann.expect("pong")
+
     def test_who_is_away_can_not_come_back_either(self):
         with AdminServer() as server:
             ann = server.player("ann", resume=True)

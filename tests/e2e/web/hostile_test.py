@@ -202,6 +202,24 @@ class Hostile(unittest.TestCase):
                 bad.until_end()
                 self.assertEqual(bad.closed, code, name)
 
+    def test_what_is_no_text_behind_a_goodbye(self):
+        context = ssl.create_default_context()
+        context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
+        with WebServer(*TLS) as server, Healthy(self, server):
+            for tls in (None, context):
+                for last in ({"type": "leave"}, {"type": "join", "protocol": 99, "name": "x"}):
+                    for opcodes in ((WebSocket.BINARY,), (WebSocket.BINARY,) * 3, (WebSocket.PING, WebSocket.BINARY), (WebSocket.CLOSE, WebSocket.BINARY)):
+                        page = WebSocket(server, tls)
+                        self.addCleanup(page.socket.close)
+                        try:
+                            page.send(last)
+                            for opcode in opcodes:
+                                page.send_frame(b"hi" if opcode != WebSocket.CLOSE else b"\x03\xe8", opcode)
+                            page.until_end()
+                        except (OSError, ssl.SSLError):
+                            pass  # it has hung up
+            self.assertIsNone(server.process.poll(), server.log())
+
     def test_pages_that_may_not(self):
         with WebServer() as server, Healthy(self, server):
             for fields in ({"Origin": "null"}, {"Origin": "http://evil.example.org"}, {"Origin": ""}, {"Origin": "file://"},

@@ -77,6 +77,22 @@ TEST_CASE("a delta older than what was seen is not stored, a key asked for again
   CHECK(text(outbox.take()) == "k60 d69 ");
 }
 
+TEST_CASE("behind a key that is asked for again comes the newest delta again, and never an older one") {
+  Outbox outbox(1000);
+  outbox.offer(key(60));
+  outbox.offer(delta(66, 60));
+  outbox.take();
+  outbox.written();
+  CHECK(outbox.offer(key(60)) == Outcome::kStored);
+  CHECK(outbox.offer(delta(66, 60)) == Outcome::kStored);
+  CHECK(text(outbox.take()) == "k60 d66 ");
+  outbox.written();
+  outbox.offer(delta(69, 60));
+  outbox.offer(key(60));
+  CHECK(outbox.offer(delta(66, 60)) == Outcome::kStale);
+  CHECK(text(outbox.take()) == "k60 d69 ");
+}
+
 TEST_CASE("a key older than the newest is not stored, since the deltas to come rest on the newest") {
   Outbox outbox(1000);
   outbox.offer(key(120));

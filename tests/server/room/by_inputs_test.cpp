@@ -104,6 +104,29 @@ TEST_CASE("in a room that stands still who watches by inputs has every step, and
   CHECK(eve->parts[0].kind == StreamPart::Kind::kKeyframe);
 }
 
+TEST_CASE("more may join and leave a room that stands still than lice find place, and it is proven") {
+  RoomSettings many = settings(8);
+  many.limits.join_per_s_room = many.limits.join_per_s_address = 100'000;
+  House house(many);
+  house.room->start([] {});
+  house.join(1);
+  const auto eve = house.join(2, by_inputs("eve"));
+  house.tick(3);
+  house.room->pause([](const auto& paused) { CHECK(paused); });
+  house.settle();
+  std::size_t refused = 0;
+  for (SessionId session = 3; session < 3 + Members::kMostPaused + 2; ++session) {
+    refused += house.join(session)->refusals.size();
+    house.door->leave(session, Parting::kLeft);
+    house.settle();
+  }
+  CHECK(refused == 2);
+  house.room->resume([](const auto& resumed) { CHECK(resumed); });
+  house.tick(30);
+  follow::Follower follower("test");
+  CHECK(follow(follower, *eve) >= 24);
+}
+
 TEST_CASE("who comes a little later shares the keyframe, who comes much later has a new one") {
   House house(settings(8));
   house.room->start([] {});

@@ -261,6 +261,52 @@ TEST_CASE("who is away can be muted, and another one's louse of that number is n
   CHECK(ask());
 }
 
+TEST_CASE("who has come back over another connection since he was found is the one who is meant") {
+  Playing playing;
+  House& house = playing.house;
+  protocol::Join join;
+  join.name = "ann";
+  join.may_resume = true;
+  const auto ann = house.join(7, join);
+  const RosterEntry found{RosterEntry::Kind::kSession, 7, ann->welcomes.at(0).id, "ann",
+                          protocol::Role::kPlayer};
+  join.resume = ann->welcomes[0].resume_token;
+  house.join(8, join);
+  const auto roster = [&house] {
+    std::vector<RosterEntry> entries;
+    house.room->ask_roster([&entries](std::vector<RosterEntry> told) { entries = std::move(told); });
+    house.settle();
+    return entries;
+  };
+  house.room->mute(found, std::nullopt);
+  CHECK(roster().at(0).is_muted);
+  std::vector<SessionId> here;
+  house.room->put_out({found}, [&here](std::vector<SessionId> sessions) { here = std::move(sessions); });
+  house.settle();
+  CHECK(here == std::vector<SessionId>{8});
+  CHECK_FALSE(house.join(9, join)->welcomes.at(0).resumed);  // by a token that is worth nothing now
+}
+
+TEST_CASE("whom a recording left behind can be put out, or muted for who takes his louse over") {
+  House house(test::settings(8), test::went_on());
+  house.room->start([] {});
+  std::vector<RosterEntry> roster;
+  const auto ask = [&] {
+    house.room->ask_roster([&roster](std::vector<RosterEntry> told) { roster = std::move(told); });
+    house.settle();
+    return roster.size();
+  };
+  REQUIRE(ask() == 2);
+  const bool is_mara_first = roster[0].name == "mara";
+  house.room->mute(roster[is_mara_first ? 0 : 1], std::nullopt);
+  house.room->put_out({roster[is_mara_first ? 1 : 0]}, [](const std::vector<SessionId>&) {});
+  CHECK(ask() == 1);
+  house.join(1, test::named("mara"));
+  REQUIRE(ask() == 1);
+  CHECK(roster[0].session == 1);
+  CHECK(roster[0].is_muted);
+}
+
 TEST_CASE("where the server is about to stop a made-up token is no way in") {
   Playing playing;
   House& house = playing.house;
