@@ -31,6 +31,8 @@ class Lesson {
   bool observe(const LessonFacts& facts);
   void skip() { step_ = Step::kOver; }
 
+  /// Everything was done; praise may still stand there.
+  [[nodiscard]] bool is_learnt() const { return step_ == Step::kPraise || step_ == Step::kOver; }
   [[nodiscard]] bool is_over() const { return step_ == Step::kOver; }
   /// What is to be done, in two lines; empty: it is over.
   [[nodiscard]] std::vector<GoalLine> lines(const KeyLabels& keys = {}) const;

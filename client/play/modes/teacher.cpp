@@ -49,20 +49,21 @@ bool Teacher::observe(const Sight& sight, core::Time now) {
   facts.height = ground.z;
   facts.speed = speed;
   const bool has_changed = lesson_->observe(facts);
-  if (lesson_->is_over()) remember();
+  if (has_changed && lesson_->is_learnt()) mark_done(data_, kMark);  // whoever leaves now has had it
+  if (lesson_->is_over()) end();
   return has_changed;
 }
 
 bool Teacher::dismiss() {
   if (!lesson_) return false;
-  remember();
+  mark_done(data_, kMark);
+  end();
   return true;
 }
 
-void Teacher::remember() {
+void Teacher::end() {
   lesson_.reset();
   is_new_ = false;
-  mark_done(data_, kMark);
 }
 
 std::vector<GoalLine> Teacher::lines(const KeyLabels& keys) const {

@@ -23,7 +23,7 @@ class Teacher {
   [[nodiscard]] std::vector<GoalLine> lines(const KeyLabels& keys) const;
 
  private:
-  void remember();
+  void end();
 
   std::filesystem::path data_;
   bool is_new_;  ///< the player; the lesson begins with his louse

@@ -225,6 +225,7 @@ TEST_CASE("the lesson goes on once a thing was done, and not before") {
   facts.height = 2.5;
   pass(0.1);
   CHECK(head() == "WELL DONE");
+  CHECK(lesson.is_learnt());
   pass(5.0);
   CHECK(lesson.is_over());
   Lesson flat(0.1);
