@@ -6,10 +6,19 @@ import socket
 import subprocess
 import sys
 import tempfile
+import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(__file__), "..", "server"))
 
 from wire import PATIENCE, PROGRAM, Server  # noqa: E402
+
+
+def wait_until(is_so):
+    end = time.monotonic() + PATIENCE
+    while not is_so():
+        if time.monotonic() > end:
+            raise AssertionError("it never came to that")
+        time.sleep(0.02)
 
 
 class Door:

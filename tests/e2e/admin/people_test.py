@@ -9,16 +9,8 @@ import unittest
 import urllib.error
 import urllib.request
 
-from door import AdminServer
+from door import AdminServer, wait_until
 from wire import PATIENCE, map_file, run
-
-
-def wait_until(is_so):
-    end = time.monotonic() + PATIENCE
-    while not is_so():
-        if time.monotonic() > end:
-            raise AssertionError("it never came to that")
-        time.sleep(0.02)
 
 
 class Kicked(unittest.TestCase):

@@ -7,7 +7,7 @@ import unittest
 import urllib.error
 import urllib.request
 
-from door import AdminServer
+from door import AdminServer, wait_until
 from wire import PATIENCE, map_file, run
 
 
@@ -178,7 +178,7 @@ class Recorded(unittest.TestCase):
             server.done("record", on=False)
             server.done("close", room="volcano")
             server.done("open", file="volcano", name="volcano")
-            self.assertTrue(server.done("rooms")["rooms"][0]["recorded"])  # what was said held for the room that is closed
+            wait_until(lambda: server.done("rooms")["rooms"][0]["recorded"])  # what was said held for the room that is closed
             server.done("record", on=False)
             server.done("pause")
             server.player("ann")
