@@ -17,6 +17,7 @@
 #include "shared/core/whole_file.h"
 #include "shared/json/document.h"
 #include "shared/protocol/messages.h"
+#include "shared/protocol/text_cleaning.h"
 
 namespace woodlouse::client {
 namespace {
@@ -140,9 +141,8 @@ std::string default_name() {
   std::string name = environment("USER");
   if (const passwd* const account = getpwuid(getuid()); name.empty() && account != nullptr)
     name = account->pw_name;
-  if (name.empty()) name = "louse";
-  if (name.size() > protocol::kMaxNameBytes) name.resize(protocol::kMaxNameBytes);
-  return name;
+  name = protocol::clean_text(name, protocol::kMaxNameBytes);
+  return name.empty() ? "louse" : name;
 }
 
 /// The defaults: the program's, then the config file's.
@@ -258,7 +258,10 @@ core::Expected<Config> read_config_file(const std::string& text, const std::stri
       (key == "watch" ? raw.watch : key == "verify" ? raw.verify : raw.bell) = value.boolean();
     } else if (key == "keys") {
       auto keys = keys_of(value);
-      if (!keys) return core::fail(where + "." + keys.error().where, keys.error().what, keys.error().hint);
+      if (!keys) {
+        const std::string part = keys.error().where.empty() ? "" : "." + keys.error().where;
+        return core::fail(where + part, keys.error().what, keys.error().hint);
+      }
       raw.keys = std::move(*keys);
     } else {
       return core::fail(

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "shared/core/whole_file.h"
+#include "shared/json/document.h"
 #include "shared/json/text.h"
 
 namespace woodlouse::client {
@@ -21,7 +22,7 @@ constexpr std::size_t kMaxBytes = 1u << 20;
 
 std::filesystem::path folder_of(const char* variable) {
   const char* const value = std::getenv(variable);
-  return value == nullptr ? std::filesystem::path() : std::filesystem::path(value);
+  return value != nullptr && *value == '/' ? std::filesystem::path(value) : std::filesystem::path();
 }
 
 }  // namespace
@@ -38,6 +39,8 @@ core::Expected<KeyMap> keys_of(const json::Value& value) {
   KeyMap map;
   for (const json::Value& action : value.children()) {
     std::vector<std::string> keys;
+    if (!action.is(json::Kind::kString) && !action.is(json::Kind::kArray))
+      return core::fail(std::string(action.key()), "it is no key, and no list of keys");
     if (action.is(json::Kind::kString)) keys.emplace_back(action.text());
     for (const json::Value& key : action.children()) {
       if (!key.is(json::Kind::kString)) return core::fail(std::string(action.key()), "a key is a string");
@@ -63,22 +66,29 @@ std::string with_name(std::string text, const std::string& name) {
 }
 
 core::Expected<void> remember_name(const std::filesystem::path& file, const std::string& name) {
-  const std::string where = file.string();
   std::error_code error;
+  if (file.empty()) return core::fail("HOME", "is no path from / on");
+  const std::filesystem::path there = std::filesystem::weakly_canonical(file, error);  // a link stays one
+  if (error) return core::fail(file.string(), error.message());
+  const std::string where = there.string();
   std::string text;
-  if (std::filesystem::exists(file, error)) {
-    auto read = core::read_whole_file(file, kMaxBytes);
+  if (std::filesystem::exists(there, error)) {
+    auto read = core::read_whole_file(there, kMaxBytes);
     if (!read) return tl::unexpected(read.error());
     text = std::move(*read);
+    // It may be another one by now than when the program started.
+    const auto document = json::parse(text, {});
+    if (!text.empty() && (!document || !document->root().is(json::Kind::kObject)))
+      return core::fail(where, "is no JSON object");
   }
-  std::filesystem::create_directories(file.parent_path(), error);
+  std::filesystem::create_directories(there.parent_path(), error);
   if (error) return core::fail(where, error.message());
   const std::filesystem::path part = where + ".part";
   std::ofstream out(part, std::ios::binary | std::ios::trunc);
   out << with_name(std::move(text), name);
   out.close();
   if (!out) return core::fail(where, std::strerror(errno));
-  std::filesystem::rename(part, file, error);
+  std::filesystem::rename(part, there, error);
   if (error) return core::fail(where, error.message());
   return {};
 }

@@ -1,6 +1,7 @@
 #include "client/terminal/terminal_guard.h"
 
 #include <poll.h>
+#include <pthread.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <termios.h>
@@ -56,6 +57,7 @@ struct Borrowed {
   std::chrono::steady_clock::time_point asked{};
   volatile std::sig_atomic_t socket = -1;  // for the last words
   std::string_view last_words;
+  pthread_t thread{};  // the terminal's: the one that entered it
   bool in_use = false;
   std::array<struct sigaction, kSignals> deadly_before{};
   struct sigaction stop_before {};
@@ -155,7 +157,20 @@ void give_terminal_back() {
   if (borrowed.use == TerminalUse::kFullScreen) put(kLeave);
 }
 
+/// What a thread does to itself is its own to end.
+constexpr std::array kFaults = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTRAP, SIGSYS};
+
+/// A signal comes to whichever thread does not block it: a library's too, while the terminal's gives it back.
+/// There alone it is dealt with, behind what is going on.
+bool is_passed_on(int signal) {
+  if (pthread_equal(pthread_self(), borrowed.thread) != 0) return false;
+  if (std::find(kFaults.begin(), kFaults.end(), signal) != kFaults.end()) return false;
+  pthread_kill(borrowed.thread, signal);
+  return true;
+}
+
 void on_deadly(int signal) {
+  if (is_passed_on(signal)) return;
   if (borrowed.socket >= 0)
     send(borrowed.socket, borrowed.last_words.data(), borrowed.last_words.size(),
          MSG_DONTWAIT | MSG_NOSIGNAL);
@@ -164,7 +179,8 @@ void on_deadly(int signal) {
   std::raise(signal);  // blocked until this returns; then it does what it does to everyone
 }
 
-void on_continue(int) {
+void on_continue(int signal) {
+  if (is_passed_on(signal)) return;
   const int saved_errno = errno;
   if (!is_in_foreground()) {  // by `bg`: the terminal is the shell's; stopped again until it is ours
     std::raise(SIGTTOU);
@@ -185,6 +201,7 @@ void on_continue(int) {
 void install(int signal, void (*handler)(int), struct sigaction* before);
 
 void on_stop(int signal) {
+  if (is_passed_on(signal)) return;
   const int saved_errno = errno;
   give_terminal_back();
   std::signal(signal, SIG_DFL);
@@ -220,6 +237,7 @@ core::Expected<std::unique_ptr<TerminalGuard>> TerminalGuard::enter(int input, i
   if (tcgetattr(input, &borrowed.saved) != 0) {
     return core::fail("terminal", std::strerror(errno), "start it from a terminal");
   }
+  borrowed.thread = pthread_self();
   borrowed.input = input;
   borrowed.output = output;
   borrowed.use = use;
@@ -297,6 +315,7 @@ bool TerminalGuard::take_resumed() {
 
 void TerminalGuard::speak_without_terminal() {
   assert(!borrowed.in_use);
+  borrowed.thread = pthread_self();
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before {};
     if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)

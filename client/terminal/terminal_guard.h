@@ -1,6 +1,7 @@
 // Borrows the user's terminal and gives it back exactly as it was, whatever happens: at the end of scope, on
 // every signal that ends a program (after which the signal does what it always does), and over TSTP/CONT.
-// Everything a signal handler does here is async-signal-safe: tcsetattr, tcgetattr, poll, read, write, send.
+// Everything a signal handler does here is async-signal-safe: tcsetattr, tcgetattr, poll, read, write, send,
+// pthread_kill. What comes to another thread is passed on to the one that entered the terminal.
 //
 // Ctrl-C and Ctrl-Z stay the terminal driver's, so that they work on a program that hangs.
 //

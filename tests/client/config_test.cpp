@@ -171,7 +171,7 @@ TEST_CASE("keys and steering of the config file rule, and mistakes in them are n
            {R"({"keys": {"up": ["Shift"]}})", "keys.up: \"Shift\" is no key"},
            {R"({"keys": {"up": "q"}})", "keys.quit: no key is left for it"},
            {R"({"keys": {"up": [7]}})", "keys.up: a key is a string"},
-           {R"({"keys": {"up": 7}})", "keys.up: it has no key"},
+           {R"({"keys": {"up": 7}})", "keys.up: it is no key, and no list of keys"},
            {R"({"keys": "wasd"})", "it is no object"},
            {R"({"steer": "wheel"})", "steer: \"wheel\" is none"}}) {
     Environment environment(bad);

@@ -45,6 +45,21 @@ TEST_CASE("the name is written beside what stands in the config file") {
   const auto file = folder / "woodlouse" / "config.json";
   REQUIRE(remember_name(file, "ida"));
   CHECK(woodlouse::core::read_whole_file(file, 100).value() == "{\"name\": \"ida\"}\n");
+  // Somebody has written to it meanwhile.
+  for (const char* text : {"\n", "null", "[1]", "{\"fps\": 20", "no { json }"}) {
+    INFO(text);
+    std::ofstream(file) << text;
+    CHECK_FALSE(remember_name(file, "ida"));
+    CHECK(woodlouse::core::read_whole_file(file, 100).value() == text);
+  }
+  // Who keeps it elsewhere and links to it goes on doing so.
+  const auto elsewhere = folder / "kept.json";
+  std::filesystem::remove(file);
+  std::ofstream(elsewhere) << "{}";
+  std::filesystem::create_symlink(elsewhere, file);
+  REQUIRE(remember_name(file, "ida"));
+  CHECK(std::filesystem::is_symlink(file));
+  CHECK(woodlouse::core::read_whole_file(elsewhere, 100).value() == "{\"name\": \"ida\"}");
   std::filesystem::remove_all(folder);
   std::ofstream(folder) << "no folder";
   CHECK_FALSE(remember_name(file, "ida"));

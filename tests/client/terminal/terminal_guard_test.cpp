@@ -72,6 +72,30 @@ TEST_CASE("every signal that ends a program leaves the terminal as it was, and e
   }
 }
 
+TEST_CASE(
+    "a second signal while the terminal is given back takes nothing from it, whichever thread it meets") {
+  for (const auto& [first, second] : {std::pair{SIGINT, SIGINT}, {SIGTERM, SIGINT}, {SIGTSTP, SIGQUIT}}) {
+    INFO("signal " << first << ", then " << second);
+    const PseudoTerminal terminal;
+    const termios before = terminal.settings();
+    const pid_t child = in_session_of(terminal, [](TerminalGuard& guard) {
+      std::thread([] {
+        for (;;) pause();
+      }).detach();
+      guard.ask("\x1b[c");  // what is not answered is waited for, for a second
+    });
+    REQUIRE(terminal.written_until("\x1b[c", 3000ms).find(kEntered) != std::string::npos);
+    kill(child, first);
+    std::this_thread::sleep_for(50ms);
+    kill(child, second);
+    CHECK(terminal.written_until(kLeft, 3000ms).find(kLeft) != std::string::npos);
+    int status = 0;
+    REQUIRE(ends(child, status));
+    CHECK(WIFSIGNALED(status));
+    CHECK(same(terminal.settings(), before));
+  }
+}
+
 TEST_CASE("who can't be stopped, having no shell, has the screen again at once") {
   const PseudoTerminal terminal;
   const pid_t child = in_session_of(terminal, [](TerminalGuard&) {});
