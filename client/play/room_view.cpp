@@ -94,6 +94,8 @@ void RoomView::take(const protocol::Welcome& welcome, core::Time now) {
   }
   was_here_ = false;
   welcome_ = welcome;
+  mode_ = state::mode_from_text(welcome.mode).value_or(state::Mode::kRoam);
+  tick_hz_ = welcome.tick_hz;
   own_game_.take(welcome);
   roster_.welcome(welcome);
   clock_.emplace(welcome.tick_hz);
@@ -129,19 +131,18 @@ core::Expected<void> RoomView::take(const protocol::MapMessage& message) {
 
 void RoomView::begin_piloting() {
   if (welcome_->id == 0) return;
-  const state::Mode mode = state::mode_from_text(welcome_->mode).value_or(state::Mode::kRoam);
-  const bool has_mode = map_->definition.modes.has(mode);
-  pilot_.emplace(*map_, welcome_->tick_hz, welcome_->id, has_mode ? mode : state::Mode::kRoam, last_seq_);
+  const state::Mode mode = map_->definition.modes.has(mode_) ? mode_ : state::Mode::kRoam;
+  pilot_.emplace(*map_, welcome_->tick_hz, welcome_->id, mode, last_seq_);
   const map::Modes& modes = map_->definition.modes;
   if (mode == state::Mode::kRace && modes.race && !modes.race->gates.empty())
     pilot_->look_at(0.5 * (modes.race->gates.front().a + modes.race->gates.front().b));
   if (mode == state::Mode::kHill && modes.hill && !modes.hill->places.empty())
     pilot_->look_at(modes.hill->places.front().at);
-  own_game_.begin(map_, welcome_->tick_hz, has_mode ? mode : state::Mode::kRoam);
+  own_game_.begin(map_, welcome_->tick_hz, mode);
 }
 
 void RoomView::take(const protocol::Frame& frame, core::Time now) {
-  if (!view_) return;
+  if (!welcome_) return;
   verifier_.take(frame);
   goes_on(frame.tick, now);
   clock_->observe(frame.tick, now);
@@ -166,7 +167,7 @@ void RoomView::take(const protocol::Frame& frame, core::Time now) {
 }
 
 bool RoomView::follow(std::string_view line, core::Time now) {
-  if (!view_) return true;
+  if (!welcome_) return true;
   word_.heard(now);
   if (!stream_.take(line)) {
     notice(to_text(*follower().difference()), now);
@@ -256,7 +257,8 @@ void RoomView::on_lost() {
   welcome_.reset();
   word_ = {};
   clock_.reset();
-  view_.reset();
+  if (const auto own = pilot_ ? lice_.find(pilot_->id()) : lice_.end(); own != lice_.end())
+    own->second.sample.heading = pilot_->steering().heading();
   pilot_.reset();
   last_seq_ = 0;
   round_trips_.clear();
@@ -275,9 +277,8 @@ Sight RoomView::sight() const {
     return resident != nullptr ? resident->name : core::joined({"#", std::to_string(id)});
   };
   const Snapshot* newest = view_ ? view_->newest() : nullptr;
-  if (!welcome_ || newest == nullptr || !newest->game) return sight;
-  sight.ruling = {state::mode_from_text(welcome_->mode).value_or(state::Mode::kRoam), &*newest->game,
-                  shown_tick_, welcome_->tick_hz, own_game_.author_ms()};
+  if (newest == nullptr || !newest->game) return sight;
+  sight.ruling = {mode_, &*newest->game, shown_tick_, tick_hz_, own_game_.author_ms()};
   if (sight.ruling.mode == state::Mode::kRoam) sight.ruling.game = nullptr;  // rules that are not known here
   return sight;
 }

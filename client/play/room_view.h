@@ -44,8 +44,8 @@ class RoomView {
   /// A line of the room's recording, of who watches by inputs. False: it differs from what is re-run here,
   /// and none is taken any more.
   bool follow(std::string_view line, core::Time now);
-  /// The line is cut: keeps the chat, the map and the picture, forgets the session. The next welcome says
-  /// what became of the louse.
+  /// The line is cut: keeps the chat, the map and the picture with what its rules showed last, forgets the
+  /// session. The next welcome says what became of the louse.
   void on_lost();
   /// Runs on to now: prediction, trails, pings. What is to be sent is in take_outgoing().
   void update(core::Time now);
@@ -113,7 +113,9 @@ class RoomView {
   std::shared_ptr<const map::Map> map_;
   std::optional<ServerClock> clock_;
   ServerWord word_;
-  std::optional<ViewState> view_;
+  std::optional<ViewState> view_;  ///< stays when the line is cut, as mode_ and tick_hz_ do
+  state::Mode mode_ = state::Mode::kRoam;
+  std::uint32_t tick_hz_ = 60;
   KeyVerifier verifier_;
   StreamView stream_;
   std::optional<Pilot> pilot_;

@@ -112,4 +112,34 @@ TEST_CASE("/skip is a vote and no chat, and the chat tells of others' votes") {
   CHECK(describe(event) == "gauss votes for the next game (/skip): 1 of 3");
 }
 
+TEST_CASE("who loses the line sees what the rules showed last, and where the louse headed") {
+  auto loaded = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/table.json");
+  REQUIRE(loaded);
+  const auto map = *loaded;
+  RoomView room;
+  protocol::Welcome message = welcome(*map, 3);
+  message.mode = "hill";
+  message.tick_hz = 30;
+  REQUIRE(room.on_message(message, kStart));
+  REQUIRE(room.on_message(protocol::MapMessage{map->definition.name, map->hash, map->canonical}, kStart));
+  protocol::Frame frame = key(60, {3, 1, 1, 0, 0, 1, 0, 5, 0});
+  frame.game.emplace();
+  frame.game->phase = protocol::GamePhase::kPlay;
+  REQUIRE(room.on_message(frame, kStart));
+  room.update(kStart);
+  REQUIRE(room.sight().ruling.game != nullptr);
+  const double tick = room.sight().ruling.tick;
+  const core::Vec2 heading = room.pilot()->steering().heading();
+  room.on_lost();
+  room.on_lost();                                // an attempt that failed
+  REQUIRE(room.on_message(frame, kStart + 1s));  // too late: of nobody any more
+  room.update(kStart + 2s);
+  REQUIRE(room.sight().ruling.game != nullptr);
+  CHECK(room.sight().ruling.mode == state::Mode::kHill);
+  CHECK(room.sight().ruling.tick == tick);
+  CHECK(room.sight().ruling.tick_hz == 30);
+  CHECK(room.lice().at(3).sample.heading.x == heading.x);
+  CHECK(room.lice().at(3).sample.heading.y == heading.y);
+}
+
 }  // namespace woodlouse::client
