@@ -11,10 +11,10 @@ std::string name_of(const match::PlayerLabel* label, std::uint32_t player) {
 }
 
 void RecordedChat::add(std::span<const replay::ChatLine> said) {
-  std::map<Place, std::vector<std::string>> fresh;
-  for (const replay::ChatLine& line : said) fresh[{line.tick, line.player}].push_back(line.text);
-  for (auto& [place, texts] : fresh)
-    said_[place] = std::move(texts);  // a tick seen again says the same again
+  std::map<Place, std::vector<ChatLine>> fresh;
+  for (const replay::ChatLine& line : said) fresh[{line.tick, line.player}].push_back({line.name, line.text});
+  for (auto& [place, lines] : fresh)
+    said_[place] = std::move(lines);  // a tick seen again says the same again
 }
 
 std::vector<ChatLine> RecordedChat::lines(std::span<const replay::Mark> marks,
@@ -48,8 +48,9 @@ ChatLine RecordedChat::line(const replay::Mark& mark, const match::PlayerLabel* 
       break;
   }
   const auto said = said_.find({mark.tick, mark.player});
-  const bool is_known = said != said_.end() && nth < said->second.size();
-  return {name, is_known ? said->second[nth] : "..."};
+  if (said == said_.end() || nth >= said->second.size()) return {mark.player == 0 ? "..." : name, "..."};
+  const ChatLine& known = said->second[nth];  // a spectator has no label, only the name with his words
+  return {known.from.empty() ? name : known.from, known.text};
 }
 
 }  // namespace woodlouse::client

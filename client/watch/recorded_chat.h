@@ -36,7 +36,7 @@ class RecordedChat {
   [[nodiscard]] ChatLine line(const replay::Mark& mark, const match::PlayerLabel* label,
                               std::size_t nth) const;
 
-  std::map<Place, std::vector<std::string>> said_;
+  std::map<Place, std::vector<ChatLine>> said_;
 };
 
 }  // namespace woodlouse::client

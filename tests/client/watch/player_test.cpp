@@ -29,6 +29,7 @@ std::string recorded() {
   match.join({"gauss", state::Role::kBot});
   match.join({"ada", state::Role::kPlayer});
   for (std::uint32_t tick = 0; tick < kTicks; ++tick) {
+    if (tick == 300) writer.append_chat(bytes, tick, 0, "eve", "I only watch");
     if (tick == 300) writer.append_chat(bytes, tick, 2, "ada", "on your tail");
     if (tick == 480) match.respawn(2);
     if (tick == 600) match.join({"lin", state::Role::kPlayer});
@@ -87,15 +88,16 @@ TEST_CASE("a recording plays and shows who was there, when, and what was said") 
   CHECK(scene.lice[0].kind == LouseKind::kBot);
   CHECK(scene.lice[0].trail.size() > 3);
   CHECK(scene.lice[1].name == "ada");
-  REQUIRE(scene.chat.size() == 3);
+  REQUIRE(scene.chat.size() == 4);
   CHECK(scene.chat[0].text == "bot gauss joined");
-  CHECK(scene.chat[2].from == "ada");
-  CHECK(scene.chat[2].text == "on your tail");
+  CHECK(scene.chat[2].from == "eve");  // no player, so without a number
+  CHECK(scene.chat[3].from == "ada");
+  CHECK(scene.chat[3].text == "on your tail");
   REQUIRE(scene.replay);
   CHECK(scene.replay->playing);
   CHECK(scene.replay->seconds == Approx(6.0));
   CHECK(scene.replay->total_seconds == Approx(20.0));
-  REQUIRE(scene.replay->marks->size() == 6);
+  REQUIRE(scene.replay->marks->size() == 7);
   CHECK(scene.replay->marks->at(2).sign == EventSign::kChat);
   REQUIRE(scene.proof);
   CHECK(scene.proof->verified == 360);
