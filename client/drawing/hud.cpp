@@ -52,20 +52,24 @@ void draw_players(const Scene& scene, const Badges& badges, const Styles& styles
   const int width = out.width();
   constexpr int kMeasure = 8;
   constexpr int kBar = 8;
-  for (const ScoreRow* shown : shown_rows(scene.scores, rows)) {
+  const auto all = shown_rows(scene.scores, rows);
+  int letter = 3;  // its column: behind the longest rank and a blank
+  for (const ScoreRow* row : all)
+    letter = std::max(letter, static_cast<int>(std::to_string(row->rank).size()) + 1);
+  for (const ScoreRow* shown : all) {
     const ScoreRow& row = *shown;
     // rank, letter, name, bar, measure
-    const bool has_bar = row.share >= 0.0 && width >= 3 + 2 + 6 + kBar + kMeasure;
-    const int name_width = std::max(4, width - 3 - 2 - kMeasure - 1 - (has_bar ? kBar : 0));
+    const bool has_bar = row.share >= 0.0 && width >= letter + 2 + 6 + kBar + kMeasure;
+    const int name_width = std::max(4, width - letter - 2 - kMeasure - 1 - (has_bar ? kBar : 0));
     const Badge badge = badges.of(row.id);
     Style style = row.is_you ? styles.strong : styles.text;
     if (scene.look.color != ColorMode::kMono && scene.look.color != ColorMode::k16)
       style.foreground = Color::of(badge.color);
     const std::u32string name = shown_name(row.name, row.kind, row.is_you, scene.look.glyphs, name_width);
     out.begin_row();
-    if (row.rank > 0) out.text(0, formatted("%2d ", row.rank), styles.dim);
-    out.text(3, std::string(1, badge.letter), style);
-    out.text(5, name, style);
+    if (row.rank > 0) out.text(0, formatted("%*d", letter - 1, row.rank), styles.dim);
+    out.text(letter, std::string(1, badge.letter), style);
+    out.text(letter + 2, name, style);
     if (has_bar) {
       const int full = static_cast<int>(std::lround(std::clamp(row.share, 0.0, 1.0) * (kBar - 1)));
       const int left = width - kMeasure - kBar;

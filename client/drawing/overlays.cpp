@@ -11,6 +11,7 @@
 #include "client/drawing/hud.h"
 #include "client/drawing/labels.h"
 #include "client/drawing/palette.h"
+#include "client/drawing/wrapping.h"
 
 namespace woodlouse::client {
 namespace {
@@ -198,11 +199,16 @@ void draw_too_small(const Scene& scene, CellBuffer& cells) {
                {});
     cells.text(left, ++row, formatted("this terminal is %d x %d.", size.columns, size.rows), {});
   }
-  cells.text(left, ++row, "Enlarge it, or zoom out (Ctrl and -).", {});
-  if (size.rows >= 6) ++row;
-  if (!scene.replay) cells.text(left, ++row, "The game goes on: your louse keeps rolling.", {});
-  cells.text(left, ++row, scene.mode == Mode::kQuitQuestion ? "Leave? Y or N." : scene.keys.quit + " leaves.",
-             {});
+  const auto told = [&](std::string_view text) {
+    for (const std::u32string& line :
+         wrapped(printable(text, GlyphSet::kAscii), std::max(1, size.columns - left)))
+      cells.text(left, ++row, line, {});
+  };
+  told("Enlarge it, or zoom out (Ctrl and -).");
+  if (size.rows >= 9) ++row;
+  // How to leave comes first where there is not room for all.
+  told(scene.mode == Mode::kQuitQuestion ? "Leave? Y or N." : scene.keys.quit + " leaves.");
+  if (!scene.replay && !scene.spectating) told("The game goes on: your louse keeps rolling.");
 }
 
 }  // namespace woodlouse::client

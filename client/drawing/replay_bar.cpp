@@ -103,8 +103,9 @@ void draw_replay_key_line(const Scene& scene, const Layout& layout, CellBuffer& 
   const int columns = cells.size().columns;
   cells.fill(0, layout.key_row, {columns, 1}, styles.bar);
   cells.text(0, layout.key_row,
-             columns < 80 ? " SPC pause </> 5s ,/. tick [/] speed F follow ? help Q"
-                          : " SPC pause  </> 5s  ,/. tick  [/] speed  0-9 jump  F follow  N event  ? help  Q",
+             columns < 80
+                 ? " SPC pause </> 5s ,/. tick [/] speed F follow ? help Q quit"
+                 : " SPC pause  </> 5s ,/. tick [/] speed 0-9 jump F follow  N event  ? help  Q quit",
              styles.bar);
 }
 

@@ -61,6 +61,7 @@ struct LouseMark {
   bool is_you = false;
   core::Vec2 position;            ///< [m]
   core::Vec2 heading{1.0, 0.0};   ///< unit; yours: where the next thrust goes
+  core::Vec2 ahead{1.0, 0.0};     ///< unit: where it goes; of one that is as good as still its heading
   physics::Attitude attitude;     ///< physics::attitude(direction of travel, gradient)
   double speed = 0.0;             ///< [m/s]
   double above = 0.0;             ///< height over the ground under it [m], >= 0; 0: on it
@@ -72,7 +73,7 @@ struct LouseMark {
 /// The numbers of the side panel and the status line.
 struct HudNumbers {
   double speed = 0.0;            ///< [m/s]
-  double slope_degrees = 0.0;    ///< along the heading; uphill is positive
+  double slope_degrees = 0.0;    ///< along LouseMark::ahead; uphill is positive
   double thrust = 0.0;           ///< -1..1, along the heading, acting now
   double push_seconds = 0.0;     ///< how long the thrust still acts; 0: not at all
   bool cruise = false;           ///< thrust is latched on

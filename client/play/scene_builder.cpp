@@ -1,6 +1,7 @@
 #include "client/play/scene_builder.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::size_t kShortTrail = 30;  // points
 constexpr double kStill = 0.05;          // [m/s] below it a louse's body points along its heading
+constexpr double kGoes = 0.3;            // [m/s] below it what lies ahead is what the heading points at
 
 core::Vec2 direction_of_travel(const LouseSample& louse) {
   const double speed = std::hypot(louse.velocity.x, louse.velocity.y);
@@ -40,7 +42,12 @@ LouseMark mark(const Sight& sight, std::uint32_t id, const Present& louse, Trail
   result.is_you = louse.is_you;
   result.position = louse.sample.position;
   const core::Vec2 travel = direction_of_travel(louse.sample);
-  result.heading = louse.is_you && sight.pilot != nullptr ? sight.pilot->steering().heading() : travel;
+  if (louse.is_you)  // without a pilot the line is cut: as it pointed then
+    result.heading = sight.pilot != nullptr ? sight.pilot->steering().heading() : louse.sample.heading;
+  else
+    result.heading = travel;
+  result.ahead =
+      std::hypot(louse.sample.velocity.x, louse.sample.velocity.y) > kGoes ? travel : result.heading;
   if (louse.sample.flight_z != 0.0) result.above = std::max(0.0, louse.sample.flight_z - ground.z);
   // In the air no ground turns it.
   const bool flies = result.above > 0.0;
@@ -146,7 +153,10 @@ void fill_louse_numbers(const Sight& sight, std::uint32_t id, Scene& scene) {
   const LouseSample& sample = louse->second.sample;
   const terrain::SurfaceSample ground = ground_under(sight, sample.position);
   scene.hud.speed = speed_in_space(ground, sample.velocity);
-  scene.hud.slope_degrees = slope_degrees(ground, direction_of_travel(sample));
+  const auto shown = std::find_if(scene.lice.begin(), scene.lice.end(),
+                                  [id](const LouseMark& mark) { return mark.id == id; });
+  assert(shown != scene.lice.end());
+  scene.hud.slope_degrees = slope_degrees(ground, shown->ahead);
   scene.hud.distance = sample.distance;
   scene.hud.height = sample.flight_z != 0.0 ? sample.flight_z : ground.z;
   scene.hud.rank = rank_of(scene.scores, id);

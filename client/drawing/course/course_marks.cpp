@@ -180,7 +180,9 @@ void label_ghost(const GhostMark& ghost, GroundCanvas& canvas) {
   const int length = static_cast<int>(name.size());
   for (const auto& [x, y] : {std::pair{left, row + off}, std::pair{left, row - off},
                              std::pair{column + beside, row}, std::pair{column - beside - length, row}})
-    if (canvas.write(x, y, name, scaled(kGhost, 0.75), kPlain)) return;
+    if (canvas.is_free(x - 1, y, 1) && canvas.is_free(x + length, y, 1) &&
+        canvas.write(x, y, name, scaled(kGhost, 0.75), kPlain))
+      return;
 }
 
 /// Beside your louse, towards what is wanted; where that is out of the picture also at its edge, with the

@@ -137,13 +137,21 @@ void GroundCanvas::disc(core::Vec2 middle, double radius, const Ink& ink) {
   for (const auto& [x, y] : dots) dot(x, y, ink);
 }
 
+bool GroundCanvas::is_free(int column, int row, int columns) const {
+  for (int x = column; x < column + columns; ++x) {
+    if (!viewport_.holds(x, row)) continue;
+    assert(cells_.contains(viewport_.column + x, viewport_.row + row));
+    if (is_kept(x, row) ||
+        (has_pixels_ && cells_.at(viewport_.column + x, viewport_.row + row).glyph != kUpperHalfBlock))
+      return false;
+  }
+  return true;
+}
+
 bool GroundCanvas::write(int column, int row, std::u32string_view text, Rgb color, Attributes attributes) {
   const int end = column + static_cast<int>(text.size()) - 1;
   if (text.empty() || !viewport_.holds(column, row) || !viewport_.holds(end, row)) return false;
-  for (int x = column; x <= end; ++x)
-    if (!cells_.contains(viewport_.column + x, viewport_.row + row) || is_kept(x, row) ||
-        (has_pixels_ && cells_.at(viewport_.column + x, viewport_.row + row).glyph != kUpperHalfBlock))
-      return false;
+  if (!is_free(column, row, static_cast<int>(text.size()))) return false;
   for (const char32_t c : text) {
     if (has_pixels_) {
       put_over(cells_, viewport_, column, row, c, Color::of(color), attributes);

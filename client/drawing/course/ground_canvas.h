@@ -66,6 +66,8 @@ class GroundCanvas {
   /// A circle's inside, laid on once; only where dots are pixels: characters would be buried.
   void disc(core::Vec2 middle, double radius, const Ink& ink);
 
+  /// Nothing is written in these cells yet. What lies outside is free.
+  [[nodiscard]] bool is_free(int column, int row, int columns) const;
   /// Writes over the picture, whole or not at all: never outside, nor over other characters of a picture of
   /// pixels. (column, row) from the viewport's corner.
   bool write(int column, int row, std::u32string_view text, Rgb color, Attributes attributes = kBold);

@@ -35,13 +35,13 @@ void draw_profile(const Scene& scene, const LouseMark& you, const Styles& styles
   const double climbs = scene.course.climbs.value_or(1e9);
   std::vector<Post> posts;
   for (int i = 0; i < columns; ++i) {
-    const core::Vec2 p = you.position + (step * (i - kBehind)) * you.heading;
+    const core::Vec2 p = you.position + (step * (i - kBehind)) * you.ahead;
     Post post;
     post.is_outside = !d.contains(p.x, p.y);
     if (!post.is_outside) {
       const terrain::SurfaceSample s = scene.terrain->sample(p.x, p.y);
       post.z = s.z;
-      post.is_steep = s.zx * you.heading.x + s.zy * you.heading.y > climbs;
+      post.is_steep = s.zx * you.ahead.x + s.zy * you.ahead.y > climbs;
     }
     posts.push_back(post);
   }
@@ -49,10 +49,11 @@ void draw_profile(const Scene& scene, const LouseMark& you, const Styles& styles
   for (const Post& post : posts)
     if (!post.is_outside) low = std::min(low, post.z), high = std::max(high, post.z);
   if (low > high) low = high = 0.0;
-  // Metres a row: as wide as high where that fits, so that slopes look as they are; never less than 0.5 m,
-  // which would make hills of ripples.
-  const int ground_rows = rows - 1;
-  const double row_height = std::max({2.0 * step, (high - low) / ground_rows, 0.25});
+  // Metres a row: all rows for what there is of relief, as a flat picture says nothing; never less than
+  // 0.25 m, which would make hills of ripples. What is too steep is marked, however it looks. The top row is
+  // the louse's, should it stand on the summit.
+  const int ground_rows = rows - 2;
+  const double row_height = std::max((high - low) / ground_rows, 0.25);
   const bool has_color = scene.look.color != ColorMode::kMono;
   for (int row = 0; row < rows; ++row) {
     out.begin_row();

@@ -292,6 +292,8 @@ std::string compass(core::Vec2 way) {
 }
 
 std::string span_text(std::int64_t moments, std::uint32_t tick_hz) {
+  assert(tick_hz > 0);
+  if (moments < 0) return "-" + span_text(moments == INT64_MIN ? INT64_MAX : -moments, tick_hz);
   const auto ms = static_cast<std::int64_t>(static_cast<double>(moments) / kMoments / tick_hz * 1e3);
   return formatted("%ld:%02ld.%03ld", static_cast<long>(ms / 60000), static_cast<long>(ms / 1000 % 60),
                    static_cast<long>(ms % 1000));

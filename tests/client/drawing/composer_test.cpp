@@ -47,7 +47,7 @@ Scene still_life() {
     louse.kind = kind;
     louse.is_you = id == 2;
     louse.position = position;
-    louse.heading = heading;
+    louse.heading = louse.ahead = heading;
     for (int i = 8; i > 0; --i) louse.trail.push_back(position - (0.9 * i) * heading);
     scene.lice.push_back(louse);
     scene.scores.push_back({id, name, kind, louse.is_you, 40.0 - 7.0 * id, 2.0, static_cast<int>(id)});
@@ -244,4 +244,37 @@ TEST_CASE("a name of wide characters keeps every column of the panel and of the 
         CHECK(text.find("33 m") != std::string::npos);
       }
   }
+}
+
+TEST_CASE("in the narrowest terminal that line and the way out are whole words") {
+  const std::string tiny = text_of(still_life(), {30, 12});
+  for (const char* word :
+       {"Enlarge", "zoom", "out", "(Ctrl", "and -).", "Q leaves.", "louse", "keeps", "rolling."})
+    CHECK(tiny.find(word) != std::string::npos);
+}
+
+TEST_CASE("a rank of three digits is apart from the letter behind it") {
+  Scene scene = still_life();
+  scene.scores.front().rank = 123;
+  CHECK(text_of(scene, {80, 24}).find(" 123 ") != std::string::npos);
+}
+
+TEST_CASE("what lies ahead is shown where the louse goes, in all rows that there are") {
+  Scene scene = still_life();
+  const auto rows_of = [&](core::Vec2 ahead) {
+    for (LouseMark& louse : scene.lice)
+      if (louse.is_you) louse.ahead = ahead;
+    const std::string picture = text_of(scene, {120, 36});
+    const std::size_t title = picture.find("AHEAD");
+    REQUIRE(title != std::string::npos);
+    return picture.substr(title, picture.find("CHAT") - title);
+  };
+  const std::string east = rows_of({1.0, 0.0});
+  CHECK(east != rows_of({-1.0, 0.0}));
+  int rows = 0;  // with ground
+  std::istringstream text(east);
+  for (std::string line; std::getline(text, line);)
+    rows += line.size() > 90 && line.find_first_of("#^", 88) != std::string::npos ? 1 : 0;
+  INFO(east);
+  CHECK(rows >= 7);
 }

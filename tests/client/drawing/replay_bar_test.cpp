@@ -60,7 +60,7 @@ TEST_CASE("a recording at 80x24 shows its file, its proof, its time line and its
   CHECK_FALSE(holds(lines[22], "+"));  // the chat's sign stands in the same cell
   CHECK(holds(lines[22], "x--"));
   CHECK(holds(lines[22], "o--"));
-  CHECK(holds(lines[23], "SPC pause  </> 5s  ,/. tick  [/] speed  0-9 jump  F follow  N event  ? help  Q"));
+  CHECK(holds(lines[23], "SPC pause  </> 5s ,/. tick [/] speed 0-9 jump F follow  N event  ? help  Q quit"));
 }
 
 TEST_CASE("the time line is where the recording is, from beginning to end") {

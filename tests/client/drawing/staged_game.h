@@ -73,7 +73,7 @@ class StagedGame {
       const terrain::SurfaceSample s = scene_.terrain->sample(louse.position.x, louse.position.y);
       LouseMark& mark = scene_.lice[i];
       mark.position = louse.position;
-      mark.heading = louse.heading;
+      mark.heading = mark.ahead = louse.heading;
       mark.attitude = physics::attitude(louse.heading, {s.zx, s.zy});
       mark.speed = std::hypot(louse.velocity.x, louse.velocity.y);
       trails_[i].add(louse.position);

@@ -194,3 +194,9 @@ TEST_CASE("a chain runs out in four seconds") {
   CHECK(run.chain_left(720.0, 60) == Approx(0.5));
   CHECK(run.chain(841.0, 60) == 0);
 }
+
+TEST_CASE("a time is a time on either side of nought") {
+  CHECK(span_text(62 * kSecond + kSecond / 2, 60) == "1:02.500");
+  CHECK(span_text(-kSecond / 2, 60) == "-0:00.500");
+  CHECK(span_text(-62 * kSecond, 60) == "-1:02.000");
+}
