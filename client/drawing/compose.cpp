@@ -177,12 +177,14 @@ void Composer::draw(const Scene& scene, CellBuffer& cells) {
     draw_too_small(scene, cells);
     return;
   }
-  const Layout layout = layout_for(size, scene.look, scene.replay ? Foot::kScrubberAndKeys : Foot::kKeys);
+  const Foot foot = scene.replay ? Foot::kScrubberAndKeys : Foot::kKeys;
+  const int columns = layout_for(size, scene.look, foot).map.size.columns;
+  const Layout layout = layout_for(size, scene.look, foot, line_rows(scene, columns));
   const Badges badges(scene);
   layers_->draw_map(scene, badges, layout.map, cells);
   draw_panel(scene, badges, layout.panel, cells);
   draw_status_line(scene, cells);
-  draw_course_board(scene, badges, layout.map, cells);
+  draw_course_board(scene, badges, layout, cells);
   draw_key_line(scene, layout, cells);
   draw_overlay(scene, badges, cells);
 }

@@ -106,7 +106,9 @@ std::vector<HelpLine> replay_help() {
 }
 
 void draw_help(const Scene& scene, const Styles& styles, CellBuffer& cells) {
-  const std::vector<HelpLine> lines = scene.replay ? replay_help() : game_help(scene);
+  std::vector<HelpLine> lines = scene.replay ? replay_help() : game_help(scene);
+  for (std::size_t i = 0; i < scene.course.rules.size(); ++i)
+    lines.push_back({i == 0 ? "RULES" : "", scene.course.rules[i]});
   const Viewport box = centred({60, static_cast<int>(lines.size()) + 5}, cells.size());
   draw_box(box, "HELP (any key closes)", scene.look, styles, cells);
   const int left = box.column + 2;

@@ -17,7 +17,9 @@ constexpr std::size_t kMostLice = 20;  // read out at once; your own always
 std::string number(double value, int decimals) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
-  return text.data();
+  const std::string said = text.data();
+  const bool is_nought = said.find_first_of("123456789") == std::string::npos;
+  return is_nought && said.front() == '-' ? said.substr(1) : said;  // "-0" says nothing
 }
 
 std::string offset(double value, const char* positive, const char* negative) {
@@ -61,6 +63,10 @@ std::vector<std::string> goal(const RoomView& room) {
   return lines;
 }
 
+std::vector<std::string> rules(const RoomView& room) {
+  return course_of({room.sight(), 0, nullptr, false, nullptr, 0}).rules;
+}
+
 std::vector<std::string> podium(const RoomView& room) {
   const Sight sight = room.sight();
   const std::uint32_t id = room.welcome() != nullptr ? room.welcome()->id : 0;
@@ -75,9 +81,10 @@ std::vector<std::string> podium(const RoomView& room) {
 
 std::string keys(const KeyLabels& keys, SteerBy steer, bool plays) {
   const auto spoken = [](const std::string& label) {
-    return label == "SPC" ? "Space" : label == "TAB" ? "Tab" : label;
+    return label == "SPC" ? "Space" : label == "TAB" ? "Tab" : label == "?" ? "question mark" : label;
   };
-  const std::string all = spoken(keys.scores) + " where everyone is, " + keys.chat + " chat, ";
+  const std::string all =
+      spoken(keys.scores) + " where everyone is, " + keys.chat + " chat, " + spoken(keys.help) + " help, ";
   if (!plays) return "keys: " + all + keys.quit + " quit";
   const std::string driving =
       steer == SteerBy::kCompass
@@ -102,7 +109,7 @@ std::vector<std::string> room(const RoomView& view) {
     const auto present = view.lice().find(row.id);
     std::string line = row.rank > 0 ? "number " + std::to_string(row.rank) + ", " : "";
     line += present != view.lice().end() ? louse(view, present->second) : row.name;
-    if (!row.measure.empty()) line += ", " + row.measure;
+    if (!row.measure.empty()) line += ", " + (row.measure == "--" ? "no time yet" : row.measure);
     if (row.is_you)
       lines.insert(lines.begin(), std::move(line));
     else

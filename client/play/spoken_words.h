@@ -17,6 +17,8 @@ std::string compass(core::Vec2 direction);
 std::string louse(const RoomView& room, const Present& louse);
 /// What the rules of play want of you: a line or two; empty where there are none.
 std::vector<std::string> goal(const RoomView& room);
+/// What is played, in words; empty where there are no rules, and until they were shown.
+std::vector<std::string> rules(const RoomView& room);
 /// The best three of a round that is over, and what you did; empty while none is.
 std::vector<std::string> podium(const RoomView& room);
 /// The keys that there are, for who plays and for who watches.

@@ -1,5 +1,6 @@
 #include "client/play/text_game.h"
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -45,7 +46,7 @@ Outcome TextGame::run() {
   if (!keys_) TerminalGuard::speak_without_terminal();
   if (keys_) {
     keys_->start();
-    say(words::keys(bindings_.keys().labels(), steer_, session_.room().welcome()->id != 0));
+    tell_keys();
   }
   state_told_ = steady_clock::now();
   update();
@@ -195,6 +196,17 @@ void TextGame::on_key(const Key& key) {
   }
 }
 
+void TextGame::tell_keys() {
+  const RoomView& room = session_.room();
+  const bool is_here = std::any_of(room.lice().begin(), room.lice().end(),
+                                   [](const auto& louse) { return louse.second.is_you; });
+  const bool plays = room.welcome() != nullptr ? room.welcome()->id != 0 : is_here;
+  say(words::keys(bindings_.keys().labels(), steer_, plays));
+  std::string rules;
+  for (const std::string& line : words::rules(room)) rules += (rules.empty() ? "" : " ") + line;
+  if (!rules.empty()) say(rules);
+}
+
 /// What the keys have come to; a key that repeats is told once.
 void TextGame::tell_driving(Action action, core::Time now) {
   const Steering& steering = session_.room().pilot()->steering();
@@ -226,6 +238,9 @@ void TextGame::perform(Action action) {
       break;
     case Action::kView:
       read_ground();
+      break;
+    case Action::kHelp:
+      tell_keys();
       break;
     case Action::kRespawn:
       session_.room().respawn();

@@ -55,6 +55,8 @@ class TextGame {
   void tell_silence(core::Time now);
   void tell_proof();
   void teach();
+  /// With what is played.
+  void tell_keys();
   void tell_podium();
   void say(const std::string& line);
   void finish(Outcome outcome);

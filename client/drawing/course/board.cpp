@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,6 +20,7 @@ namespace {
 constexpr Rgb kGood{104, 232, 150};
 constexpr Rgb kBad{255, 118, 92};
 constexpr Rgb kGoal{255, 236, 110};
+constexpr int kLineMargins = 2;  ///< columns left and right of a line
 
 Rgb tone_color(Tone tone) {
   switch (tone) {
@@ -115,15 +118,49 @@ void draw_splash(const Splash& splash, const Look& look, const Viewport& map, in
   paint(0, tone_color(splash.tone));
 }
 
-void draw_line(const GoalLine& line, const Look& look, const Viewport& map, int row, const Style& bar,
-               CellBuffer& cells) {
-  const int end = map.column + map.size.columns - 1;
-  int at = map.column;
-  cells.put(at++, map.row + row, U' ', bar);
-  for (const GoalSpan& span : line)
-    at = cells.text(at, map.row + row, printable(span.text, look.glyphs), tone_style(span.tone, bar, look),
-                    std::max(0, end - at));
-  cells.put(at, map.row + row, U' ', bar);
+int width_of(const GoalLine& line, const Look& look) {
+  int width = 0;
+  for (const GoalSpan& span : line) width += static_cast<int>(printable(span.text, look.glyphs).size());
+  return width;
+}
+
+/// The parts that fit whole: first the extras are left out, then what comes last.
+GoalLine fitted(GoalLine line, int columns, const Look& look) {
+  while (line.size() > 1 && width_of(line, look) > columns) {
+    const auto extra =
+        std::find_if(line.rbegin(), line.rend(), [](const GoalSpan& span) { return span.is_extra; });
+    line.erase(extra == line.rend() ? std::prev(line.end()) : std::prev(extra.base()));
+  }
+  return line;
+}
+
+/// The parts in as many lines as they need.
+std::vector<GoalLine> broken(const std::vector<GoalLine>& whole, int columns, const Look& look) {
+  std::vector<GoalLine> lines;
+  for (const GoalLine& line : whole) {
+    lines.emplace_back();
+    for (const GoalSpan& span : line) {
+      const bool fits = width_of(lines.back(), look) + width_of({span}, look) <= columns;
+      if (!fits && !lines.back().empty()) lines.emplace_back();
+      lines.back().push_back(span);
+    }
+  }
+  return lines;
+}
+
+void draw_lines(const std::vector<GoalLine>& lines, const Look& look, const Viewport& board, const Style& bar,
+                CellBuffer& cells) {
+  cells.fill(board.column, board.row, board.size, bar);
+  const int room = board.size.columns - kLineMargins;
+  for (int row = 0; row < std::min(board.size.rows, static_cast<int>(lines.size())); ++row) {
+    int at = board.column + 1;
+    for (const GoalSpan& span : fitted(lines[static_cast<std::size_t>(row)], room, look)) {
+      std::u32string text = printable(span.text, look.glyphs);
+      const auto left = static_cast<std::size_t>(std::max(0, board.column + 1 + room - at));
+      if (text.size() > left) text.resize(std::min(left, text.rfind(U' ', left)));  // alone, and too long
+      at = cells.text(at, board.row + row, text, tone_style(span.tone, bar, look));
+    }
+  }
 }
 
 /// The three steps, second and third beside the first.
@@ -188,19 +225,26 @@ Style tone_style(Tone tone, const Style& base, const Look& look) {
   return style;
 }
 
-void draw_course_board(const Scene& scene, const Badges& badges, const Viewport& map, CellBuffer& cells) {
+LineRows line_rows(const Scene& scene, int columns) {
+  assert(columns > kLineMargins);
+  constexpr int kMostGoal = 3;  // in the smallest terminal most is still the map's
+  constexpr int kMostLesson = 4;
+  const int goal = static_cast<int>(scene.course.lines.size());
+  const int lesson = static_cast<int>(broken(scene.course.lesson, columns - kLineMargins, scene.look).size());
+  return {goal == 0 ? 0 : std::clamp(goal, 2, kMostGoal), std::min(lesson, kMostLesson)};
+}
+
+void draw_course_board(const Scene& scene, const Badges& badges, const Layout& layout, CellBuffer& cells) {
   const Styles styles = styles_for(scene.look);
-  int row = 0;
-  for (const GoalLine& line : scene.course.lines)
-    if (row < map.size.rows) draw_line(line, scene.look, map, row++, styles.bar, cells);
-  int foot = map.size.rows - 1 - static_cast<int>(scene.course.lesson.size());  // the last row is a notice's
-  for (const GoalLine& line : scene.course.lesson)
-    if (foot >= row) draw_line(line, scene.look, map, foot++, styles.bar, cells);
+  const Viewport& map = layout.map;
+  draw_lines(scene.course.lines, scene.look, layout.goal, styles.bar, cells);
+  draw_lines(broken(scene.course.lesson, layout.lesson.size.columns - kLineMargins, scene.look), scene.look,
+             layout.lesson, styles.bar, cells);
   constexpr int kPodiumRows = 8;
-  if (!scene.course.podium.empty() && row + kPodiumRows < map.size.rows)
-    draw_podium(scene, badges, map, row + 1, cells);
-  else if (scene.course.splash && row + kFigureHeight + 2 < map.size.rows)
-    draw_splash(*scene.course.splash, scene.look, map, row + 1, cells);
+  if (!scene.course.podium.empty() && kPodiumRows < map.size.rows)
+    draw_podium(scene, badges, map, 1, cells);
+  else if (scene.course.splash && kFigureHeight + 2 < map.size.rows)
+    draw_splash(*scene.course.splash, scene.look, map, 1, cells);
 }
 
 }  // namespace woodlouse::client

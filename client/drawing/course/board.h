@@ -13,7 +13,12 @@ namespace woodlouse::client {
 /// A tone in a look, on the ground that `base` has.
 Style tone_style(Tone tone, const Style& base, const Look& look);
 
-/// Scene::course's lines over the map's first rows, its big figures below them, its podium.
-void draw_course_board(const Scene& scene, const Badges& badges, const Viewport& map, CellBuffer& cells);
+/// How many rows Scene::course's lines take beside a panel, `columns` wide: as many for one line as for two,
+/// that the map stays as large when a round begins.
+LineRows line_rows(const Scene& scene, int columns);
+
+/// Scene::course's lines, and over the map its big figures or its podium. Of a line what fits is shown, part
+/// by part: half a number would be another one.
+void draw_course_board(const Scene& scene, const Badges& badges, const Layout& layout, CellBuffer& cells);
 
 }  // namespace woodlouse::client

@@ -52,6 +52,7 @@ enum class Tone : std::uint8_t { kUsual, kStrong, kDim, kGoal, kGood, kBad };
 struct GoalSpan {
   std::string text;  ///< UTF-8: names stand in it
   Tone tone = Tone::kUsual;
+  bool is_extra = false;  ///< left out first, where there is not room for all
 };
 using GoalLine = std::vector<GoalSpan>;
 std::string plain_text(const GoalLine& line);
@@ -77,8 +78,9 @@ struct Course {
   std::vector<RingMark> rings;
   std::vector<GhostMark> ghosts;
   std::optional<core::Vec2> target;  ///< where the arrow points: the next gate, the place, the dearest crumb
-  std::vector<GoalLine> lines;       ///< over the map's top
-  std::vector<GoalLine> lesson;      ///< over the map's foot
+  std::vector<GoalLine> lines;       ///< above the map
+  std::vector<GoalLine> lesson;      ///< below the map
+  std::vector<std::string> rules;    ///< of the mode, for the help; at most 50 characters each
   std::optional<Splash> splash;
   std::vector<PodiumStep> podium;  ///< empty: the round goes on
   std::string podium_note;         ///< below it

@@ -211,13 +211,13 @@ void draw_pointer(const LouseMark& you, core::Vec2 target, GroundCanvas& canvas)
   const core::Vec2 way = target - you.position;
   const std::u32string metres = wide(formatted("%.0f m", std::hypot(way.x, way.y)));
   const int text = static_cast<int>(metres.size());
-  // Where the straight way leaves the picture, two lines off the top, where the mode's lines stand.
+  // Where the straight way leaves the picture.
   double t = 1.0;
   const auto limit = [&t](double at, double by, double low, double high) {
     if (by > 0.0) t = std::min(t, (high - at) / by);
     if (by < 0.0) t = std::min(t, (low - at) / by);
   };
-  constexpr int kTop = 3;
+  constexpr int kTop = 1;
   limit(here->x, dx, 1.0, size.columns - 2.0);
   limit(here->y / rows, dy / 2.0, kTop, size.rows - 3.0);
   const int edge_column = std::clamp(static_cast<int>(here->x + std::max(0.0, t) * dx), 1, size.columns - 2);

@@ -115,6 +115,21 @@ std::vector<ScoreRow> rows_of_table(const Sight& sight) {
   return rows;
 }
 
+/// What is played, for the help.
+std::vector<std::string> rules_in_words(state::Mode mode, const map::Modes& modes) {
+  if (mode == state::Mode::kRace && modes.race)
+    return {"race: drive through the gates in turn, S first,",
+            formatted("%u laps; arrows show the way. The best run wins.", modes.race->laps)};
+  if (mode == state::Mode::kForage && modes.forage)
+    return {"forage: roll over crumbs; * is worth 3. Eaten 4 s",
+            "after another one counts twice, then three times."};
+  if (mode == state::Mode::kHill && modes.hill)
+    return {"hill: be alone in the ring to hold it; held for",
+            formatted("%u s wins.", modes.hill->hold_s) +
+                (modes.hill->falls ? " Bump others off, and don't fall." : " Lice bump each other away.")};
+  return {};
+}
+
 }  // namespace
 
 Course course_of(const GoalFacts& facts) {
@@ -133,6 +148,7 @@ Course course_of(const GoalFacts& facts) {
     add_rings(*modes.hill, *ruling.game->hill,
               (static_cast<double>(ruling.game->hill->moves_at) - ruling.tick) / ruling.tick_hz, course);
   course.lines = goal_lines(facts);
+  course.rules = rules_in_words(ruling.mode, modes);
   course.target = goal_of(facts);
   if (ruling.game->phase == protocol::GamePhase::kPodium) add_podium(facts, course);
   return course;

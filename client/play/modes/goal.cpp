@@ -81,7 +81,7 @@ void race_line(const GoalFacts& facts, const map::RaceMode& race, GoalLine& line
     line.push_back({"starts at S", Tone::kUsual});
   }
   if (facts.rank > 0)
-    line.push_back({formatted("  #%d/%zu", facts.rank, facts.sight.lice.size()), Tone::kUsual});
+    line.push_back({formatted("  #%d/%zu", facts.rank, facts.sight.lice.size()), Tone::kUsual, true});
   if (const std::string medal = medal_to_win(ruling.author_ms, standing.score, ruling.tick_hz);
       !medal.empty())
     line.push_back({"  " + medal, Tone::kGoal});
@@ -109,7 +109,7 @@ void forage_line(const GoalFacts& facts, const map::ForageMode&, GoalLine& line)
   const Ruling& ruling = facts.sight.ruling;
   line.push_back({formatted("score %ld", static_cast<long>(facts.you->standing.score)), Tone::kStrong});
   if (facts.rank > 0)
-    line.push_back({formatted("  #%d/%zu", facts.rank, facts.sight.lice.size()), Tone::kUsual});
+    line.push_back({formatted("  #%d/%zu", facts.rank, facts.sight.lice.size()), Tone::kUsual, true});
   if (facts.run == nullptr) return;
   const std::int64_t chain = facts.run->chain(ruling.tick, ruling.tick_hz);
   if (chain == 0) return;
@@ -128,7 +128,7 @@ void hill_line(const GoalFacts& facts, const map::HillMode& hill, GoalLine& line
                      ? GoalSpan{"held " + score_text(ruling.mode, facts.you->standing.score, ruling.tick_hz),
                                 Tone::kStrong}
                      : GoalSpan{"out: back at a spawn soon", Tone::kBad});
-  if (facts.you != nullptr) line.push_back({formatted(" of %u s", hill.hold_s), Tone::kUsual});
+  if (facts.you != nullptr) line.push_back({formatted(" of %u s", hill.hold_s), Tone::kUsual, true});
   if (!ruling.game->hill) return;
   const protocol::GameHill& shown = *ruling.game->hill;
   if (shown.is_contested)
@@ -149,18 +149,19 @@ void add_next(const GoalFacts& facts, GoalLine& line) {
   line.push_back({formatted("  moves in %lds", seconds), seconds <= 5 ? Tone::kGoal : Tone::kDim});
 }
 
-/// "gate 3 NE 27 m": what is aimed at.
-GoalSpan aim(const GoalFacts& facts) {
+/// "gate 3 NE 27 m": what is aimed at, and from where.
+void add_aim(const GoalFacts& facts, GoalLine& line) {
   const Ruling& ruling = facts.sight.ruling;
   const auto place = goal_of(facts);
-  if (!place) return {};
+  if (!place) return;
   std::string what;
+  bool is_flown = false;
   switch (ruling.mode) {
     case state::Mode::kRace: {
       const map::RaceMode& race = *facts.sight.map->definition.modes.race;
       const std::size_t gate = std::min<std::size_t>(facts.you->standing.gate, race.gates.size() - 1);
       what = gate == 0 ? "gate S" : "gate " + std::to_string(gate);
-      if (race.gates[gate].in_air) what += " (fly through)";
+      is_flown = race.gates[gate].in_air;
       break;
     }
     case state::Mode::kForage:
@@ -172,7 +173,9 @@ GoalSpan aim(const GoalFacts& facts) {
     case state::Mode::kRoam:
       break;
   }
-  return {"  " + what + " " + way_to(facts, *place), Tone::kGoal};
+  line.push_back({"  " + what + " " + way_to(facts, *place), Tone::kGoal});
+  if (is_flown) line.push_back({", fly through", Tone::kGoal, true});
+  if (!facts.is_own) line.push_back({" from " + facts.sight.name_of(facts.id), Tone::kDim, true});
 }
 
 /// What you are to do now; empty for nobody.
@@ -270,17 +273,21 @@ std::vector<GoalLine> goal_lines(const GoalFacts& facts) {
       break;
     case protocol::GamePhase::kPlay:
       // A hill's round is long, and where the line is cut off what its place does matters more.
-      if (ruling.mode != state::Mode::kHill) first.push_back({"  " + seconds_left(facts), Tone::kStrong});
+      if (ruling.mode != state::Mode::kHill) {
+        first.push_back({"  " + seconds_left(facts), Tone::kStrong});
+        first.push_back({" left", Tone::kStrong, true});
+      }
       if (is_harvest(facts)) first.push_back({"  HARVEST x2", Tone::kGoal});
       break;
     case protocol::GamePhase::kPodium:
-      first.push_back({formatted("  round %u is over  next in ", round) + seconds_left(facts), Tone::kGoal});
+      first.push_back({"  next round in " + seconds_left(facts), Tone::kGoal});
+      first.push_back({formatted("  round %u is over", round), Tone::kDim, true});
       return {first};
   }
-  if (GoalSpan way = aim(facts); !way.text.empty()) first.push_back(std::move(way));
+  add_aim(facts, first);
   add_next(facts, first);
   if (ruling.mode == state::Mode::kHill && ruling.game->phase == protocol::GamePhase::kPlay)
-    first.push_back({"  " + seconds_left(facts), Tone::kDim});
+    first.push_back({"  " + seconds_left(facts) + " left", Tone::kDim, true});
   const GoalLine own = own_line(facts);
   return own.empty() ? std::vector<GoalLine>{first} : std::vector<GoalLine>{first, own};
 }

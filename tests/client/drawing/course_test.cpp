@@ -182,3 +182,45 @@ TEST_CASE("your name is shown in the densest crowd") {
     CHECK(on_map >= 2);
   }
 }
+
+TEST_CASE("a part of a line that does not fit is left out, never cut") {
+  Scene scene = a_race();
+  scene.course.lines = {
+      {{"race", Tone::kStrong}, {"  next round in 0:06"}, {"  round 1 is over", Tone::kDim, true}},
+      {{"lap 2/3 "}, {"0:10.000"}, {"  #2/5", Tone::kUsual, true}, {"  bronze 1:32.47"}}};
+  CHECK(shows(scene, " race  next round in 0:06  round 1 is over ", {80, 24}));
+  CHECK(shows(scene, " lap 2/3 0:10.000  #2/5  bronze 1:32.47 ", {80, 24}));
+  CHECK(shows(scene, " race  next round in 0:06           ", {60, 20}));
+  CHECK(shows(scene, " lap 2/3 0:10.000  bronze 1:32.47 ", {60, 20}));
+  scene.course.lines = {{{"what is far too long for the line that it is put in and still goes on"}}};
+  CHECK(shows(scene, " what is far too long for the line ", {60, 20}));
+  scene.course.lines.clear();
+  scene.course.lesson = {{{"W A S D push that way"}, {"  Esc: no lesson"}}};
+  CHECK(shows(scene, "  Esc: no lesson ", {60, 20}));
+}
+
+TEST_CASE("lines hide nothing of the map") {
+  for (const Size size : {Size{60, 20}, Size{80, 24}, Size{120, 36}}) {
+    Scene scene = a_race();
+    scene.course = {};
+    const auto signs = [&](char32_t sign, int rows_above, int rows_below) {
+      CellBuffer cells(size);
+      Composer().draw(scene, cells);
+      const Viewport map = layout_for(size, scene.look).map;
+      int count = 0;
+      for (int y = 1 + rows_above; y < 1 + map.size.rows - rows_below; ++y)
+        for (int x = 0; x < map.size.columns; ++x) count += cells.at(x, y).glyph == sign ? 1 : 0;
+      return count;
+    };
+    for (LouseMark& louse : scene.lice) louse.trail.clear();
+    scene.lice[0].position = {0.0, scene.terrain->domain().y_max};  // where the lines used to be
+    scene.lice[1].position = {0.0, scene.terrain->domain().y_min};
+    REQUIRE(signs(U'@', 0, 0) == 1);
+    scene.course.lines = a_race().course.lines;
+    scene.course.lesson = {{{"1/3 PUSH"}}, {{"how"}}};
+    for (const View view : {View::kMap, View::kSlope, View::kFollow}) {
+      scene.view = view;
+      CHECK(signs(U'@', 2, 2) == 1);
+    }
+  }
+}

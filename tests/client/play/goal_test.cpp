@@ -1,6 +1,7 @@
 #include "client/play/modes/goal.h"
 
 #include <catch2/catch.hpp>
+#include <tuple>
 
 #include "client/play/modes/course_builder.h"
 #include "shared/map/map_file.h"
@@ -116,7 +117,10 @@ TEST_CASE("a race's lines say the way to the next gate, the clock and the medal 
   you.standing.lap_start = 5400 * 65536LL;
   const Sight sight = room.sight();
   const std::string text = text_of(goal_lines({sight, 2, &you, true, nullptr, 2}));
-  CHECK(text.find("gate 3 W ") != std::string::npos);
+  CHECK(text.find("race  1:40 left  gate 3 W ") != std::string::npos);
+  CHECK(text.find(" from ") == std::string::npos);
+  const std::string watched = text_of(goal_lines({sight, 2, &you, false, nullptr, 2}));
+  CHECK(watched.find(" m from louse2\nlouse2: lap 2/3") != std::string::npos);
   CHECK(text.find("lap 2/3 0:10.000  #2/1  bronze 1:30.00") != std::string::npos);
   const Course course = course_of({sight, 2, &you, true, nullptr, 2});
   REQUIRE(course.gates.size() == 6);
@@ -199,4 +203,21 @@ TEST_CASE("a time is a time on either side of nought") {
   CHECK(span_text(62 * kSecond + kSecond / 2, 60) == "1:02.500");
   CHECK(span_text(-kSecond / 2, 60) == "-0:00.500");
   CHECK(span_text(-62 * kSecond, 60) == "-1:02.000");
+}
+
+TEST_CASE("the help has a few words of what is played, short enough for its box") {
+  SeenRoom room = race();
+  room.add(1, 0, 1.0, true);
+  for (const auto& [mode, name, word] :
+       {std::tuple{state::Mode::kRace, "crater_loop", "3 laps"},
+        std::tuple{state::Mode::kForage, "picnic", "crumbs"},
+        std::tuple{state::Mode::kHill, "table", "30 s wins. Bump others off"}}) {
+    room.mode = mode;
+    room.map = shipped_map(name);
+    const Sight sight = room.sight();
+    const auto rules = course_of({sight, 1, nullptr, true, nullptr, 0}).rules;
+    REQUIRE(rules.size() == 2);
+    for (const std::string& line : rules) CHECK(line.size() <= 50);
+    CHECK((rules[0] + " " + rules[1]).find(word) != std::string::npos);
+  }
 }

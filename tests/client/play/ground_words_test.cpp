@@ -68,7 +68,8 @@ TEST_CASE("changes of the ground are told, and no flood of them") {
 
 TEST_CASE("who watches is told of no key that drives") {
   const KeyLabels labels;
-  CHECK(words::keys(labels, SteerBy::kCompass, false) == "keys: Tab where everyone is, T chat, Q quit");
+  CHECK(words::keys(labels, SteerBy::kCompass, false) ==
+        "keys: Tab where everyone is, T chat, question mark help, Q quit");
   CHECK(words::keys(labels, SteerBy::kHeading, true)
             .starts_with("keys: W push, S brake, A and D turn, Space cruise"));
 }
