@@ -122,8 +122,8 @@ void draw_help(const Scene& scene, const Styles& styles, CellBuffer& cells) {
   const std::string glyphs = scene.look.glyphs == GlyphSet::kAscii ? "ascii" : "half-blocks";
   if (!scene.replay) cells.text(left, ++row, "keys: " + keys, styles.dim, box.size.columns - 4);
   const bool has_palette = scene.look.color == ColorMode::k256 || scene.look.color == ColorMode::kTruecolor;
-  std::string shown = "color: " + std::string(color_text(scene.look.color)) + "   glyphs: " + glyphs;
-  if (has_palette) shown += "   palette: " + std::string(palette_text(scene.look.palette));
+  std::string shown = "color: " + std::string(color_text(scene.look.color)) + "  glyphs: " + glyphs;
+  if (has_palette) shown += "  palette: " + std::string(palette_text(scene.look.palette));
   cells.text(left, ++row, shown, styles.dim, box.size.columns - 4);
 }
 

@@ -121,8 +121,8 @@ std::vector<std::string> rules_in_words(state::Mode mode, const map::Modes& mode
     return {"race: drive through the gates in turn, S first,",
             formatted("%u laps; arrows show the way. The best run wins.", modes.race->laps)};
   if (mode == state::Mode::kForage && modes.forage)
-    return {"forage: roll over crumbs; * is worth 3. Eaten 4 s",
-            "after another one counts twice, then three times."};
+    return {"forage: roll over crumbs; * is worth 3. One within",
+            "4 s of another counts twice, the next three times."};
   if (mode == state::Mode::kHill && modes.hill)
     return {"hill: be alone in the ring to hold it; held for",
             formatted("%u s wins.", modes.hill->hold_s) +
