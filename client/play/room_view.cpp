@@ -254,6 +254,7 @@ void RoomView::notice(std::string text, core::Time now) {
 
 void RoomView::on_lost() {
   was_here_ |= welcome_.has_value();
+  if (welcome_) saw_part_ = sees_part();
   welcome_.reset();
   word_ = {};
   clock_.reset();
@@ -271,7 +272,7 @@ void RoomView::on_lost() {
 
 Sight RoomView::sight() const {
   Sight sight{map_.get(), lice_, trails_, pilot()};
-  sight.is_part = sees_part();
+  sight.is_part = welcome_ ? sees_part() : saw_part_;
   sight.name_of = [this](std::uint32_t id) {
     const Resident* resident = roster_.find(id);
     return resident != nullptr ? resident->name : core::joined({"#", std::to_string(id)});

@@ -127,6 +127,7 @@ class RoomView {
   double shown_tick_ = 0.0;  ///< the server's, as of the last update
   std::vector<protocol::ClientMessage> outgoing_;
   protocol::View looked_;           ///< asked for last on this connection
+  bool saw_part_ = false;           ///< when the line was cut
   std::deque<double> round_trips_;  ///< [s], the newest last
   std::optional<core::Time> pinged_;
   std::optional<core::Time> counted_;

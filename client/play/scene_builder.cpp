@@ -205,7 +205,7 @@ Scene build_scene(const Session& session, const Interface& interface, const Chat
   scene.spectating = own_id == 0;
   if (room.welcome() != nullptr) scene.room = room.welcome()->room;
   fill_louse_numbers(room.sight(), scene.spectating ? scene.follow_id : own_id, scene);
-  if (room.sees_part()) {
+  if (room.sight().is_part) {
     scene.hud.players = static_cast<int>(room.roster().lice());
     scene.hud.bots = static_cast<int>(room.roster().bots());
   }

@@ -62,7 +62,9 @@ TEST_CASE("a view is asked for once, anew on another connection, and not of who 
   CHECK(looks(room) == std::vector{part});
   CHECK(room.sees_part());
   room.on_lost();
+  room.on_lost();  // an attempt that failed
   CHECK_FALSE(room.sees_part());
+  CHECK(room.sight().is_part);  // the picture stays one of a part
   protocol::Welcome former = welcome();
   former.view_rows.reset();
   REQUIRE(room.on_message(former, now));
