@@ -56,7 +56,7 @@ struct MapCamera {
   /// The cell of what lies at `p`. On the map it is one that shows ground: who leans on a wall is not in it.
   [[nodiscard]] Place cell_of(core::Vec2 p, const terrain::Rectangle& domain) const {
     const auto whole = [](double value) {
-      return static_cast<int>(std::clamp(std::floor(value), -1e6, 1e6));
+      return value >= -1e6 ? static_cast<int>(std::floor(std::min(value, 1e6))) : -1'000'000;  // NaN, too
     };
     const Place place{whole(column_of(p)), whole(row_of(p))};
     return domain.contains(p.x, p.y) ? cells_of(domain).nearest(place) : place;

@@ -53,7 +53,11 @@ class GroundCanvas {
   /// Where a place `height` [m] over the ground is seen; empty behind the camera, and nowhere.
   [[nodiscard]] std::optional<Spot> spot(core::Vec2 place, double height = 0.0) const {
     if (!std::isfinite(place.x) || !std::isfinite(place.y)) return std::nullopt;
-    return projector_(place, height);
+    const auto seen = projector_(place, height);
+    // Further off there is nothing to be pointed at, nor a whole number of dots.
+    constexpr double kFarthest = 1e9;
+    const bool is_near = seen && std::abs(seen->x) < kFarthest && std::abs(seen->y) < kFarthest;
+    return is_near ? seen : std::nullopt;
   }
   void dot(int x, int y, const Ink& ink);
   /// Nothing is written over this cell any more, nor drawn where dots are cells.
