@@ -139,6 +139,16 @@ TEST_CASE("the doorman keeps out who is banned and lets nobody speak who is mute
   CHECK_FALSE(doorman.why_not_speak("2001:db8:0:1::/64", kNow));
 }
 
+TEST_CASE("by which of this machine's networks an address came is no part of it") {
+  Bans bans;
+  const auto ban = Bans::parse("fe80::/16", kNow, std::nullopt);
+  REQUIRE(ban);
+  REQUIRE(bans.add(*ban));
+  CHECK(bans.of(ip::make_address_v6("fe80::1%1"), kNow) != nullptr);
+  CHECK(bans.of(*AddressRange::parse("fe80::1%1"), kNow) != nullptr);
+  CHECK(AddressRange::parse("fe80::1%1") == AddressRange::parse("fe80::1"));
+}
+
 TEST_CASE("a server that drains takes those alone who come back") {
   Doorman doorman;
   CHECK_FALSE(doorman.is_draining());

@@ -36,7 +36,10 @@ class Guest final : public Subscriber {
     order.push_back('f');
     frames.push_back(frame);
   }
-  void show_again(const Frame& frame) override { frames.push_back(frame); }
+  void show_again(const Frame& frame) override {
+    frames.push_back(frame);
+    again.push_back(frame);
+  }
   void follow(const StreamPart& part) override { parts.push_back(part); }
   void deliver_map(Line line) override { maps.push_back(*line); }
   void refuse_join(protocol::ErrorMessage error) override { refusals.push_back(std::move(error)); }
@@ -51,6 +54,7 @@ class Guest final : public Subscriber {
   std::vector<std::string> lines, maps;
   std::vector<protocol::ServerMessage> answers;
   std::vector<Frame> frames;
+  std::vector<Frame> again;  ///< of them, those out of turn
   std::vector<StreamPart> parts;
   std::vector<protocol::ErrorMessage> refusals;
   std::vector<protocol::Welcome> welcomes;
