@@ -9,6 +9,8 @@ import struct
 import threading
 import time
 
+from nuisance import Nuisance
+
 SOURCE, SILENT_SOURCE, GOOD_SOURCE = "127.0.0.78", "127.0.0.79", "127.0.0.80"
 PAUSE = 0.02      # s, between two visits
 SILENT = 1000     # sockets that say nothing; the address has fewer
@@ -16,22 +18,11 @@ SILENT_EVERY = 5.0  # s
 GIGABYTE = 1 << 30
 
 
-class WebNuisance(threading.Thread):
+class WebNuisance(Nuisance):
     def __init__(self, address):
-        super().__init__(daemon=True)
-        host, port = address.rsplit(":", 1)
-        self.address = (host, int(port))
-        self.ends = threading.Event()
+        super().__init__(address)
         self.silent, self.next_silent = [], 0.0
         self.visits, self.faults = 0, []
-
-    def __enter__(self):
-        self.start()
-        return self
-
-    def __exit__(self, *_):
-        self.ends.set()
-        self.join()
 
     def run(self):
         visits = (self.says_a_long_head, self.leaves_a_head_open, self.says_half_a_hello, self.speaks_garbage_in_tls, self.announces_a_gigabyte,
@@ -41,7 +32,7 @@ class WebNuisance(threading.Thread):
             self.stand_about()
             for visit in visits:
                 try:
-                    connection = self.connect(SOURCE)
+                    connection = self.connect()
                     held.append(connection)
                     visit(connection)
                     self.visits += 1
@@ -53,7 +44,7 @@ class WebNuisance(threading.Thread):
         for connection in held + self.silent:
             connection.close()
 
-    def connect(self, source):
+    def connect(self, source=SOURCE):
         return socket.create_connection(self.address, 5.0, (source, 0))
 
     def stand_about(self):

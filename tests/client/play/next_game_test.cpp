@@ -1,7 +1,6 @@
 // A room that plays one game after the other, as its client sees it.
 #include <catch2/catch.hpp>
 
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -10,45 +9,12 @@
 
 #include "client/play/room_view.h"
 #include "client/play/roster.h"
-#include "shared/map/map_file.h"
+#include "staged_room.h"
 
 namespace woodlouse::client {
 namespace {
 
 using namespace std::chrono_literals;
-
-const core::Time kStart{std::chrono::seconds(100)};
-
-std::shared_ptr<const map::Map> volcano() {
-  auto loaded = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/volcano.json");
-  REQUIRE(loaded);
-  return *loaded;
-}
-
-protocol::Welcome welcome(const map::Map& map, std::uint32_t id) {
-  protocol::Welcome message;
-  message.id = id;
-  message.fields = wanted_columns();
-  message.map_hash = map.hash;
-  message.map_name = map.definition.name;
-  message.extent = {-20, -20, 20, 20};
-  return message;
-}
-
-protocol::Frame key(std::uint64_t tick, std::vector<double> values) {
-  protocol::Frame frame;
-  frame.tick = frame.base = tick;
-  frame.columns = wanted_columns().size();
-  frame.values = std::move(values);
-  return frame;
-}
-
-template <typename Message>
-std::ptrdiff_t count(const std::vector<protocol::ClientMessage>& messages) {
-  return std::count_if(messages.begin(), messages.end(), [](const protocol::ClientMessage& message) {
-    return std::holds_alternative<Message>(message);
-  });
-}
 
 }  // namespace
 

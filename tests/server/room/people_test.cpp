@@ -27,29 +27,30 @@ struct Playing {
   Playing() : house(of_eight()) {
     house.room->start([] {});
   }
-  std::uint64_t tick() {
-    house.settle();
-    return house.room->figures()->ticks;
-  }
   House house;
 };
+
+protocol::Join who_may_resume(const std::string& name) {
+  protocol::Join join = test::named(name);
+  join.may_resume = true;
+  return join;
+}
+
+std::vector<RosterEntry> roster_of(House& house) {
+  std::vector<RosterEntry> entries;
+  house.room->ask_roster([&entries](std::vector<RosterEntry> told) { entries = std::move(told); });
+  house.settle();
+  return entries;
+}
 
 }  // namespace
 
 TEST_CASE("who is muted stays so when he comes back to his louse, and as long as was said") {
   Playing playing;
   House& house = playing.house;
-  protocol::Join join;
-  join.name = "ann";
-  join.may_resume = true;
+  protocol::Join join = who_may_resume("ann");
   const auto ann = house.join(7, join);
   const auto bob = house.join(8);
-  const auto roster = [&house] {
-    std::vector<RosterEntry> entries;
-    house.room->ask_roster([&entries](std::vector<RosterEntry> told) { entries = std::move(told); });
-    house.settle();
-    return entries;
-  };
   const auto is_heard = [&house, &bob](SessionId session) {
     const std::size_t before = bob->lines.size();
     house.door->submit(session, protocol::Chat{"hello"}, house.timekeeper.now());
@@ -59,15 +60,15 @@ TEST_CASE("who is muted stays so when he comes back to his louse, and as long as
                        [](const std::string& line) { return line.find("hello") != std::string::npos; });
   };
   CHECK(is_heard(7));
-  house.room->mute(roster().at(0), std::chrono::seconds(20));
+  house.room->mute(roster_of(house).at(0), std::chrono::seconds(20));
   CHECK_FALSE(is_heard(7));
   const auto* refusal = std::get_if<protocol::ErrorMessage>(&ann->answers.back());
   REQUIRE(refusal != nullptr);
   CHECK(refusal->code == "muted");
   CHECK(refusal->text == "chat: you have been muted for another 20 s");
   CHECK(is_heard(8));
-  CHECK(roster().at(0).is_muted);
-  CHECK_FALSE(roster().at(1).is_muted);
+  CHECK(roster_of(house).at(0).is_muted);
+  CHECK_FALSE(roster_of(house).at(1).is_muted);
   house.door->leave(7, Parting::kLost);
   house.settle();
   join.resume = ann->welcomes.at(0).resume_token;
@@ -75,54 +76,38 @@ TEST_CASE("who is muted stays so when he comes back to his louse, and as long as
   CHECK_FALSE(is_heard(9));
   house.tick(20 * 60);
   CHECK(is_heard(9));
-  house.room->mute(roster().at(1), std::nullopt);  // by session: bob's is 8
+  house.room->mute(roster_of(house).at(1), std::nullopt);  // by session: bob's is 8
   house.tick(100 * 60);
   CHECK_FALSE(is_heard(9));
-  house.room->unmute(roster().at(1));
+  house.room->unmute(roster_of(house).at(1));
   CHECK(is_heard(9));
 }
 
 TEST_CASE("who is away can be muted, and another one's louse of that number is not") {
   Playing playing;
   House& house = playing.house;
-  protocol::Join join;
-  join.name = "ann";
-  join.may_resume = true;
+  protocol::Join join = who_may_resume("ann");
   const auto ann = house.join(7, join);
   house.door->leave(7, Parting::kLost);
   house.settle();
   const std::uint32_t louse = ann->welcomes.at(0).id;
   house.room->mute({RosterEntry::Kind::kAway, 0, louse, "eve", protocol::Role::kPlayer}, std::nullopt);
-  std::vector<RosterEntry> roster;
-  const auto ask = [&] {
-    house.room->ask_roster([&roster](std::vector<RosterEntry> told) { roster = std::move(told); });
-    house.settle();
-    return roster.at(0).is_muted;
-  };
-  CHECK_FALSE(ask());
-  house.room->mute(roster.at(0), std::nullopt);
-  CHECK(ask());
+  CHECK_FALSE(roster_of(house).at(0).is_muted);
+  house.room->mute(roster_of(house).at(0), std::nullopt);
+  CHECK(roster_of(house).at(0).is_muted);
 }
 
 TEST_CASE("who has come back over another connection since he was found is the one who is meant") {
   Playing playing;
   House& house = playing.house;
-  protocol::Join join;
-  join.name = "ann";
-  join.may_resume = true;
+  protocol::Join join = who_may_resume("ann");
   const auto ann = house.join(7, join);
   const RosterEntry found{RosterEntry::Kind::kSession, 7, ann->welcomes.at(0).id, "ann",
                           protocol::Role::kPlayer};
   join.resume = ann->welcomes[0].resume_token;
   house.join(8, join);
-  const auto roster = [&house] {
-    std::vector<RosterEntry> entries;
-    house.room->ask_roster([&entries](std::vector<RosterEntry> told) { entries = std::move(told); });
-    house.settle();
-    return entries;
-  };
   house.room->mute(found, std::nullopt);
-  CHECK(roster().at(0).is_muted);
+  CHECK(roster_of(house).at(0).is_muted);
   std::vector<SessionId> here;
   house.room->put_out({found}, [&here](std::vector<SessionId> sessions) { here = std::move(sessions); });
   house.settle();
@@ -133,19 +118,15 @@ TEST_CASE("who has come back over another connection since he was found is the o
 TEST_CASE("whom a recording left behind can be put out, or muted for who takes his louse over") {
   House house(test::settings(8), test::went_on());
   house.room->start([] {});
-  std::vector<RosterEntry> roster;
-  const auto ask = [&] {
-    house.room->ask_roster([&roster](std::vector<RosterEntry> told) { roster = std::move(told); });
-    house.settle();
-    return roster.size();
-  };
-  REQUIRE(ask() == 2);
+  std::vector<RosterEntry> roster = roster_of(house);
+  REQUIRE(roster.size() == 2);
   const bool is_mara_first = roster[0].name == "mara";
   house.room->mute(roster[is_mara_first ? 0 : 1], std::nullopt);
   house.room->put_out({roster[is_mara_first ? 1 : 0]}, [](const std::vector<SessionId>&) {});
-  CHECK(ask() == 1);
+  CHECK(roster_of(house).size() == 1);
   house.join(1, test::named("mara"));
-  REQUIRE(ask() == 1);
+  roster = roster_of(house);
+  REQUIRE(roster.size() == 1);
   CHECK(roster[0].session == 1);
   CHECK(roster[0].is_muted);
 }
@@ -153,9 +134,7 @@ TEST_CASE("whom a recording left behind can be put out, or muted for who takes h
 TEST_CASE("where the server is about to stop a made-up token is no way in") {
   Playing playing;
   House& house = playing.house;
-  protocol::Join join;
-  join.name = "ann";
-  join.may_resume = true;
+  protocol::Join join = who_may_resume("ann");
   const auto ann = house.join(7, join);
   house.door->leave(7, Parting::kLost);
   join.fields = protocol::default_columns();
@@ -183,9 +162,7 @@ TEST_CASE("a room says who is in it") {
   join.name = "cat";
   join.role = protocol::Role::kSpectator;
   house.join(8, join);
-  std::vector<RosterEntry> roster;
-  house.room->ask_roster([&roster](std::vector<RosterEntry> told) { roster = std::move(told); });
-  house.settle();
+  const std::vector<RosterEntry> roster = roster_of(house);
   REQUIRE(roster.size() == 2);
   CHECK(roster[0].name == "ann");
   CHECK(roster[0].session == 7);
