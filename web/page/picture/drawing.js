@@ -1,0 +1,191 @@
+// @ts-check
+// Everything of the WebGL context: what was lost with it is made again.
+import { Batch } from './batch.js';
+import { Surface, layOut, makeBuffer, makePrograms, use } from './gl.js';
+import { GroundDrawing } from './ground_drawing.js';
+import { LiceDrawing } from './lice_drawing.js';
+
+const STANDING = 350;  // ms that the camera must have stood before the ground's outline is smoothed
+const NO_CHANGE = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
+
+/** @typedef {{camera: import('./camera.js').Camera, theme: import('./colours.js').ThemeName, shading: 'height' | 'slope'}} Look */
+
+export class Drawing {
+  /** Throws an Error where there is no WebGL 2. @param {HTMLCanvasElement} canvas */
+  constructor(canvas) {
+    const gl = canvas.getContext('webgl2', { alpha: false, antialias: false, depth: false, powerPreference: 'low-power' });
+    if (!gl) throw new Error('this browser shows no WebGL 2, which the picture is drawn with');
+    this.gl = gl;
+    const info = gl.getExtension('WEBGL_debug_renderer_info');
+    const renderer = String(gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+    /** Whether a processor draws, not a graphics card. */
+    this.isSoftware = /swiftshader|llvmpipe|softpipe|software|basic render/i.test(renderer);
+    this.isLost = false;
+    /** @type {import('./relief.js').Relief | null} */
+    this.relief = null;
+    /** @type {Uint8Array | null} */
+    this.light = null;
+    /** What never moves: the block's shadow, what lies on the ground, walls. */
+    this.scenery = { floor: new Batch(), border: new Batch(), walls: new Batch() };
+    this.version = 0;
+    canvas.addEventListener('webglcontextlost', event => {
+      event.preventDefault();
+      this.isLost = true;
+    });
+    canvas.addEventListener('webglcontextrestored', () => {
+      this.isLost = false;
+      this.begin();
+      this.upload();
+    });
+    this.begin();
+  }
+
+  /** @private */
+  begin() {
+    const { gl } = this, programs = makePrograms(gl);
+    this.flat = programs.flat;
+    this.ground = new GroundDrawing(gl, programs, this.isSoftware);
+    this.lice = new LiceDrawing(gl, programs);
+    this.ghosts = new LiceDrawing(gl, programs);
+    this.strips = [0, 1, 2, 3, 4].map(() => {
+      const array = gl.createVertexArray();
+      gl.bindVertexArray(array);
+      const buffer = makeBuffer(gl, gl.ARRAY_BUFFER, 4096, true);
+      layOut(gl, [[0, 4], [1, 4]]);
+      return { array, buffer, room: 4096 };
+    });
+    /** The whole picture; the ground alone, where drawing it again costs more than copying it. @type {Surface | null} */
+    this.surface = null;
+    /** @type {Surface | null} */
+    this.still = null;
+    this.key = '';
+    this.kept = 0;
+    this.isPainted = false;
+  }
+
+  /** @param {import('./relief.js').Relief} relief */
+  setRelief(relief) {
+    this.relief = relief;
+    this.light = null;
+    this.upload();
+  }
+
+  /** @param {Uint8Array} light as bake() gives it */
+  setLight(light) {
+    this.light = light;
+    if (!this.isLost) this.ground?.setLight(light);
+    this.isPainted = false;
+  }
+
+  /** @private */
+  upload() {
+    if (this.relief && !this.isLost) this.ground?.upload(this.relief, this.light);
+    this.isPainted = false;
+  }
+
+  /** How low the block's underside is, as drawn [m]. */
+  get bottom() {
+    return (this.ground?.bottom ?? 0) * (this.relief?.exaggeration ?? 1);
+  }
+
+  /** Draws. @param {Look} look @param {import('./staging.js').Staging} staging @param {number} width pixels @param {number} height @param {number} now ms */
+  draw(look, staging, width, height, now) {
+    if (!this.isPainted) {
+      this.ground?.paint(look.theme, look.shading === 'slope');
+      this.isPainted = true;
+      this.version++;
+    }
+    this.surface = this.fitted(this.surface, width, height, this.isSoftware ? 0 : 4);
+    this.drawGround(look, width, height, now);
+    this.drawScene(look, staging);
+    this.surface.copyTo(null, false);
+  }
+
+  /** A surface of this size: the given one, or another in its place. @private
+   * @param {Surface | null | undefined} surface @param {number} width @param {number} height @param {number} samples */
+  fitted(surface, width, height, samples) {
+    if (surface && surface.width === width && surface.height === height) return surface;
+    surface?.free();
+    return new Surface(this.gl, width, height, samples);
+  }
+
+  /** The ground into this.surface: anew, or, where a processor draws and the camera stands, copied. @private
+   * @param {Look} look @param {number} width @param {number} height @param {number} now */
+  drawGround(look, width, height, now) {
+    const { gl, ground } = this, surface = /** @type {Surface} */ (this.surface);
+    const paint = to => {
+      gl.bindFramebuffer(gl.FRAMEBUFFER, to.frame);
+      gl.viewport(0, 0, width, height);
+      gl.depthMask(true);
+      gl.clear(gl.DEPTH_BUFFER_BIT);
+      ground?.draw(look.camera, look.theme, width, height, look.shading === 'slope', () => {
+        gl.enable(gl.BLEND);
+        gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+        this.flush(this.scenery.floor, 3, look.camera.matrix);
+      });
+    };
+    if (!this.isSoftware) return paint(surface);
+    const key = `${look.camera.matrix.map(v => v.toFixed(4))} ${width} ${height} ${this.version}`;
+    if (key !== this.key) this.key = key, this.stood = now, this.kept = 0;
+    else if (this.kept === 0) {
+      this.still = this.fitted(this.still, width, height, 0);
+      paint(this.still);
+      this.kept = 1;
+    } else if (this.kept === 1 && now - (this.stood ?? 0) > STANDING) {
+      const smooth = new Surface(gl, width, height, 4);
+      paint(smooth);
+      smooth.copyTo(this.still, true);
+      smooth.free();
+      this.kept = 2;
+    }
+    if (this.kept && this.still) this.still.copyTo(surface, true); else paint(surface);
+  }
+
+  /** All but the ground: what is solid, what lies on the ground, lice, what one looks through. @private @param {Look} look @param {import('./staging.js').Staging} staging */
+  drawScene({ camera }, staging) {
+    const { gl, lice, ghosts, scenery } = this, surface = /** @type {Surface} */ (this.surface), { matrix } = camera;
+    if (!lice || !ghosts) return;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, surface.frame);
+    gl.viewport(0, 0, surface.width, surface.height);
+    gl.enable(gl.DEPTH_TEST);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+    const solid = is => {
+      gl.depthMask(is);
+      if (is) gl.disable(gl.BLEND); else gl.enable(gl.BLEND);
+    };
+    solid(true);
+    this.flush(staging.solid, 0, matrix);
+    solid(false);
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(-2, -8);
+    this.flush(scenery.border, 3, matrix);
+    this.flush(staging.decals, 1, matrix);
+    gl.disable(gl.POLYGON_OFFSET_FILL);
+    this.flush(staging.ribbons, 4, NO_CHANGE, gl.TRIANGLE_STRIP);
+    solid(true);
+    lice.begin();
+    ghosts.begin();
+    for (let k = 0; k < staging.instances; k++) {
+      const instance = staging.data.subarray(16 * k, 16 * k + 16);
+      (instance[11] ? ghosts : lice).add(instance, staging.pixels[k]);
+    }
+    lice.draw(camera);
+    solid(false);
+    ghosts.draw(camera);
+    this.flush(staging.air, 2, matrix);
+    this.flush(scenery.walls, 3, matrix);
+    gl.bindVertexArray(null);
+  }
+
+  /** Sends vertices through one of the buffers. @private @param {{data: Float32Array, count: number}} batch @param {number} which @param {number[]} matrix @param {number} kind */
+  flush({ data, count }, which, matrix, kind = this.gl.TRIANGLES) {
+    if (count < 3 || !this.flat || !this.strips) return;
+    const { gl } = this, strip = this.strips[which], bytes = count * 32;
+    use(gl, this.flat, { M: matrix });
+    gl.bindVertexArray(strip.array);
+    gl.bindBuffer(gl.ARRAY_BUFFER, strip.buffer);
+    if (strip.room < bytes) gl.bufferData(gl.ARRAY_BUFFER, strip.room = bytes * 2, gl.DYNAMIC_DRAW);
+    gl.bufferSubData(gl.ARRAY_BUFFER, 0, data, 0, count * 8);
+    gl.drawArrays(kind, 0, count);
+  }
+}

@@ -1,0 +1,120 @@
+// @ts-check
+// The little that the picture needs around WebGL 2.
+import { SHADERS } from './shaders.js';
+
+/** @typedef {{program: WebGLProgram, at: Record<string, WebGLUniformLocation | null>}} Program */
+
+/** Compiles every program; how each went is asked for afterwards, so that a driver can do them side by side.
+ * @param {WebGL2RenderingContext} gl @returns {Record<string, Program>} */
+export function makePrograms(gl) {
+  const made = Object.entries(SHADERS).map(([name, sources]) => {
+    const program = gl.createProgram();
+    const shaders = sources.map((source, k) => {
+      const shader = /** @type {WebGLShader} */ (gl.createShader(k ? gl.FRAGMENT_SHADER : gl.VERTEX_SHADER));
+      gl.shaderSource(shader, source);
+      gl.compileShader(shader);
+      gl.attachShader(program, shader);
+      return shader;
+    });
+    gl.linkProgram(program);
+    return { name, program, shaders };
+  });
+  /** @type {Record<string, Program>} */
+  const programs = {};
+  for (const { name, program, shaders } of made) {
+    if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
+      throw new Error(`the ${name} shader: ${shaders.map(s => gl.getShaderInfoLog(s)).join(' ')} ${gl.getProgramInfoLog(program)}`);
+    /** @type {Program['at']} */
+    const at = {};
+    for (let k = 0, n = gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS) ?? 0; k < n; k++) {
+      const info = gl.getActiveUniform(program, k);
+      if (info) at[info.name] = gl.getUniformLocation(program, info.name);
+    }
+    programs[name] = { program, at };
+  }
+  return programs;
+}
+
+/** Uses a program with uniforms by name: numbers, vectors by length, 16 numbers a matrix; {unit} a texture's.
+ * @param {WebGL2RenderingContext} gl @param {Program} program @param {Record<string, any>} values */
+export function use(gl, { program, at }, values) {
+  gl.useProgram(program);
+  for (const name in values) {
+    const place = at[name], v = values[name];
+    if (!place) continue;
+    if (typeof v === 'number') gl.uniform1f(place, v);
+    else if (v.length === 2) gl.uniform2fv(place, v);
+    else if (v.length === 3) gl.uniform3fv(place, v);
+    else if (v.length === 4) gl.uniform4fv(place, v);
+    else if (v.length === 16) gl.uniformMatrix4fv(place, false, v);
+    else gl.uniform1i(place, v.unit);
+  }
+}
+
+/** @param {WebGL2RenderingContext} gl @param {number} target @param {AllowSharedBufferSource | number} data @param {boolean} changes */
+export function makeBuffer(gl, target, data, changes = false) {
+  const buffer = gl.createBuffer();
+  gl.bindBuffer(target, buffer);
+  // @ts-ignore a number is a size
+  gl.bufferData(target, data, changes ? gl.DYNAMIC_DRAW : gl.STATIC_DRAW);
+  return buffer;
+}
+
+/** Floats of the bound buffer as attributes: [location, how many of them]. @param {WebGL2RenderingContext} gl
+ * @param {[number, number][]} layout @param {number} divisor */
+export function layOut(gl, layout, divisor = 0) {
+  const stride = layout.reduce((sum, [, n]) => sum + 4 * n, 0);
+  let at = 0;
+  for (const [location, n] of layout) {
+    gl.enableVertexAttribArray(location);
+    gl.vertexAttribPointer(location, n, gl.FLOAT, false, stride, at);
+    gl.vertexAttribDivisor(location, divisor);
+    at += 4 * n;
+  }
+}
+
+/** Fills a texture, made where `texture` is null; it stays bound to its unit. @param {WebGL2RenderingContext} gl @param {WebGLTexture | null} texture @param {number} unit
+ * @param {number} width @param {number} height @param {number[]} kind internal format, format, type @param {ArrayBufferView | null} data */
+export function fillTexture(gl, texture, unit, width, height, kind, data) {
+  const made = texture ?? gl.createTexture();
+  gl.activeTexture(gl.TEXTURE0 + unit);
+  gl.bindTexture(gl.TEXTURE_2D, made);
+  gl.pixelStorei(gl.UNPACK_ALIGNMENT, 1);
+  gl.texImage2D(gl.TEXTURE_2D, 0, kind[0], width, height, 0, kind[1], kind[2], data);
+  for (const which of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, which, gl.LINEAR);
+  for (const which of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, which, gl.CLAMP_TO_EDGE);
+  return made;
+}
+
+/** What is drawn into: colour and depth, several samples a pixel if wanted. */
+export class Surface {
+  /** @param {WebGL2RenderingContext} gl @param {number} width @param {number} height @param {number} samples 0: one */
+  constructor(gl, width, height, samples) {
+    this.gl = gl;
+    this.width = width;
+    this.height = height;
+    this.samples = samples;
+    this.frame = gl.createFramebuffer();
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.frame);
+    this.buffers = [[gl.COLOR_ATTACHMENT0, gl.RGBA8], [gl.DEPTH_ATTACHMENT, gl.DEPTH_COMPONENT24]].map(([attachment, format]) => {
+      const buffer = gl.createRenderbuffer();
+      gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
+      gl.renderbufferStorageMultisample(gl.RENDERBUFFER, samples, format, width, height);
+      gl.framebufferRenderbuffer(gl.FRAMEBUFFER, attachment, gl.RENDERBUFFER, buffer);
+      return buffer;
+    });
+  }
+
+  /** Copies into another one of the same size, or (null) onto the canvas. @param {Surface | null} to @param {boolean} depth its depth, too */
+  copyTo(to, depth) {
+    const { gl, width: w, height: h } = this;
+    gl.bindFramebuffer(gl.READ_FRAMEBUFFER, this.frame);
+    gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, to && to.frame);
+    gl.blitFramebuffer(0, 0, w, h, 0, 0, w, h, gl.COLOR_BUFFER_BIT | (depth ? gl.DEPTH_BUFFER_BIT : 0), gl.NEAREST);
+  }
+
+  free() {
+    this.gl.deleteFramebuffer(this.frame);
+    for (const buffer of this.buffers) this.gl.deleteRenderbuffer(buffer);
+  }
+}

@@ -1,0 +1,159 @@
+// @ts-check
+// The ground with its sides and the sky behind it.
+import { SUN } from './bake.js';
+import { THEMES, along, rgb } from './colours.js';
+import { fillTexture, layOut, makeBuffer, use } from './gl.js';
+
+/** Of the map's width: so much of a map that wraps is shown again beyond each edge, fading. */
+const MARGIN = .22;
+/** Units of the textures. */
+const SHAPE = { unit: 0 }, LIGHT = { unit: 1 }, RAMPS = { unit: 2 }, PAINTED = { unit: 3 };
+
+export class GroundDrawing {
+  /** @param {WebGL2RenderingContext} gl @param {Record<string, import('./gl.js').Program>} programs @param {boolean} isSoftware */
+  constructor(gl, programs, isSoftware) {
+    this.gl = gl;
+    this.programs = programs;
+    this.isSoftware = isSoftware;
+    this.frame = gl.createFramebuffer();
+    /** @type {Record<string, WebGLTexture | null>} */
+    this.textures = { shape: null, light: null, ramps: null, painted: null };
+    /** @type {any[]} what the last ground's meshes are made of */
+    this.meshes = [];
+  }
+
+  /** @param {import('./relief.js').Relief} relief @param {Uint8Array | null} light as bake() gives it */
+  upload(relief, light) {
+    const { gl } = this, { domain, columns, rows, grid, wraps = [] } = relief.ground;
+    this.relief = relief;
+    this.margin = [0, 1].map(axis => wraps[axis] ? MARGIN : 0);
+    const range = relief.highest - relief.lowest, shape = new Float32Array(4 * columns * rows);
+    for (let k = 0; k < columns * rows; k++) {
+      shape[4 * k] = relief.isFlat ? .4 : (grid[3 * k] - relief.lowest) / range;
+      shape[4 * k + 1] = grid[3 * k + 1];
+      shape[4 * k + 2] = grid[3 * k + 2];
+    }
+    this.textures.shape = fillTexture(gl, this.textures.shape, SHAPE.unit, columns, rows, [gl.RGBA16F, gl.RGBA, gl.FLOAT], shape);
+    this.setLight(light);
+    for (const free of this.meshes) free();
+    this.meshes = [];
+    const mc = Math.round(this.margin[0] * (columns - 1)), mr = Math.round(this.margin[1] * (rows - 1));
+    const wide = columns + 2 * mc, high = rows + 2 * mr, places = new Float32Array(3 * wide * high);
+    const X = i => domain[0] + relief.width * i / (columns - 1), Y = j => domain[1] + relief.depth * j / (rows - 1);
+    const loop = (i, n) => (i % (n - 1) + n - 1) % (n - 1);
+    const Z = (i, j) => grid[3 * ((mr ? loop(j, rows) : j) * columns + (mc ? loop(i, columns) : i))];
+    for (let j = 0, k = 0; j < high; j++)
+      for (let i = 0; i < wide; i++) places[k++] = X(i - mc), places[k++] = Y(j - mr), places[k++] = Z(i - mc, j - mr);
+    const triangles = new Uint32Array(6 * (wide - 1) * (high - 1));
+    for (let j = 0, n = 0; j + 1 < high; j++)
+      for (let i = 0; i + 1 < wide; i++) {
+        const k = j * wide + i;
+        triangles[n++] = k, triangles[n++] = k + 1, triangles[n++] = k + wide;
+        triangles[n++] = k + 1, triangles[n++] = k + wide + 1, triangles[n++] = k + wide;
+      }
+    this.top = this.mesh(places, [[0, 3]], triangles);
+    // the soil under the edges; none where the map goes on
+    this.thick = .12 * relief.radius / relief.exaggeration;
+    this.bottom = relief.lowest - .07 * range - .045 * relief.radius / relief.exaggeration;
+    const soil = [];
+    const face = (count, at, nx, ny) => {
+      const shade = .66 + .5 * Math.max(0, (nx * SUN[0] + ny * SUN[1]) / Math.hypot(SUN[0], SUN[1]));
+      for (let k = 0; k + 1 < count; k++) {
+        const [x, y, z] = at(k), [u, v, w] = at(k + 1), b = this.bottom;
+        for (const [px, py, pz, deep] of [[x, y, z, 0], [u, v, w, 0], [x, y, b, z - b], [u, v, w, 0], [u, v, b, w - b], [x, y, b, z - b]])
+          soil.push(px, py, pz, deep, shade);
+      }
+    };
+    if (!mr) for (const j of [0, rows - 1]) face(columns, k => [X(k), Y(j), Z(k, j)], 0, j ? 1 : -1);
+    if (!mc) for (const i of [0, columns - 1]) face(rows, k => [X(i), Y(k), Z(i, k)], i ? 1 : -1, 0);
+    this.soil = this.mesh(new Float32Array(soil), [[0, 4], [1, 1]], null);
+  }
+
+  /** @param {Float32Array} data @param {[number, number][]} layout @param {Uint32Array | null} triangles */
+  mesh(data, layout, triangles) {
+    const { gl } = this, array = gl.createVertexArray();
+    gl.bindVertexArray(array);
+    const buffers = [makeBuffer(gl, gl.ARRAY_BUFFER, data)];
+    layOut(gl, layout);
+    if (triangles) buffers.push(makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, triangles));
+    gl.bindVertexArray(null);
+    this.meshes.push(() => {
+      gl.deleteVertexArray(array);
+      for (const buffer of buffers) gl.deleteBuffer(buffer);
+    });
+    return { array, count: triangles ? triangles.length : data.length / layout.reduce((n, [, k]) => n + k, 0) };
+  }
+
+  /** @param {Uint8Array | null} light null: all of it */
+  setLight(light) {
+    const { gl } = this, { columns, rows } = /** @type {any} */ (this.relief).ground, kind = [gl.RG8, gl.RG, gl.UNSIGNED_BYTE];
+    this.textures.light = light ? fillTexture(gl, this.textures.light, LIGHT.unit, columns, rows, kind, light)
+      : fillTexture(gl, this.textures.light, LIGHT.unit, 1, 1, kind, new Uint8Array([255, 255]));
+  }
+
+  /** Paints light and colours. @param {import('./colours.js').ThemeName} theme @param {boolean} slope */
+  paint(theme, slope) {
+    const { gl } = this, relief = /** @type {import('./relief.js').Relief} */ (this.relief), { columns, rows, edges, wraps = [] } = relief.ground;
+    const look = THEMES[theme], ramps = new Uint8Array(2 * 256 * 4);
+    for (let k = 0; k < 256; k++) {
+      const tone = relief.tone(relief.lowest + (relief.highest - relief.lowest) * k / 255);
+      ramps.set(along(look.height, tone).map(v => 255 * v), 4 * k);
+      ramps.set(along(look.slope, k / 255).map(v => 255 * v), 4 * (256 + k));
+    }
+    this.textures.ramps = fillTexture(gl, this.textures.ramps, RAMPS.unit, 256, 2, [gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE], ramps);
+    const longest = this.isSoftware ? 1024 : 2048, most = Math.max(relief.width, relief.depth);
+    const w = Math.max(64, Math.round(longest * relief.width / most)), h = Math.max(64, Math.round(longest * relief.depth / most));
+    this.textures.painted = fillTexture(gl, this.textures.painted, PAINTED.unit, w, h, [gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE], null);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, this.frame);
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, this.textures.painted, 0);
+    gl.viewport(0, 0, w, h);
+    gl.disable(gl.DEPTH_TEST);
+    gl.disable(gl.BLEND);
+    use(gl, this.programs.paint, {
+      shape: SHAPE, light: LIGHT, ramps: RAMPS, toSun: SUN, points: [columns, rows], metres: [relief.width, relief.depth],
+      exaggeration: relief.exaggeration, steep: relief.steep, slope: +slope, tile: relief.isFlat ? relief.tile : 0,
+      open: +(edges === 'open'), seam: +(wraps[0] || wraps[1] || false), sun: look.sun,
+    });
+    gl.bindVertexArray(null);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    gl.activeTexture(gl.TEXTURE0 + PAINTED.unit);
+    gl.generateMipmap(gl.TEXTURE_2D);
+    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, this.isSoftware ? gl.LINEAR_MIPMAP_NEAREST : gl.LINEAR_MIPMAP_LINEAR);
+    if (wraps[0]) gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.REPEAT);
+    if (wraps[1]) gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.REPEAT);
+    const sharper = !this.isSoftware && gl.getExtension('EXT_texture_filter_anisotropic');
+    if (sharper) gl.texParameterf(gl.TEXTURE_2D, sharper.TEXTURE_MAX_ANISOTROPY_EXT, 8);
+  }
+
+  /** Draws sky, sides and ground over all of what is bound. @param {import('./camera.js').Camera} camera @param {import('./colours.js').ThemeName} theme
+   * @param {number} width pixels @param {number} height @param {boolean} slope @param {() => void} floor draws what lies under the block */
+  draw(camera, theme, width, height, slope, floor) {
+    const { gl, programs } = this, relief = /** @type {import('./relief.js').Relief} */ (this.relief), look = THEMES[theme], { top, soil } = this;
+    if (!top || !soil) return;
+    const [skyAbove, skyBelow, skyGlow] = look.sky.map(rgb);
+    const common = {
+      M: camera.matrix, size: [width, height], skyAbove, skyBelow, skyGlow, exaggeration: relief.exaggeration,
+      far: camera.now && camera.view !== 'map' ? camera.now.distance + relief.radius * 1.3 : 1e9,
+    };
+    gl.disable(gl.BLEND);
+    gl.disable(gl.DEPTH_TEST);
+    use(gl, programs.sky, common);
+    gl.bindVertexArray(null);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
+    if (soil.count) floor();
+    gl.disable(gl.BLEND);
+    gl.enable(gl.DEPTH_TEST);
+    gl.depthMask(true);
+    use(gl, programs.ground, {
+      ...common, domain: relief.ground.domain, painted: PAINTED, ink: look.ink, interval: slope ? 0 : relief.interval,
+      margin: Math.max(.0, ...(this.margin ?? [])),
+    });
+    gl.bindVertexArray(top.array);
+    gl.drawElements(gl.TRIANGLES, top.count, gl.UNSIGNED_INT, 0);
+    if (!soil.count) return;
+    const [a, b, c] = look.soil.map(rgb);
+    use(gl, programs.soil, { ...common, top: a, middle: b, bottom: c, thick: this.thick });
+    gl.bindVertexArray(soil.array);
+    gl.drawArrays(gl.TRIANGLES, 0, soil.count);
+  }
+}

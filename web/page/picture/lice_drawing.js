@@ -1,0 +1,64 @@
+// @ts-check
+// Lice: one mesh for those near, plainer ones for those far off, all of one kind in a call.
+import { SUN } from './bake.js';
+import { layOut, makeBuffer, use } from './gl.js';
+import { louseMesh } from './louse_mesh.js';
+
+/** Numbers an instance: x, y, z, half length; forward, phase of the walk; up, 1 a ghost; colour, unused. */
+export const INSTANCE = 16;
+/** From so many pixels of half length on a louse has head and legs, and all of it. */
+const FINER = [9, 20];
+
+export class LiceDrawing {
+  /** @param {WebGL2RenderingContext} gl @param {Record<string, import('./gl.js').Program>} programs */
+  constructor(gl, programs) {
+    this.gl = gl;
+    this.program = programs.louse;
+    this.kinds = /** @type {const} */ ([0, 1, 2]).map(detail => {
+      const mesh = louseMesh(detail), array = gl.createVertexArray();
+      gl.bindVertexArray(array);
+      makeBuffer(gl, gl.ARRAY_BUFFER, mesh.places);
+      layOut(gl, [[0, 4]]);
+      makeBuffer(gl, gl.ARRAY_BUFFER, mesh.normals);
+      layOut(gl, [[1, 3]]);
+      makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, mesh.triangles);
+      const data = new Float32Array(64 * INSTANCE);
+      const buffer = makeBuffer(gl, gl.ARRAY_BUFFER, data.byteLength, true);
+      layOut(gl, [[2, 4], [3, 4], [4, 4], [5, 4]], 1);
+      return { array, buffer, data, room: 64, count: 0, triangles: mesh.triangles.length };
+    });
+    gl.bindVertexArray(null);
+  }
+
+  begin() {
+    for (const kind of this.kinds) kind.count = 0;
+  }
+
+  /** Copies an instance. @param {Float32Array} instance @param {number} pixels its half length in the picture */
+  add(instance, pixels) {
+    const kind = this.kinds[pixels < FINER[0] ? 0 : pixels < FINER[1] ? 1 : 2];
+    if ((kind.count + 1) * INSTANCE > kind.data.length) {
+      const grown = new Float32Array(2 * kind.data.length);
+      grown.set(kind.data);
+      kind.data = grown;
+    }
+    kind.data.set(instance, INSTANCE * kind.count++);
+  }
+
+  /** @param {import('./camera.js').Camera} camera */
+  draw(camera) {
+    const { gl } = this;
+    use(gl, this.program, { M: camera.matrix, eye: camera.eye, toSun: SUN });
+    for (const kind of this.kinds) {
+      if (!kind.count) continue;
+      gl.bindVertexArray(kind.array);
+      gl.bindBuffer(gl.ARRAY_BUFFER, kind.buffer);
+      if (kind.room * INSTANCE < kind.data.length) {
+        kind.room = kind.data.length / INSTANCE;
+        gl.bufferData(gl.ARRAY_BUFFER, kind.data.byteLength, gl.DYNAMIC_DRAW);
+      }
+      gl.bufferSubData(gl.ARRAY_BUFFER, 0, kind.data, 0, kind.count * INSTANCE);
+      gl.drawElementsInstanced(gl.TRIANGLES, kind.triangles, gl.UNSIGNED_SHORT, 0, kind.count);
+    }
+  }
+}

@@ -1,0 +1,129 @@
+// @ts-check
+// What the page looks like: a ground, lice on it, names over them. It is given arrays and draws them; it asks
+// neither the network nor the core, and touches nothing of the page but its two canvases.
+import { Camera } from './camera.js';
+import { THEMES, css, louseColour } from './colours.js';
+import { Drawing } from './drawing.js';
+import { buildScenery } from './marks.js';
+import { Names } from './names.js';
+import { Relief } from './relief.js';
+import { Resolution } from './resolution.js';
+import { Staging } from './staging.js';
+
+export class Picture {
+  /**
+   * Throws an Error that a person understands where there is no WebGL 2.
+   * @param {HTMLCanvasElement} canvas @param {HTMLCanvasElement} labelsCanvas over it, of the same size
+   * @param {{calm?: boolean}} options calm: nothing glides or pulses
+   */
+  constructor(canvas, labelsCanvas, { calm = false } = {}) {
+    this.canvas = canvas;
+    this.calm = calm;
+    this.camera = new Camera(calm);
+    this.names = new Names(labelsCanvas);
+    this.staging = new Staging();
+    this.drawing = new Drawing(canvas);
+    this.resolution = new Resolution(this.drawing.isSoftware ? 1 : 0);
+    /** @type {import('./colours.js').ThemeName} */
+    this.theme = 'dark';
+    /** @type {import('./colours.js').Palette} */
+    this.palette = 'default';
+    /** @type {'height' | 'slope'} */
+    this.shading = 'height';
+    /** @type {Relief | null} */
+    this.relief = null;
+    this.number = 0;
+    this.last = 0;
+    /** Milliseconds of own script in the last frame. */
+    this.cost = 0;
+  }
+
+  /** How many points a grid of this ground should have: more than the machine can draw help nobody. @param {number[]} domain */
+  gridFor(domain) {
+    const longest = this.drawing.isSoftware ? 144 : 224, w = domain[2] - domain[0], h = domain[3] - domain[1];
+    const side = v => Math.max(24, Math.round(longest * v / Math.max(w, h)));
+    return { columns: side(w), rows: side(h) };
+  }
+
+  /** How many times too high heights are drawn; the page says so where it is not 1. */
+  get exaggeration() {
+    return this.relief ? this.relief.exaggeration : 1;
+  }
+
+  /** Shows another ground. @param {import('./relief.js').GroundData} ground */
+  setGround(ground) {
+    const relief = this.relief = new Relief(ground), number = ++this.number;
+    this.staging.setRelief(relief);
+    this.drawing.setRelief(relief);
+    this.camera.setStage(relief.stage(this.drawing.bottom));
+    this.build();
+    if (relief.isFlat) return;
+    // shadows come when they are done; where a browser runs no such worker there are none
+    const worker = this.worker ??= new Worker(new URL('./bake_worker.js', import.meta.url), { type: 'module' });
+    worker.onmessage = ({ data }) => {
+      if (data.number === this.number) this.drawing.setLight(data.light);
+    };
+    const { domain, columns, rows, grid, wraps } = ground;
+    worker.postMessage({ number, ground: { domain, columns, rows, grid, wraps }, exaggeration: relief.exaggeration });
+  }
+
+  /** @private */
+  build() {
+    if (this.relief) buildScenery(this.drawing.scenery, this.relief, this.drawing.bottom, this.theme);
+    this.drawing.isPainted = false;
+  }
+
+  /** @param {import('./colours.js').ThemeName} theme */
+  setTheme(theme) {
+    this.theme = theme in THEMES ? theme : 'dark';
+    this.build();
+  }
+
+  /** @param {import('./colours.js').Palette} palette */
+  setPalette(palette) {
+    this.palette = palette;
+  }
+
+  /** By height, or by how steep it is. @param {'height' | 'slope'} shading */
+  setShading(shading) {
+    this.shading = shading;
+    this.drawing.isPainted = false;
+  }
+
+  /** A louse's colour for the page. @param {number | 'you'} index */
+  colourOf(index) {
+    return css(louseColour(this.palette, index));
+  }
+
+  /** Forgets where lice were: another moment is shown. */
+  clearTrails() {
+    this.staging.trails.clear();
+  }
+
+  /** The louse at a place, 0: none. @param {number} x CSS pixels @param {number} y */
+  pick(x, y) {
+    let best = 0, nearest = 24;
+    for (const louse of this.staging.shown) {
+      const way = Math.hypot(louse.x - x, louse.y - y);
+      if (way < nearest) nearest = way, best = louse.id;
+    }
+    return best;
+  }
+
+  /** Draws a scene. @param {import('./staging.js').Scene} scene @param {number} now ms */
+  draw(scene, now) {
+    const { canvas, camera, staging, drawing } = this;
+    if (drawing.isLost || !this.relief) return;
+    const begun = performance.now();
+    this.resolution.frame(now, now - this.last);
+    this.last = now;
+    const ratio = Math.min(2, globalThis.devicePixelRatio || 1) * this.resolution.scale, w = canvas.clientWidth, h = canvas.clientHeight;
+    const width = Math.max(1, Math.round(w * ratio)), height = Math.max(1, Math.round(h * ratio));
+    if (canvas.width !== width || canvas.height !== height) canvas.width = width, canvas.height = height;
+    camera.update(w, h, now, staging.find(scene, scene.follow || camera.follow));
+    staging.stage(scene, this, now, width, height);
+    drawing.draw(this, staging, width, height, now);
+    this.names.draw(staging.names, camera, this.theme, staging.arrows);
+    this.cost = performance.now() - begun;
+  }
+}

@@ -1,0 +1,207 @@
+// @ts-check
+// Turns a scene into what is drawn of it: instances of lice, triangles, ribbons, names.
+import { bodyAxes } from './attitude.js';
+import { Batch } from './batch.js';
+import { LICE, louseColour, rgb } from './colours.js';
+import { POSTS, centreOf, drawCrumbs, drawGates, drawRing, drawSun, middleOf } from './marks.js';
+import { Ribbons } from './ribbon.js';
+import { POINTS, Trails } from './trails.js';
+import { clamp } from './vectors.js';
+
+/**
+ * A louse with the wire's names (id, phase, x, y, vx, vy, heading_x, heading_y, flight_z, flight_vz, distance), the
+ * ground under it (z, zx, zy), its name and the number of its colour.
+ * @typedef {{id: any, phase: number, x: number, y: number, vx: number, vy: number, heading_x: number, heading_y: number,
+ *   flight_z: number, flight_vz: number, distance: number, z: number, zx: number, zy: number, name?: string, colour?: number,
+ *   isYou?: boolean, isGhost?: boolean, outline?: boolean, kind?: string}} Louse
+ */
+/** @typedef {{lice: Louse[], you?: any, follow?: any, marks?: import('./marks.js').Marks | null, trails?: boolean}} Scene */
+
+/** Half of a louse's length on the ground [m], and in the picture at least [CSS pixels]: many are drawn smaller. */
+const HALF = .62, LEAST = 10.5, LEAST_OF_MANY = 6.5, MANY = 60;
+const FLYING = 2;
+/** @type {[number, number, number]} */
+const WHITE = [1, 1, 1], BLACK = /** @type {[number, number, number]} */ ([0, 0, 0]);
+const GHOSTS = /** @type {Record<string, string>} */ ({ record: 'record', author: 'author', own: 'your last' });
+
+export class Staging {
+  constructor() {
+    this.solid = new Batch();
+    this.decals = new Batch();
+    this.air = new Batch();
+    this.ribbons = new Ribbons(32768);
+    this.trails = new Trails();
+    this.data = new Float32Array(16 * 256);
+    this.pixels = new Float32Array(256);
+    this.instances = 0;
+    /** @type {import('./names.js').Name[]} */
+    this.names = [];
+    /** @type {{x: number, y: number, angle: number, colour: number}[]} */
+    this.arrows = [];
+    /** @type {{id: any, x: number, y: number}[]} */
+    this.shown = [];
+    /** The height of the drawn ground. @type {(x: number, y: number) => number} */
+    this.heightAt = () => 0;
+    /** @type {any} */
+    this.lastFollowed = null;
+  }
+
+  /** @param {import('./relief.js').Relief} relief */
+  setRelief(relief) {
+    this.relief = relief;
+    this.heightAt = (x, y) => relief.heightAt(x, y) * relief.exaggeration;
+    this.trails.clear();
+    this.lastFollowed = null;
+  }
+
+  /** Where a louse is drawn. @param {Louse} louse */
+  placeOf(louse) {
+    const E = this.relief ? this.relief.exaggeration : 1;
+    const z = louse.phase === FLYING ? louse.flight_z : louse.z ?? this.relief?.heightAt(louse.x, louse.y) ?? 0;
+    return { x: louse.x, y: louse.y, z: z * E };
+  }
+
+  /** Where the louse to follow is, or was last. @param {Scene} scene @param {any} id */
+  find(scene, id) {
+    if (!id) return null;
+    const louse = scene.lice.find(l => l.id === id && !l.isGhost);
+    if (louse) this.lastFollowed = { id, ...this.placeOf(louse) };
+    return this.lastFollowed?.id === id ? this.lastFollowed : null;
+  }
+
+  /** @param {Scene} scene @param {{camera: import('./camera.js').Camera, palette: import('./colours.js').Palette, theme: import('./colours.js').ThemeName, calm: boolean}} look
+   * @param {number} now ms @param {number} width pixels of the picture @param {number} height */
+  stage(scene, look, now, width, height) {
+    const { camera, palette } = look, marks = scene.marks ?? {}, relief = this.relief;
+    if (!relief) return;
+    for (const batch of [this.solid, this.decals, this.air]) batch.count = 0;
+    this.ribbons.begin(camera.matrix, width, height);
+    this.instances = 0;
+    this.names = [];
+    this.arrows = [];
+    this.shown = [];
+    this.look = look;
+    this.seconds = look.calm ? 0 : now / 1000;
+    const least = scene.lice.length > MANY ? LEAST_OF_MANY : LEAST, ratio = width / camera.width;
+    const isDue = scene.trails !== false && this.trails.isDue(now), followed = scene.follow || camera.follow;
+    const size = (x, y, z) => {
+      const p = camera.project(x, y, z);
+      return Math.max(HALF, p ? least * camera.metresPerPixel(p.w) : 0);
+    };
+    const board = {
+      solid: this.solid, decals: this.decals, air: this.air, heightAt: this.heightAt, seconds: this.seconds, isDark: look.theme === 'dark',
+      size: (x, y) => size(x, y, this.heightAt(x, y)), louse: index => rgb(louseColour(palette, index)),
+    };
+    if (marks.ring) drawRing(board, marks.ring);
+    if (marks.gates) drawGates(board, marks.gates), this.nameGates(marks.gates, board);
+    if (marks.crumbs) drawCrumbs(board, marks.crumbs);
+    const lice = marks.ghosts?.length ? scene.lice.concat(marks.ghosts.map((g, k) => ({ ...g, id: `ghost ${k}`, isGhost: true, name: g.name ?? GHOSTS[g.kind] ?? 'ghost' }))) : scene.lice;
+    for (const louse of lice) {
+      const at = this.placeOf(louse), isYou = louse.isYou ?? (louse.id === scene.you && !louse.isGhost);
+      const isGhost = !!(louse.isGhost || louse.outline), own = isYou || louse.id === followed;
+      const colour = louseColour(palette, isYou ? 'you' : louse.colour ?? louse.id), c = rgb(colour);
+      const half = size(at.x, at.y, at.z) * (isYou ? 1.12 : 1);
+      if (isDue && !isGhost) this.trails.add(louse.id, at.x, at.y, at.z, relief.radius * .25);
+      const p = camera.project(at.x, at.y, at.z + half * .4), pixels = p ? half / camera.metresPerPixel(p.w) : 1;
+      this.put(louse, at, half, c, isGhost, isYou, own, pixels);
+      if (!p) continue;
+      this.shown.push({ id: isGhost && !(louse.id > 0) ? 0 : louse.id, x: p.x, y: p.y });
+      this.pixels[this.instances - 1] = pixels;
+      const rank = isYou ? Infinity : own ? 1e6 : isGhost ? 1e3 : 1 / p.w;
+      this.names.push({ key: louse.id, text: isYou ? 'you' : String(louse.name ?? '#' + louse.id), colour, badge: isYou, x: p.x, y: p.y, reach: pixels * (own ? 1.35 : .8) + 3, rank });
+      if (scene.trails !== false && !isGhost) this.trail(louse, at, c, own, ratio);
+      if (isYou) this.pointAt(at, colour, camera, false);
+    }
+    if (isDue) this.trails.sweep();
+    if (marks.arrow) this.pointAt({ ...marks.arrow, z: this.heightAt(marks.arrow.x, marks.arrow.y) }, 0xffd34d, camera, true);
+    const centre = relief.ground.centre;
+    if (centre) {
+      const m = camera.matrix, [x, y] = centreOf(centre), n = Math.hypot(m[0], m[4], m[8]), u = Math.hypot(m[1], m[5], m[9]);
+      drawSun(this.air, [x, y, this.heightAt(x, y) + relief.radius * .02], [m[0] / n, m[4] / n, m[8] / n], [m[1] / u, m[5] / u, m[9] / u], relief.radius);
+    }
+  }
+
+  /** A louse, its shadow, its ring. @private @param {Louse} louse @param {{x: number, y: number, z: number}} at @param {number} half @param {[number, number, number]} c
+   * @param {boolean} isGhost @param {boolean} isYou @param {boolean} own @param {number} pixels half its length in the picture */
+  put(louse, at, half, c, isGhost, isYou, own, pixels) {
+    const relief = /** @type {import('./relief.js').Relief} */ (this.relief), E = relief.exaggeration, isFlying = louse.phase === FLYING;
+    if (16 * (this.instances + 1) > this.data.length) {
+      const data = new Float32Array(2 * this.data.length), pixels = new Float32Array(2 * this.pixels.length);
+      data.set(this.data);
+      pixels.set(this.pixels);
+      this.data = data;
+      this.pixels = pixels;
+    }
+    const d = this.data, k = 16 * this.instances++, zx = (louse.zx ?? 0) * E, zy = (louse.zy ?? 0) * E;
+    let hx = louse.heading_x, hy = louse.heading_y;
+    const n = Math.hypot(hx, hy);
+    if (n > 0) hx /= n, hy /= n; else hx = 1, hy = 0;
+    if (isFlying) { // along its way, not along the ground
+      const climb = clamp(louse.flight_vz * E / Math.max(.5, Math.hypot(louse.vx, louse.vy)), -1.5, 1.5);
+      bodyAxes(hx, hy, hx * climb, hy * climb, d, k + 4);
+    } else bodyAxes(hx, hy, zx, zy, d, k + 4);
+    d[k] = at.x, d[k + 1] = at.y, d[k + 2] = at.z + (isFlying ? half * .2 : 0), d[k + 3] = half;
+    d[k + 7] = louse.distance / half * 4;
+    d[k + 11] = isGhost ? 1 : 0;
+    d[k + 12] = c[0], d[k + 13] = c[1], d[k + 14] = c[2], d[k + 15] = 1;
+    // on the ground below it
+    const ground = isFlying ? this.heightAt(at.x, at.y) : at.z, high = at.z - ground, lift = half * .07;
+    const fx = hx * half, fy = hy * half, rise = s => [s * fx, s * fy, s * (zx * fx + zy * fy)], side = s => [-s * fy, s * fx, s * (zy * fx - zx * fy)];
+    const spread = 1 + Math.min(1.2, high / (8 * half)), o = [at.x + .16 * half, at.y - .13 * half, ground + lift + .16 * half * zx - .13 * half * zy];
+    if (!isGhost) this.decals.disc(o, rise(1.22 * spread), side(.9 * spread), 8, BLACK, isFlying ? .42 / spread : .6, 0);
+    if (isFlying && high > half) {
+      this.ribbons.cut();
+      this.ribbons.add(at.x, at.y, ground, 1, c[0], c[1], c[2], .25);
+      this.ribbons.add(at.x, at.y, at.z, 1, c[0], c[1], c[2], .8);
+    }
+    if (!own) return;
+    const r = isYou ? 1.85 + .08 * Math.sin(this.seconds * 4) : 1.8, flat = [at.x, at.y, ground + lift * 1.3];
+    const wide = clamp(3 / pixels, .05, .3), ring = (radius, width, colour, inside, outside) =>
+      this.decals.ring(flat, rise(radius + width), side(radius + width), radius / (radius + width), 40, colour, inside, outside);
+    ring(r + wide, wide * 1.6, BLACK, .55, 0);
+    ring(r, wide, isYou ? c : WHITE, 1, 1);
+    if (isYou) ring(r - wide * .7, wide * .7, WHITE, 1, 1);
+  }
+
+  /** @private @param {Louse} louse @param {{x: number, y: number, z: number}} at @param {[number, number, number]} c @param {boolean} own @param {number} ratio pixels a CSS pixel */
+  trail(louse, at, c, own, ratio) {
+    const trail = this.trails.trails.get(louse.id), { ribbons } = this;
+    if (!trail || trail.count < 2) return;
+    const p = trail.points, strength = own ? .95 : .62, wide = (own ? 2 : 1.35) * ratio, lift = .05;
+    ribbons.cut();
+    for (let k = 0; k < trail.count; k++) {
+      const i = 4 * ((trail.end - trail.count + k + POINTS) % POINTS), age = k / trail.count;
+      if (p[i + 3] && k) ribbons.cut();
+      ribbons.add(p[i], p[i + 1], p[i + 2] + lift, wide * (.3 + .7 * age), c[0], c[1], c[2], strength * age);
+    }
+    const last = 4 * ((trail.end - 1 + POINTS) % POINTS);
+    if (Math.hypot(at.x - p[last], at.y - p[last + 1]) > (this.relief?.radius ?? 0) * .25) return;
+    ribbons.add(at.x, at.y, at.z + lift, wide, c[0], c[1], c[2], strength);
+  }
+
+  /** @private @param {import('./marks.js').Gate[]} gates @param {import('./marks.js').Board} board */
+  nameGates(gates, board) {
+    for (const gate of gates) {
+      const [x, y] = middleOf(gate), isNext = gate.state === 'next', z = this.heightAt(x, y) + board.size(x, y) * POSTS * (isNext ? 1.3 : .8);
+      const p = this.look?.camera.project(x, y, z);
+      if (p) this.names.push({ key: `gate ${gate.number}`, text: String(gate.number) + (gate.air ? ' air' : ''), colour: isNext ? 0xffd34d : null, badge: isNext, x: p.x, y: p.y, reach: 2, rank: isNext ? 1e7 : 10 });
+    }
+  }
+
+  /** An arrow at the picture's edge towards what is outside of it; a mark over it inside, if wanted. @private
+   * @param {{x: number, y: number, z: number}} at @param {number} colour @param {import('./camera.js').Camera} camera @param {boolean} inside */
+  pointAt(at, colour, camera, inside) {
+    const { left, top, right, bottom } = camera.insets, p = camera.project(at.x, at.y, at.z);
+    const x0 = left + 22, y0 = top + 22, x1 = camera.width - right - 22, y1 = camera.height - bottom - 22, mx = (x0 + x1) / 2, my = (y0 + y1) / 2;
+    if (p && p.x >= x0 && p.x <= x1 && p.y >= y0 && p.y <= y1) {
+      if (inside) this.arrows.push({ x: p.x, y: p.y - 34 - 3 * Math.sin((this.seconds ?? 0) * 5), angle: Math.PI / 2, colour });
+      return;
+    }
+    // before the division by w what lies behind the eye is on its own side, too
+    const m = camera.matrix, w = Math.max(1e-6, Math.abs(m[3] * at.x + m[7] * at.y + m[11] * at.z + m[15]));
+    const ux = ((m[0] * at.x + m[4] * at.y + m[8] * at.z + m[12]) / w + 1) * camera.width / 2 - mx;
+    const uy = (1 - (m[1] * at.x + m[5] * at.y + m[9] * at.z + m[13]) / w) * camera.height / 2 - my;
+    const t = Math.min((x1 - x0) / 2 / Math.max(1, Math.abs(ux)), (y1 - y0) / 2 / Math.max(1, Math.abs(uy)));
+    this.arrows.push({ x: mx + ux * t, y: my + uy * t, angle: Math.atan2(uy, ux), colour });
+  }
+}
