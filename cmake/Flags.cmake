@@ -24,8 +24,10 @@ add_compile_options(
 set(CMAKE_CXX_FLAGS_RELEASE "-O3")
 set(CMAKE_CXX_FLAGS_DEBUG "-O0 -g")
 # So that a shared library may be made of ours. Nobody is to replace a function of ours from outside: may it be inlined.
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
-add_compile_options(-fno-semantic-interposition)
+if(NOT WOODLOUSE_ONLY STREQUAL "web")
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+  add_compile_options(-fno-semantic-interposition)
+endif()
 
 set(WOODLOUSE_SANITIZE "" CACHE STRING "Sanitizers, as in -fsanitize= (for example address,undefined)")
 if(WOODLOUSE_SANITIZE)

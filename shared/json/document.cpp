@@ -3,6 +3,7 @@
 #include <charconv>
 
 #include "shared/core/joined.h"
+#include "shared/json/decimal_number.h"
 #include "shared/json/text.h"
 
 namespace woodlouse::json {
@@ -59,7 +60,7 @@ double Value::number() const {
     if (value != 0) return static_cast<double>(value);
   }
   double value = text.front() == '-' ? -0.0 : 0.0;  // left as it is by what is too small for a double
-  std::from_chars(text.data(), text.data() + text.size(), value);
+  read_decimal(text.data(), text.data() + text.size(), value);
   return value;
 }
 

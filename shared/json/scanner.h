@@ -2,11 +2,12 @@
 // million. Whatever is unusual is refused, and left to the document's parser (document.h).
 #pragma once
 
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
+
+#include "shared/json/decimal_number.h"
 
 namespace woodlouse::json {
 
@@ -67,7 +68,7 @@ class Scanner {
       return is_negative ? -size : size;
     }
     double value = 0.0;
-    const auto read = std::from_chars(begin, at_, value);
+    const auto read = read_decimal(begin, at_, value);
     return read.ec == std::errc() && read.ptr == at_ ? std::optional(value) : std::nullopt;
   }
 

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <system_error>
 
 #include "shared/core/joined.h"
+#include "shared/json/decimal_number.h"
 #include "shared/json/text.h"
 #include "shared/map/esri_header.h"
 #include "shared/map/map_text.h"
@@ -60,7 +60,7 @@ class Words {
 std::optional<double> to_number(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  const auto [end, error] = json::read_decimal(word.data(), word.data() + word.size(), value);
   if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
   return value;
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "shared/core/joined.h"
+#include "shared/json/decimal_number.h"
 #include "shared/json/text.h"
 #include "shared/map/esri_header.h"
 
@@ -93,7 +93,7 @@ class FltKeys {
     }
     double value = 0.0;
     const char* end = entry->value.data() + entry->value.size();
-    const auto [stop, error] = std::from_chars(entry->value.data(), end, value);
+    const auto [stop, error] = json::read_decimal(entry->value.data(), end, value);
     if (error != std::errc{} || stop != end) {
       complain(place(source_, *entry), core::joined({"\"", json::shown(entry->value), "\" is no number"}),
                {});

@@ -34,7 +34,8 @@ FunctionTerrain read_function(const json::Value& value, const json::Value& name,
                  hint.empty() ? "parabolic_pot, wavy_pot, volcano, hills or waves" : hint);
   }
   if (const auto grid = fields.find("grid")) {
-    result.grid = json::integer_in(*grid, kMinFunctionGrid, kMaxFunctionGrid, problems).value_or(result.grid);
+    const auto side = json::integer_in(*grid, kMinFunctionGrid, kMaxFunctionGrid, problems);
+    result.grid = static_cast<std::size_t>(side.value_or(result.grid));
   }
   result.scale = fields.number_or("scale", kFunctionScale, result.scale);
   return result;

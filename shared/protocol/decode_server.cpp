@@ -4,6 +4,7 @@
 #include "shared/protocol/codes.h"
 #include "shared/protocol/decode_frame.h"
 #include "shared/protocol/decode_game.h"
+#include "shared/protocol/decode_map.h"
 #include "shared/protocol/decode_records.h"
 #include "shared/protocol/field_reader.h"
 #include "shared/protocol/field_texts.h"
@@ -252,53 +253,9 @@ Decoded read_rooms(FieldReader& reader, const Context&) {
   return reader.finish<ServerMessage>(std::move(rooms));
 }
 
-void read_overview(FieldReader& knots, terrain::HeightGrid& overview) {
-  constexpr IntegerRange kSide{4, static_cast<std::int64_t>(kMaxOverviewSide)};
-  core::Vec2 origin;
-  core::Vec2 spacing;
-  knots.pair("origin", origin);
-  knots.pair("spacing", spacing);
-  if (!knots.failed() && !(spacing.x > 0.0 && spacing.y > 0.0)) {
-    knots.fail(code::kBadField, "map.knots.spacing: it must be two numbers above 0");
-  }
-  overview.x_origin = origin.x;
-  overview.y_origin = origin.y;
-  overview.dx = spacing.x;
-  overview.dy = spacing.y;
-  knots.integer("columns", overview.columns, kSide);
-  knots.integer("rows", overview.rows, kSide);
-  knots.array("heights", "an array of rows", [&](json::Value row, std::size_t index) {
-    const auto refuse = [&] {
-      knots.refuse("heights", index, row, "one of `rows` arrays of `columns` numbers");
-      return false;
-    };
-    if (row.kind() != json::Kind::kArray || row.size() != overview.columns || index >= overview.rows) {
-      static_cast<void>(refuse());
-      return;
-    }
-    row.for_each([&](json::Value height) {
-      if (!height.is_number()) return refuse();
-      overview.heights.push_back(height.number());
-      return true;
-    });
-  });
-  if (!knots.failed() && overview.heights.size() != overview.columns * overview.rows) {
-    knots.fail(code::kBadField, "map.knots.heights: it must hold `rows` arrays");
-  }
-}
-
-Decoded read_map(FieldReader& reader, const Context&) {
+Decoded read_map_message(FieldReader& reader, const Context&) {
   MapMessage map;
-  reader.cleaned_text("name", map.name, kLabelBytes);
-  reader.hash("hash", map.hash);
-  if (const auto definition = reader.field("definition", "an object", Presence::kRequired)) {
-    if (definition->kind() != json::Kind::kObject) reader.refuse("definition", *definition, "an object");
-    if (!reader.failed()) map.definition = definition->raw();  // the hash is taken over these bytes
-  }
-  if (reader.field("overview", "true or false", Presence::kOptional))
-    reader.boolean("overview", map.is_overview);
-  if (map.is_overview)
-    reader.object("knots", [&](FieldReader& knots) { read_overview(knots, map.knots.emplace()); });
+  read_map(reader, map);
   return reader.finish<ServerMessage>(std::move(map));
 }
 
@@ -322,7 +279,7 @@ constexpr std::array<std::pair<std::string_view, Read>, 15> kTypes = {{
     {"error", read_error},
     {"bye", read_bye},
     {"rooms", read_rooms},
-    {"map", read_map},
+    {"map", read_map_message},
     {"ping", read_time<Ping>},
     {"pong", read_time<Pong>},
     {"records", read_records},

@@ -1,0 +1,162 @@
+// Recordings (shared/replay): opened, looked at anywhere, proven.
+#include <cassert>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "shared/json/object_text.h"
+#include "shared/protocol/messages.h"
+#include "shared/replay/archive.h"
+#include "shared/replay/playback.h"
+#include "shared/replay/verify.h"
+#include "web/core/answer.h"
+#include "web/core/bytes.h"
+#include "web/core/ground.h"
+#include "web/core/shown_match.h"
+
+namespace woodlouse::web {
+namespace {
+
+struct OpenRecording {
+  std::shared_ptr<const replay::ReplayArchive> archive;
+  std::unique_ptr<replay::Playback> playback;
+};
+
+Handles<OpenRecording> recordings;
+
+replay::Playback& playback(Handle handle) { return *recordings.at(handle).playback; }
+
+replay::ReplaySource source_of(const char* bytes, std::size_t size) {
+  return replay::ReplaySource::of_bytes(std::string(bytes_at(bytes, size)), "the recording");
+}
+
+void append_player(std::string& out, const replay::PlayerSpan& player) {
+  json::ObjectText text(out);
+  text.integer("id", player.player)
+      .text("name", player.label.name)
+      .text("role", protocol::to_text(player.label.role));
+  text.integer("joined", player.joined);
+  if (player.left) text.integer("left", *player.left);
+  text.end();
+}
+
+void append_mark(std::string& out, const replay::Mark& mark) {
+  json::ObjectText text(out);
+  text.integer("tick", mark.tick).text("kind", to_text(mark.kind)).integer("id", mark.player).end();
+}
+
+}  // namespace
+
+/// A file's bytes, plain or zstd, which are copied; it stands at its first tick. 0: it is no recording, or of
+/// another behavior, as the answer says.
+WOODLOUSE_EXPORT(recording_open) int recording_open(const char* bytes, std::size_t size) {
+  auto archive = replay::ReplayArchive::open(source_of(bytes, size));
+  if (!archive) return refuse(archive.error());
+  auto play = (*archive)->play((*archive)->first_tick());
+  if (!play) return refuse(play.error());
+  return static_cast<int>(
+      recordings.add(std::make_unique<OpenRecording>(OpenRecording{std::move(*archive), std::move(*play)})));
+}
+WOODLOUSE_EXPORT(recording_close) void recording_close(Handle handle) { recordings.close(handle); }
+
+/// Answers with {"first", "last" (ticks), "hz", "mode", "name" (the map's), "build", "behavior", "inputs",
+/// "is_cut_off", "end_reason", "players": [{"id", "name", "role", "joined", "left"?}], "marks": [{"tick",
+/// "kind": "join", "leave", "respawn" or "chat", "id"}]}
+WOODLOUSE_EXPORT(recording_facts) void recording_facts(Handle handle) {
+  const replay::ReplayArchive& archive = *recordings.at(handle).archive;
+  const replay::Header& header = archive.header();
+  json::ObjectText text(answer());
+  text.integer("first", archive.first_tick())
+      .integer("last", archive.last_tick())
+      .integer("hz", header.tick_hz);
+  text.text("mode", to_text(header.mode)).text("name", header.map_name).text("build", header.build);
+  text.integer("behavior", header.behavior).integer("inputs", archive.index().inputs);
+  text.boolean("is_cut_off", archive.is_cut_off()).text("end_reason", archive.end_reason());
+  text.array("players", archive.players(), append_player).array("marks", archive.marks(), append_mark).end();
+}
+
+WOODLOUSE_EXPORT(recording_ground) Handle recording_ground(Handle handle) {
+  return open_ground(recordings.at(handle).archive->map());
+}
+
+/// Stands at a tick from first to last; at most five seconds are re-run. False: the file is damaged there, as
+/// the answer says; it stands somewhere else then.
+WOODLOUSE_EXPORT(recording_seek) bool recording_seek(Handle handle, double tick) {
+  const replay::ReplayArchive& archive = *recordings.at(handle).archive;
+  assert(tick >= static_cast<double>(archive.first_tick()) &&
+         tick <= static_cast<double>(archive.last_tick()));
+  const auto done = playback(handle).seek(static_cast<std::uint64_t>(tick));
+  return done ? true : refuse(done.error());
+}
+
+/// So many steps forth, fewer at the end. Answers with {"steps" (done), "chats": [{"tick", "id", "name",
+/// "text"}]}; false: the file is damaged there, as the answer says.
+WOODLOUSE_EXPORT(recording_advance) bool recording_advance(Handle handle, std::uint32_t steps) {
+  std::uint32_t done = 0;
+  std::vector<replay::ChatLine> chats;
+  for (; done < steps; ++done) {
+    auto step = playback(handle).advance();
+    if (!step) return refuse(step.error());
+    if (!*step) break;
+    for (replay::ChatLine& chat : (*step)->chats) chats.push_back(std::move(chat));
+  }
+  json::ObjectText text(answer());
+  text.integer("steps", done);
+  text.objects("chats", chats, [](json::ObjectText& object, const replay::ChatLine& chat) {
+    object.integer("tick", chat.tick)
+        .integer("id", chat.player)
+        .text("name", chat.name)
+        .text("text", chat.text);
+  });
+  text.end();
+  return true;
+}
+
+WOODLOUSE_EXPORT(recording_tick) double recording_tick(Handle handle) {
+  return static_cast<double>(playback(handle).tick());
+}
+
+/// Until it goes to another tick.
+WOODLOUSE_EXPORT(recording_lice) const state::Louse* recording_lice(Handle handle) {
+  return playback(handle).match().world().lice().data();
+}
+WOODLOUSE_EXPORT(recording_count) std::size_t recording_count(Handle handle) {
+  return playback(handle).match().world().lice().size();
+}
+
+/// Answers with what is proven: {"hash", "since": the tick of the keyframe from which on every tick was
+/// re-run, "difference": null, or where it first parted since there: {"tick", "what", "detail"}}
+WOODLOUSE_EXPORT(recording_proof) void recording_proof(Handle handle) {
+  const replay::Playback& play = playback(handle);
+  json::ObjectText text(answer());
+  text.hash("hash", play.match().hash()).integer("since", play.proven_since());
+  add_difference(text, play.first_difference());
+  text.end();
+}
+
+/// As those of follower_...
+WOODLOUSE_EXPORT(recording_game) void recording_game(Handle handle) {
+  answer_game(&playback(handle).match());
+}
+WOODLOUSE_EXPORT(recording_players) void recording_players(Handle handle) {
+  answer_players(&playback(handle).match());
+}
+
+WOODLOUSE_EXPORT(recording_standings) void recording_standings(Handle handle) {
+  answer_standings(&playback(handle).match());
+}
+
+/// All of a recording re-run from its first line. Answers with what `woodlouse-server verify` says of it,
+/// newline included; 1: the same bits throughout, 0: it differs, -1: it is no recording, or damaged.
+WOODLOUSE_EXPORT(recording_verify) int recording_verify(const char* bytes, std::size_t size) {
+  const auto verification = replay::verify(source_of(bytes, size));
+  if (!verification) {
+    answer() = verification.error().text() + "\n";
+    return -1;
+  }
+  answer() = replay::to_text(*verification);
+  return verification->ok() ? 1 : 0;
+}
+
+}  // namespace woodlouse::web
