@@ -8,7 +8,7 @@ import subprocess
 import sys
 
 MAJOR = 14  # Debian 12's: another version lays some lines out otherwise
-FOLDERS = ("shared", "server", "client", "bots", "bench", "tests")
+FOLDERS = ("shared", "server", "client", "bots", "bench", "tests", "web/core")
 
 
 def main(root, program):

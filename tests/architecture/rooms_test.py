@@ -10,7 +10,7 @@ import pathlib
 import re
 import sys
 
-FOLDERS = ("shared", "server", "client", "bench", "tests", "bots")
+FOLDERS = ("shared", "server", "client", "bench", "tests", "bots", "web/core")
 ENDINGS = (".h", ".cpp", ".py")
 MOST_NOUNS = 25
 MOST_LINES = 350
