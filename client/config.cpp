@@ -82,6 +82,11 @@ core::Expected<std::string> token_of(const Raw& raw) {
   return text->substr(0, text->find_first_of("\r\n"));
 }
 
+/// HOST:PORT of HOST:PORT/ROOM; what is a link stays whole, to be refused as one.
+std::string without_room(const std::string& server) {
+  return server.find("://") != std::string::npos ? server : server.substr(0, server.find('/'));
+}
+
 /// The room of HOST:PORT/ROOM, whose name may have more of them; empty: none.
 std::string room_of(const std::string& server) {
   const std::size_t slash = server.find('/');
@@ -91,8 +96,9 @@ std::string room_of(const std::string& server) {
 core::Expected<Config> understood(const Raw& raw) {
   Config config;
   if (!raw.server.empty()) {
-    auto address = parse_address(raw.server.substr(0, raw.server.find('/')));
-    if (!address) return tl::unexpected(address.error());
+    auto address = parse_address(without_room(raw.server));
+    if (!address)
+      return core::fail("server", address.error().where + ": " + address.error().what, address.error().hint);
     config.server = std::move(*address);
   }
   const auto color = color_words().find(raw.color);
@@ -240,9 +246,12 @@ core::Expected<Config> read_config_file(const std::string& text, const std::stri
       {"server", &raw.server},   {"map", &raw.map},     {"name", &raw.name},
       {"room", &raw.room},       {"color", &raw.color}, {"glyphs", &raw.glyphs},
       {"palette", &raw.palette}, {"view", &raw.view},   {"steer", &raw.steer}};
+  const auto place_of = [&file](const json::Value& value) {
+    return file + ":" + std::to_string(value.line()) + ": " + std::string(value.key());
+  };
   for (const json::Value& value : document->root().children()) {
     const std::string key(value.key());
-    const std::string where = file + ": " + key;
+    const std::string where = place_of(value);
     const auto* const known =
         std::find_if(texts.begin(), texts.end(), [&key](const auto& t) { return key == t.first; });
     if (known != texts.end()) {
@@ -270,17 +279,17 @@ core::Expected<Config> read_config_file(const std::string& text, const std::stri
     }
   }
   auto result = understood(raw);
-  if (!result)
-    return core::fail(file + ": " + result.error().where, result.error().what, result.error().hint);
-  return result;
+  if (result) return result;
+  const auto field = document->root().find(result.error().where);
+  return core::fail(field ? place_of(*field) : file + ": " + result.error().where, result.error().what,
+                    result.error().hint);
 }
 
 Parsed parse_arguments(int argc, const char* const* argv) {
   assert(argc >= 1 && argv != nullptr);
   const bool no_files = wants_no_files(argc, argv);
   const auto base = defaults(no_files);
-  if (!base) return mistake(base.error());
-  Raw raw = raw_of(*base);
+  Raw raw = raw_of(base.value_or(Config()));  // --help and --version do without a file that is wrong
   CLI::App app("Wood-lice on a spline hill: the terminal client.", "woodlouse");
   app.set_version_flag("--version", std::string(kVersion));
   app.footer(
@@ -292,14 +301,16 @@ Parsed parse_arguments(int argc, const char* const* argv) {
   Parsed parsed;
   try {
     app.parse(argc, argv);
-  } catch (const CLI::Success& success) {
+  } catch (const CLI::ParseError& error) {  // of which the end by --help and --version is one
+    // Asked for, whatever else is wrong: a variable of the environment is read before.
+    const auto is_asked = [](const CLI::App& one) { return one.get_help_ptr()->count() > 0; };
+    const bool wants_help = is_asked(app) || is_asked(*app.get_subcommand("replay"));
+    if (!wants_help && app.get_version_ptr()->count() == 0) return mistake({"arguments", error.what(), ""});
     parsed.exit_code = 0;
-    parsed.output = dynamic_cast<const CLI::CallForHelp*>(&success) != nullptr ? app.help()
-                                                                               : std::string(kVersion) + "\n";
+    parsed.output = wants_help ? app.help() : std::string(kVersion) + "\n";
     return parsed;
-  } catch (const CLI::ParseError& error) {
-    return mistake({"arguments", error.what(), ""});
   }
+  if (!base) return mistake(base.error());
   raw.no_files = raw.no_files || no_files;  // once asked for it stays
   raw.asks_name = raw.asks_name && app.get_option("--name")->count() == 0;
   const std::string room = room_of(raw.server);

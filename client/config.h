@@ -55,7 +55,8 @@ struct Parsed {
 /// Reads the command line, the environment and the config file.
 Parsed parse_arguments(int argc, const char* const* argv);
 
-/// What a config.json says, over `config`. Error: where = "file: field".
+/// What a config.json says, over `config`. Error: where =
+/// "file:line: field".
 core::Expected<Config> read_config_file(const std::string& text, const std::string& file, Config config);
 
 }  // namespace woodlouse::client

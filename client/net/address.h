@@ -20,7 +20,8 @@ struct Address {
   friend bool operator==(const Address&, const Address&) = default;
 };
 
-/// "farm.example:7777", "farm.example", "127.0.0.1:7777", "[::1]:7777", "::1".
+/// "farm.example:7777", "farm.example", "127.0.0.1:7777", "[::1]:7777", "::1". Error: where = the text; what
+/// no look-up could ever find is refused here, a name of nobody's is not.
 core::Expected<Address> parse_address(std::string_view text);
 
 }  // namespace woodlouse::client

@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "shared/core/joined.h"
 #include "shared/follow/follower.h"
 #include "shared/match/match.h"
 #include "shared/protocol/codec.h"
@@ -97,9 +98,14 @@ void Link::take_lines() {
   while (listener_ != nullptr) {
     const auto line = framer_.next();
     if (!line) return;
-    if (line->oversize)
-      return end({"the server sent a line of more than " + std::to_string(kMaxLineBytes) + " bytes",
+    if (line->oversize) {
+      const bool greets = reached_ != Reached::kServer;
+      const std::size_t most = greets ? kMaxHelloBytes : kMaxLineBytes;
+      return end({core::joined({greets ? "no woodlouse server answers there: its first line has more than "
+                                       : "the server sent a line of more than ",
+                                std::to_string(most), " bytes"}),
                   kNoServerOfOurs});
+    }
     if (welcome_.stream == protocol::Stream::kInputs && follow::Follower::is_recorded(line->text)) {
       listener_->on_recorded(line->text, std::chrono::steady_clock::now());
       continue;
@@ -121,6 +127,7 @@ void Link::take(const protocol::ServerMessage& message) {
                   kNoServerOfOurs});
     }
     reached_ = Reached::kServer;
+    framer_.limit(kMaxLineBytes);
     watch(patience_, "no welcome within " + std::to_string(patience_.count()) + " s");
     protocol::Join join = asked_of(*hello, join_);
     write(protocol::encode(protocol::ClientMessage(join)));

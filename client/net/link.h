@@ -34,6 +34,7 @@ class LinkListener {
 class Link : public std::enable_shared_from_this<Link> {
  public:
   static constexpr std::size_t kMaxLineBytes = 160u << 20;  ///< the largest map fits
+  static constexpr std::size_t kMaxHelloBytes = 64u << 10;  ///< of the line before any: many times a hello
   static constexpr std::size_t kMaxUnsentBytes =
       256u << 10;  ///< beyond it the link ends: the server takes nothing
   static constexpr std::chrono::seconds kReachPatience{3};  ///< until somebody takes the connection
@@ -68,7 +69,7 @@ class Link : public std::enable_shared_from_this<Link> {
   Tcp::resolver resolver_;
   Tcp::socket socket_;
   boost::asio::steady_timer watchdog_;
-  protocol::LineFramer framer_{kMaxLineBytes};
+  protocol::LineFramer framer_{kMaxHelloBytes};
   std::array<char, 64u << 10> incoming_{};
   std::string sending_;  ///< under way to the socket
   std::string unsent_;

@@ -19,6 +19,8 @@ class LineFramer {
 
   explicit LineFramer(std::size_t limit) : limit_(limit) {}
 
+  /// From the next line on that is not yet given out.
+  void limit(std::size_t bytes) { limit_ = bytes; }
   void append(std::string_view bytes);
   /// The next whole line, or nothing.
   std::optional<Line> next();

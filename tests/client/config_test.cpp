@@ -102,6 +102,13 @@ TEST_CASE("mistakes end it with 2, one line of what and one of what to do") {
       {"host:"},
       {":7777"},
       {"[::1"},
+      {"::::"},
+      {"[farm]:7777"},
+      {"[fe80::1%]:7777"},
+      {"http://farm:7777"},
+      {"farm example:7777"},
+      {"7777"},
+      {"300.0.0.1"},
       {"--name", ""},
       {"--name", "a name of more than 24 bytes"},
       {"--view", "inside"}};
@@ -118,6 +125,31 @@ TEST_CASE("help and version end it with 0") {
   REQUIRE(parse({"--help"}).exit_code == 0);
   REQUIRE(parse({"--help"}).output.find("--watch") != std::string::npos);
   REQUIRE(parse({"--version"}).output == "woodlouse " WOODLOUSE_VERSION "\n");
+}
+
+TEST_CASE("help and version are told whatever the config file and the environment say") {
+  Environment environment(R"({"colour": "mono"})");
+  environment.set("WOODLOUSE_FPS", "fast");
+  REQUIRE(parse({}).exit_code == 2);
+  CHECK(parse({"--help"}).exit_code == 0);
+  CHECK(parse({"--help"}).output.find("--watch") != std::string::npos);
+  CHECK(parse({"replay", "--help"}).exit_code == 0);
+  CHECK(parse({"--version"}).output == "woodlouse " WOODLOUSE_VERSION "\n");
+}
+
+TEST_CASE("a mistake in the config file is told with its line, its field and what to do") {
+  for (const auto& [bad, told] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"{\"fps\": 20,\n\"colour\": \"mono\"}", "config.json:2: colour: no such setting"},
+           {"{\"name\": \"ida\",\n\n\"server\": \"::::\"}",
+            "config.json:3: server: address \"::::\": it is no IPv6 address"},
+           {"{\n\"view\": \"inside\"}", "config.json:2: view: \"inside\" is none"}}) {
+    Environment environment(bad);
+    const Parsed parsed = parse({});
+    INFO(parsed.output);
+    CHECK(parsed.exit_code == 2);
+    CHECK(parsed.output.find(told) != std::string::npos);
+    CHECK(std::count(parsed.output.begin(), parsed.output.end(), '\n') == 2);
+  }
 }
 
 TEST_CASE("a bad config file is named with its field") {
@@ -186,6 +218,10 @@ TEST_CASE("addresses are read as people write them") {
   REQUIRE(parse_address("[::1]:7001").value() == Address{"::1", 7001});
   REQUIRE(parse_address("::1").value() == Address{"::1", 7777});
   REQUIRE(parse_address("[::1]").value().text() == "[::1]:7777");
+  REQUIRE(parse_address("[fe80::1%eth0]:1").value() == Address{"fe80::1%eth0", 1});
+  REQUIRE(parse_address("10.0.0.7").value() == Address{"10.0.0.7", 7777});
+  REQUIRE(parse_address("k\u00e4fer_1.example").value().host == "k\u00e4fer_1.example");
+  REQUIRE_FALSE(parse_address(std::string(254, 'a')));
 }
 
 TEST_CASE("the terminal's hints decide the look, choices overrule them, NO_COLOR is obeyed") {

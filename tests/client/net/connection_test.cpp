@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "client/net/link.h"
 #include "shared/protocol/codec.h"
 
 using namespace woodlouse;
@@ -166,6 +167,30 @@ TEST_CASE("a port that takes connections and says nothing is given up after 2 s"
   while (connection.phase() != Connection::Phase::kStopped) context.run_one_for(100ms);
   CHECK(std::chrono::steady_clock::now() - begun < 3s);
   CHECK(connection.closing().reached == Reached::kHost);
+}
+
+TEST_CASE("who sends what no server of ours begins with is not listened to for long") {
+  for (const std::string& said :
+       {std::string(Link::kMaxHelloBytes + 2, 'x'), std::string("HTTP/1.1 400 Bad Request\r\n\r\n")}) {
+    asio::io_context context{1};
+    Tcp::acceptor acceptor(context, Tcp::endpoint(asio::ip::address_v4::loopback(), 0));
+    Tcp::socket guest(context);
+    acceptor.async_accept(guest, [&](boost::system::error_code error) {
+      REQUIRE_FALSE(error);
+      asio::write(guest, asio::buffer(said));  // and stays connected
+    });
+    Listener listener;
+    protocol::Join join;
+    join.name = "ann";
+    Connection connection(context, {"127.0.0.1", acceptor.local_endpoint().port()}, join, listener);
+    const auto begun = std::chrono::steady_clock::now();
+    connection.start();
+    while (connection.phase() != Connection::Phase::kStopped) context.run_one_for(100ms);
+    CHECK(std::chrono::steady_clock::now() - begun < 1s);
+    CHECK(connection.closing().reached == Reached::kHost);
+    CHECK(connection.closing().code == kNoServerOfOurs);
+    CHECK(connection.closing().reason.find("no woodlouse server answers there: ") == 0);
+  }
 }
 
 TEST_CASE("while it tries, it says for how long it will") {

@@ -64,7 +64,7 @@ class NoFiles(unittest.TestCase):
 
     def test_without_it_the_config_file_is_opened(self):
         watch = self.start(self.server.address)
-        self.terminal.shows(r"fps:\s+it is not")
+        self.terminal.shows(r"fps\s*:\s+it is not")
         self.assertIn(os.path.join(self.settings, "config.json"), watch.seen())
 
     def test_no_file_of_the_account_s_is_opened_made_or_held(self):
