@@ -1,11 +1,7 @@
 #include "client/config_file.h"
 
 #include <cassert>
-#include <cerrno>
-#include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <fstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -80,17 +76,11 @@ core::Expected<void> remember_name(const std::filesystem::path& file, const std:
     const auto document = json::parse(text, {});
     if (!text.empty() && (!document || !document->root().is(json::Kind::kObject)))
       return core::fail(where, "is no JSON object");
+    if (document && document->root().find("name")) return {};  // another client was asked, too, and answered
   }
   std::filesystem::create_directories(there.parent_path(), error);
   if (error) return core::fail(where, error.message());
-  const std::filesystem::path part = where + ".part";
-  std::ofstream out(part, std::ios::binary | std::ios::trunc);
-  out << with_name(std::move(text), name);
-  out.close();
-  if (!out) return core::fail(where, std::strerror(errno));
-  std::filesystem::rename(part, there, error);
-  if (error) return core::fail(where, error.message());
-  return {};
+  return core::replace_whole_file(there, with_name(std::move(text), name));
 }
 
 }  // namespace woodlouse::client

@@ -20,8 +20,8 @@ core::Expected<KeyMap> keys_of(const json::Value& value);
 /// `text` of a config file, empty for a new one, with the name set. REQUIRES an object that has none.
 std::string with_name(std::string text, const std::string& name);
 
-/// Keeps the name in that file, whole or not at all; makes it and its folder where there are none. Error: why
-/// not.
+/// Keeps the name in that file, whole or not at all, where none stands there by now; makes it and its folder
+/// where there are none. Error: why not.
 core::Expected<void> remember_name(const std::filesystem::path& file, const std::string& name);
 
 }  // namespace woodlouse::client

@@ -52,6 +52,10 @@ TEST_CASE("the name is written beside what stands in the config file") {
     CHECK_FALSE(remember_name(file, "ida"));
     CHECK(woodlouse::core::read_whole_file(file, 100).value() == text);
   }
+  // Another client was asked at the same time, and was answered first: its name is there once.
+  std::ofstream(file) << "{\"name\": \"ada\"}";
+  CHECK(remember_name(file, "ida"));
+  CHECK(woodlouse::core::read_whole_file(file, 100).value() == "{\"name\": \"ada\"}");
   // Who keeps it elsewhere and links to it goes on doing so.
   const auto elsewhere = folder / "kept.json";
   std::filesystem::remove(file);

@@ -51,6 +51,23 @@ TEST_CASE("what is no regular file is refused before it is opened") {
   CHECK(refusal(folder.path / "link").find("is no regular file") != std::string::npos);
 }
 
+TEST_CASE("a file is replaced as a whole, keeps its mode, and nothing is left beside it") {
+  const Folder folder;
+  const fs::path file = folder.path / "kept";
+  REQUIRE(replace_whole_file(file, "first"));
+  CHECK(text_of(file) == "first");
+  REQUIRE(::chmod(file.c_str(), 0644) == 0);
+  REQUIRE(replace_whole_file(file, std::string(300'000, 'x')));
+  CHECK(text_of(file).size() == 300'000);
+  CHECK(fs::status(file).permissions() == static_cast<fs::perms>(0644));
+  const auto refused = replace_whole_file(folder.path / "none" / "kept", "x");
+  REQUIRE_FALSE(refused);
+  CHECK(refused.error().what.find("can't be written: ") == 0);
+  fs::create_directory(folder.path / "folder");
+  CHECK_FALSE(replace_whole_file(folder.path / "folder", "x"));
+  CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 2);
+}
+
 TEST_CASE("a number stands before the extension, packed or not") {
   CHECK(numbered("game.ndjson", 1) == "game.1.ndjson");
   CHECK(numbered("nights/game.volcano.ndjson.zst", 12) == "nights/game.volcano.12.ndjson.zst");

@@ -1,10 +1,15 @@
 #include "client/play/modes/ghost_file.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <optional>
 #include <system_error>
+#include <thread>
 #include <utility>
 #include <variant>
 
@@ -49,14 +54,41 @@ std::string_view next_line(std::string_view& text) {
 void write_whole(const fs::path& file, std::string_view text) {
   std::error_code ignored;  // a file that can't be written is none
   fs::create_directories(file.parent_path(), ignored);
-  const fs::path part = file.string() + ".part";
-  {
-    std::ofstream out(part, std::ios::binary | std::ios::trunc);
-    out.write(text.data(), static_cast<std::streamsize>(text.size()));
-    if (!out.flush()) return fs::remove(part, ignored), void();
-  }
-  fs::rename(part, file, ignored);
+  static_cast<void>(core::replace_whole_file(file, text));
 }
+
+/// Two lines of a drive, as they stand in the file; empty: none follows.
+std::string_view next_drive(std::string_view& text) {
+  const std::string_view rest = text;
+  const auto begin = decoded(next_line(text));
+  const auto driven = decoded(next_line(text));
+  const auto* ack = begin ? std::get_if<protocol::Ack>(&*begin) : nullptr;
+  if (ack == nullptr || !ack->you || !driven || !std::holds_alternative<protocol::GhostLine>(*driven))
+    return {};
+  const std::string_view drive = rest.substr(0, rest.size() - text.size());
+  return drive.ends_with('\n') ? drive : std::string_view();  // one that was cut off is the last
+}
+
+/// Held while a file of the folder is read and written anew. Who has it for long is left alone with it: a
+/// picture waits meanwhile.
+class FolderLock {
+ public:
+  explicit FolderLock(const fs::path& folder)
+      : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    using namespace std::chrono_literals;
+    constexpr int kTries = 20;
+    for (int i = 0; descriptor_ >= 0 && i < kTries && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0; ++i)
+      std::this_thread::sleep_for(5ms);
+  }
+  ~FolderLock() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;
+};
 
 }  // namespace
 
@@ -111,9 +143,22 @@ std::vector<OwnDrive> read_ghost_drives(const fs::path& folder, const map::Map& 
   return text ? parse_ghost_drives(*text, map, tick_hz, mode) : std::vector<OwnDrive>();
 }
 
-void write_ghost_drives(const fs::path& folder, const map::Map& map, std::uint32_t tick_hz, state::Mode mode,
-                        const std::vector<OwnDrive>& drives) {
-  write_whole(file_of(folder, map, mode), ghost_drives_text(drives, tick_hz, mode));
+void keep_ghost_drive(const fs::path& folder, const map::Map& map, std::uint32_t tick_hz, state::Mode mode,
+                      const OwnDrive& drive) {
+  const fs::path file = file_of(folder, map, mode);
+  std::error_code ignored;  // then nothing is kept
+  fs::create_directories(file.parent_path(), ignored);
+  const FolderLock lock(file.parent_path());
+  const auto text = core::read_whole_file(file, kMostBytes);
+  std::vector<std::string_view> drives;  // as they are, those of other rates, too
+  std::string_view rest = text ? std::string_view(*text) : std::string_view();
+  for (std::string_view old = next_drive(rest); !old.empty(); old = next_drive(rest)) drives.push_back(old);
+  const std::string added = ghost_drives_text({drive}, tick_hz, mode);
+  drives.push_back(added);
+  if (drives.size() > kMostGhostsKept) drives.erase(drives.begin(), drives.end() - kMostGhostsKept);
+  std::string kept;
+  for (const std::string_view one : drives) kept += one;
+  write_whole(file, kept);
 }
 
 std::optional<protocol::GhostLine> read_author_ghost(const map::Map& map, std::uint32_t tick_hz) {

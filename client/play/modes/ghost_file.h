@@ -1,7 +1,8 @@
 // Own drives in a folder of the account's: FOLDER/ghosts/<map hash>-<behavior>.ndjson, two lines a drive as
 // they are on the wire, an `ack` with the exact state where it began and a `ghost` with its inputs. What is
 // read is checked as what comes from outside is: a line that is none ends the list, a drive that no louse can
-// drive is passed over. Nothing here is worth a word to the player: without a file there are no old ghosts.
+// drive is passed over. Several clients of one account may keep their drives at once: none loses another's.
+// Nothing here is worth a word to the player: without a file there are no old ghosts.
 #pragma once
 
 #include <cstddef>
@@ -30,9 +31,10 @@ std::vector<OwnDrive> parse_ghost_drives(std::string_view text, const map::Map& 
 
 std::vector<OwnDrive> read_ghost_drives(const std::filesystem::path& folder, const map::Map& map,
                                         std::uint32_t tick_hz, state::Mode mode);
-/// Whole, or not at all.
-void write_ghost_drives(const std::filesystem::path& folder, const map::Map& map, std::uint32_t tick_hz,
-                        state::Mode mode, const std::vector<OwnDrive>& drives);
+/// Behind those that stand there now, whoever wrote them; beyond kMostGhostsKept the oldest ones go. Whole,
+/// or not at all.
+void keep_ghost_drive(const std::filesystem::path& folder, const map::Map& map, std::uint32_t tick_hz,
+                      state::Mode mode, const OwnDrive& drive);
 
 /// The ghost that came with the shipped map of that name, where it proves its run on this one; none: else.
 /// REQUIRES a map with a race, in full detail.

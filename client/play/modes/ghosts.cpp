@@ -33,7 +33,6 @@ void Ghosts::begin(std::shared_ptr<const map::Map> map, std::uint32_t tick_hz, s
   if (folder_ && is_exact && mode == state::Mode::kRace)
     if (const auto author = read_author_ghost(*map_, tick_hz_)) add_run(std::nullopt, "author", *author);
   if (is_same) return;  // back on the line: own drives are still known
-  kept_.clear();
   last_.reset();
   best_.reset();
   if (is_exact) load();
@@ -57,6 +56,25 @@ void Ghosts::add_run(std::optional<protocol::Board> board, const std::string& na
   records_.push_back({board, name + " " + span_text(static_cast<std::int64_t>(line.run.time), tick_hz_),
                       static_cast<double>(line.start) / kTickOfGhosts,
                       GhostRun(*map_, tick_hz_, mode_, std::move(drive)), Trail(trail_spacing())});
+  mark_doubles();
+}
+
+/// A run that stands on several boards, or is the author's, too, is shown once: by a board rather than by the
+/// author.
+void Ghosts::mark_doubles() {
+  const auto is_same = [](const OwnDrive& a, const OwnDrive& b) {
+    return a.ticks == b.ticks && a.start.position == b.start.position && a.inputs == b.inputs;
+  };
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    records_[i].is_double = false;
+    for (std::size_t j = 0; j < records_.size(); ++j) {
+      const bool is_before = records_[i].board.has_value() == records_[j].board.has_value()
+                                 ? j < i
+                                 : records_[j].board.has_value();
+      if (j != i && is_before && is_same(records_[i].run.drive(), records_[j].run.drive()))
+        records_[i].is_double = true;
+    }
+  }
 }
 
 double Ghosts::trail_spacing() const {
@@ -88,24 +106,17 @@ void Ghosts::add_drive(OwnDrive drive) {
     return;
   if (mode_ != state::Mode::kRoam && mode_ != state::Mode::kRace) return;  // others would be in its way
   if (!why_no_drive(*map_, tick_hz_, drive).empty()) return;
-  kept_.push_back(drive);
-  if (kept_.size() > kMostGhostsKept) kept_.erase(kept_.begin());
+  if (folder_) keep_ghost_drive(*folder_, *map_, tick_hz_, mode_, drive);
   last_.emplace(*map_, tick_hz_, mode_, drive);
   if (!best_ || is_better(*last_, *best_)) best_.emplace(*map_, tick_hz_, mode_, std::move(drive));
-  save();
 }
 
 void Ghosts::load() {
   if (!folder_) return;
   for (OwnDrive& drive : read_ghost_drives(*folder_, *map_, tick_hz_, mode_)) {
-    kept_.push_back(drive);
     last_.emplace(*map_, tick_hz_, mode_, drive);
     if (!best_ || is_better(*last_, *best_)) best_.emplace(*map_, tick_hz_, mode_, std::move(drive));
   }
-}
-
-void Ghosts::save() {
-  if (folder_) write_ghost_drives(*folder_, *map_, tick_hz_, mode_, kept_);
 }
 
 std::string Ghosts::cycle() {
@@ -131,7 +142,7 @@ std::vector<GhostMark> Ghosts::marks(std::optional<double> since_spawn, std::int
     const double running =
         run_start == 0 ? 0.0 : std::max(0.0, tick - static_cast<double>(run_start) / kTickOfGhosts);
     for (Record& record : records_)
-      if (const auto sample = record.run.at(record.start + running))
+      if (const auto sample = record.is_double ? std::nullopt : record.run.at(record.start + running))
         marks.push_back(mark(record.name, *sample, record.trail));
   }
   std::optional<GhostRun>& own = choice_ == GhostChoice::kBest ? best_ : last_;

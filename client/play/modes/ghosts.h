@@ -48,6 +48,7 @@ class Ghosts {
     double start = 0.0;  ///< ticks from the spawn to the first gate
     GhostRun run;
     Trail trail;
+    bool is_double = false;  ///< the same drive as another one that is shown
   };
 
   [[nodiscard]] GhostMark mark(std::string name, const LouseSample& sample, Trail& trail) const;
@@ -55,8 +56,8 @@ class Ghosts {
   [[nodiscard]] bool is_better(GhostRun& a, GhostRun& b) const;
   void add_run(std::optional<protocol::Board> board, const std::string& name,
                const protocol::GhostLine& line);
+  void mark_doubles();
   void load();
-  void save();
 
   std::shared_ptr<const map::Map> map_;
   std::uint32_t tick_hz_ = 60;
@@ -64,7 +65,6 @@ class Ghosts {
   GhostChoice choice_ = GhostChoice::kBest;
   std::optional<std::filesystem::path> folder_;
   std::vector<Record> records_;
-  std::vector<OwnDrive> kept_;  ///< the newest last
   std::optional<GhostRun> last_, best_;
   Trail own_trail_{1.0};
 };

@@ -1,5 +1,6 @@
 #include "client/play/modes/ghosts.h"
 
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -124,6 +125,78 @@ TEST_CASE("own drives are kept in a file of twenty at most, and are there again"
   ghosts.cycle();
   CHECK(ghosts.marks(60.0, 0, 0.0).empty());
   std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("two clients of one account lose none of each other's drives, of other rates neither") {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("woodlouse-two-clients-" + std::to_string(getpid()));
+  const auto map = map_of("volcano");
+  Ghosts one, other;
+  for (Ghosts* ghosts : {&one, &other}) {
+    ghosts->keep_in(folder);
+    ghosts->begin(map, 60, state::Mode::kRoam);
+  }
+  one.add_drive(driven(*map, 4));
+  other.add_drive(driven(*map, 5));
+  one.add_drive(driven(*map, 6));
+  keep_ghost_drive(folder, *map, 30, state::Mode::kRoam, driven(*map, 4));
+  std::vector<std::uint32_t> ticks;
+  for (const OwnDrive& drive : read_ghost_drives(folder, *map, 60, state::Mode::kRoam))
+    ticks.push_back(drive.ticks);
+  CHECK(ticks == std::vector<std::uint32_t>{240, 300, 360});
+  CHECK(read_ghost_drives(folder, *map, 30, state::Mode::kRoam).size() == 1);
+
+  // At the same time, from processes of their own.
+  std::filesystem::remove_all(folder);
+  constexpr int kClients = 4;
+  for (int i = 0; i < kClients; ++i)
+    if (fork() == 0) {
+      for (int k = 0; k < 4; ++k) keep_ghost_drive(folder, *map, 60, state::Mode::kRoam, driven(*map, 4));
+      _exit(0);
+    }
+  for (int i = 0; i < kClients; ++i) {
+    int status = 1;
+    REQUIRE(wait(&status) > 0);
+    CHECK(status == 0);
+  }
+  CHECK(read_ghost_drives(folder, *map, 60, state::Mode::kRoam).size() == 16);
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "ghosts"))
+    files += entry.is_regular_file() ? 1 : 0;
+  CHECK(files == 1);  // nothing half written is left behind
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("a drive behind a damaged end of the file is kept") {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("woodlouse-damaged-" + std::to_string(getpid()));
+  const auto map = map_of("volcano");
+  keep_ghost_drive(folder, *map, 60, state::Mode::kRoam, driven(*map, 4));
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "ghosts"))
+    std::ofstream(entry.path(), std::ios::app) << "{\"type\":\"ack\"";
+  keep_ghost_drive(folder, *map, 60, state::Mode::kRoam, driven(*map, 5));
+  CHECK(read_ghost_drives(folder, *map, 60, state::Mode::kRoam).size() == 2);
+  std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("a run that is on two boards and the author's, too, is one ghost") {
+  const auto map = map_of("crater_loop");
+  auto line = *read_author_ghost(*map, 60);
+  Ghosts ghosts;
+  ghosts.keep_in("/nowhere");
+  ghosts.begin(map, 60, state::Mode::kRace);
+  REQUIRE(ghosts.marks(std::nullopt, 0, 0.0).size() == 1);
+  line.run.name = "ada";
+  for (const protocol::Board board : {protocol::Board::kPeople, protocol::Board::kBots}) {
+    line.run.board = board;
+    REQUIRE(ghosts.add_record(line));
+    const auto marks = ghosts.marks(std::nullopt, 0, 0.0);
+    REQUIRE(marks.size() == 1);
+    CHECK(marks[0].name.starts_with("ada "));
+  }
+  line.ghost.inputs.pop_back();  // another run
+  REQUIRE(ghosts.add_record(line));
+  CHECK(ghosts.marks(std::nullopt, 0, 0.0).size() == 2);
 }
 
 TEST_CASE("a record's ghost is raced from the first gate on, and one that can't be driven here is none") {
