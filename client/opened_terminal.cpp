@@ -1,9 +1,9 @@
 #include "client/opened_terminal.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cassert>
-#include <chrono>
 #include <utility>
 
 #include "client/terminal/terminal_answers.h"
@@ -11,36 +11,40 @@
 namespace woodlouse::client {
 namespace {
 
-constexpr std::chrono::milliseconds kPatience{600};  // with a terminal that answers nothing, at each start
+constexpr std::chrono::milliseconds kPatience{
+    500};  // with a terminal that answers nothing, since it was asked
 
 }  // namespace
 
 OpenedTerminal::OpenedTerminal(int keys, int frames)
-    : key_terminal_(keys), modes_(dup(keys)), frames_(frames), keys_{keys, {}, {}} {}
+    : key_terminal_(keys), modes_(fcntl(keys, F_DUPFD_CLOEXEC, 0)), frames_(frames), keys_{keys, {}, {}} {}
 
-core::Expected<std::unique_ptr<OpenedTerminal>> OpenedTerminal::open(ColorChoice color, GlyphChoice glyphs) {
+core::Expected<std::unique_ptr<OpenedTerminal>> OpenedTerminal::open() {
   const auto keys = open_terminal_for_keys(STDIN_FILENO);
   if (!keys) return tl::unexpected(keys.error());
   std::unique_ptr<OpenedTerminal> opened(new OpenedTerminal(*keys, open_terminal_for_frames(STDOUT_FILENO)));
-  const TerminalHints hints = hints_of_environment();
-  TerminalAnswers answers;
-  {
-    const auto guard = opened->enter(TerminalUse::kKeysOnly);
-    if (!guard) return tl::unexpected(guard.error());
-    answers = ask_terminal(**guard, opened->keys_, kPatience);
-  }
-  opened->look_ = choose_look(color, glyphs, hints, answers);
-  opened->synchronized_ = answers.synchronizes() ? SynchronizedUpdate::kOn : SynchronizedUpdate::kOff;
-  opened->kitty_ = answers.kitty();
-  opened->answers_ = answers.is_finished();
+  auto guard = TerminalGuard::enter(opened->modes_.get(), STDOUT_FILENO, TerminalUse::kKeysOnly);
+  if (!guard) return tl::unexpected(guard.error());
+  opened->guard_ = std::move(*guard);
+  opened->guard_->ask(terminal_questions());
+  opened->asked_ = std::chrono::steady_clock::now();
   return opened;
 }
 
-core::Expected<std::unique_ptr<TerminalGuard>> OpenedTerminal::enter(TerminalUse use) {
-  auto guard = TerminalGuard::enter(modes_.get(), STDOUT_FILENO, use);
-  if (guard && answers_) (*guard)->note_answer();
-  if (guard && use == TerminalUse::kFullScreen && kitty_) (*guard)->push_kitty();
-  return guard;
+Look OpenedTerminal::choose(ColorChoice color, GlyphChoice glyphs) {
+  assert(guard_ != nullptr);
+  const TerminalAnswers answers = await_answers(*guard_, keys_, asked_ + kPatience);
+  look_ = choose_look(color, glyphs, hints_of_environment(), answers);
+  synchronized_ = answers.synchronizes() ? SynchronizedUpdate::kOn : SynchronizedUpdate::kOff;
+  kitty_ = answers.kitty();
+  return look_;
+}
+
+TerminalGuard& OpenedTerminal::fill_screen() {
+  assert(guard_ != nullptr);
+  guard_->fill_screen();
+  if (kitty_) guard_->push_kitty();
+  return *guard_;
 }
 
 TerminalScreen OpenedTerminal::screen() const {

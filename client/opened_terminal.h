@@ -2,6 +2,7 @@
 // and what it is drawn with after that.
 #pragma once
 
+#include <chrono>
 #include <memory>
 
 #include "client/play/look_choice.h"
@@ -15,15 +16,16 @@ namespace woodlouse::client {
 
 class OpenedTerminal {
  public:
-  /// Opens the terminal behind standard input and output and asks it, which takes as long as it takes to
-  /// answer, 0.6 s at most. Error: there is none.
-  static core::Expected<std::unique_ptr<OpenedTerminal>> open(ColorChoice color, GlyphChoice glyphs);
+  /// Opens the terminal behind standard input and output and asks it. From now on, for as long as this lives,
+  /// the terminal is the program's: keys come one by one, unseen. Error: there is none.
+  static core::Expected<std::unique_ptr<OpenedTerminal>> open();
 
-  [[nodiscard]] const Look& look() const { return look_; }
-  /// For as long as the guard lives the terminal is the program's. A full screen reports keys as well as it
-  /// can.
-  core::Expected<std::unique_ptr<TerminalGuard>> enter(TerminalUse use);
-  /// Where frames go; once.
+  /// What it is to be drawn with, by what it has answered; to one that answers late or never a little time is
+  /// left since it was asked. Once.
+  Look choose(ColorChoice color, GlyphChoice glyphs);
+  /// Takes the whole screen, with keys that are reported as well as it can.
+  TerminalGuard& fill_screen();
+  /// Where frames go.
   [[nodiscard]] TerminalScreen screen() const;
   /// The keys, for one to take over; once.
   KeySource take_keys();
@@ -37,10 +39,11 @@ class OpenedTerminal {
   Descriptor modes_;  ///< the guard's: outlives whoever takes over the keys, and closes them
   Descriptor frames_;
   KeySource keys_;
+  std::unique_ptr<TerminalGuard> guard_;
+  std::chrono::steady_clock::time_point asked_;
   Look look_;
   SynchronizedUpdate synchronized_ = SynchronizedUpdate::kOff;
   bool kitty_ = false;
-  bool answers_ = false;  ///< the last question was answered
 };
 
 }  // namespace woodlouse::client

@@ -30,13 +30,17 @@ namespace woodlouse::client {
 namespace {
 
 using std::chrono::steady_clock;
-constexpr std::chrono::milliseconds kIntroduction{
-    2500};  // how long the first run's text stands without a key
+constexpr std::chrono::seconds kIntroduction{3};  // how long the first run's text stands without a key
 
 int complain(int exit_code, const std::string& what, const std::string& hint) {
   std::cerr << "woodlouse: " << what << "\n";
   if (!hint.empty()) std::cerr << "      " << hint << "\n";
   return exit_code;
+}
+
+Outcome complaint(int exit_code, const core::Error& error) {
+  return {exit_code, "woodlouse: " + error.where + ": " + error.what + "\n" +
+                         (error.hint.empty() ? "" : "      " + error.hint + "\n")};
 }
 
 std::string describe(const Look& look) {
@@ -70,7 +74,7 @@ void introduce(const Config& config, const Session& session, const Look& look) {
               << "  keys     " << driving_keys(config) << "\n";
   std::cout << "  screen   " << describe(look) << "   change with --color / --glyphs\n\n"
             << "  joined in " << session.join_time().count()
-            << " ms.   Any key starts, ? for help, Q to leave.\n"
+            << " ms.   Any key starts (or 3 s), ? for help, Q to leave.\n"
             << std::flush;
 }
 
@@ -100,27 +104,23 @@ std::filesystem::path data_of(const Config& config) {
   return config.no_files ? std::filesystem::path() : data_folder();
 }
 
-Outcome play(boost::asio::io_context& context, Session& session, const Config& config, LocalServer* local) {
-  const auto terminal = OpenedTerminal::open(config.color, config.glyphs);
-  if (!terminal)
-    return {kExitIo, "woodlouse: " + terminal.error().where + ": " + terminal.error().what + "\n      " +
-                         terminal.error().hint + "\n"};
-  Look look = (*terminal)->look();
+Outcome play(boost::asio::io_context& context, Session& session, const Config& config, LocalServer* local,
+             OpenedTerminal& terminal) {
+  Look look = terminal.choose(config.color, config.glyphs);
   look.palette = config.palette;
   GameSettings settings{look,        config.view,  config.fps,  Overlay::kNone,
                         config.keys, config.steer, config.bell, data_of(config)};
   if (local != nullptr) {
     introduce(config, session, look);
-    const auto guard = (*terminal)->enter(TerminalUse::kKeysOnly);
-    const auto first = guard ? await_key(context, (*terminal)->keys()) : std::nullopt;
+    const auto first = await_key(context, terminal.keys());
     const Key* const key = first ? std::get_if<Key>(&*first) : nullptr;
     if (key != nullptr && is_leaving(*key, config.keys)) return {};
     if (key != nullptr && picture_action(*key, config.keys) == Action::kHelp) settings.first = Overlay::kHelp;
+    settings.begun_by_itself = key == nullptr;
   }
-  auto guard = (*terminal)->enter(TerminalUse::kFullScreen);
-  if (!guard) return {kExitIo, "woodlouse: " + guard.error().text() + "\n"};
-  TerminalScreen screen = (*terminal)->screen();
-  Game game(context, session, **guard, (*terminal)->take_keys(), screen, settings,
+  TerminalGuard& guard = terminal.fill_screen();
+  TerminalScreen screen = terminal.screen();
+  Game game(context, session, guard, terminal.take_keys(), screen, settings,
             local != nullptr ? [local] { return local->alive(); } : std::function<bool()>());
   return game.run();
 }
@@ -162,6 +162,33 @@ void name_louse(Config& config) {
   if (!kept) std::cerr << "woodlouse: the name is not kept: " << kept.error().text() << "\n";
 }
 
+/// A server if one is to be started here, the game on it, and its end. terminal: none, where it is told in
+/// lines.
+Outcome join_and_play(const Config& config, std::unique_ptr<OpenedTerminal> terminal) {
+  std::unique_ptr<LocalServer> local;
+  if (!config.server) {
+    const auto map = map::find_map(config.map);
+    if (!map) return complaint(kExitUsage, map.error());
+    auto started = LocalServer::start({.map = *map});
+    if (!started) return complaint(kExitUnreachable, started.error());
+    local = std::move(*started);
+  }
+  boost::asio::io_context context(1);
+  const protocol::Role role =
+      config.part == Part::kWatch ? protocol::Role::kSpectator : protocol::Role::kPlayer;
+  protocol::Join join = make_join(role, config.name, config.room, config.hashes);
+  if (role == protocol::Role::kSpectator && config.hashes == Hashes::kIgnored) join = by_inputs(join);
+  join.token = config.token;
+  Session session(context, local ? local->address() : *config.server, join);
+  if (!data_of(config).empty()) session.room().own_game().ghosts().keep_in(data_of(config));
+  if (const auto joined = session.join(); !joined) return complaint(kExitUnreachable, joined.error());
+  const Outcome outcome = terminal == nullptr ? tell(context, session, config, local.get())
+                                              : play(context, session, config, local.get(), *terminal);
+  terminal.reset();  // given back before the server hears of it
+  session.leave();
+  return judged(outcome, session.room());
+}
+
 }  // namespace
 
 int run_client(const Config& given) {
@@ -190,31 +217,14 @@ int run_client(const Config& given) {
   }
   if (config.asks_name && config.part == Part::kPlay && !as_text && isatty(STDIN_FILENO) != 0)
     name_louse(config);
-  std::unique_ptr<LocalServer> local;
-  if (!config.server) {
-    const auto map = map::find_map(config.map);
-    if (!map) return complain(kExitUsage, map.error().where + ": " + map.error().what, map.error().hint);
-    auto started = LocalServer::start({.map = *map});
-    if (!started)
-      return complain(kExitUnreachable, started.error().where + ": " + started.error().what,
-                      started.error().hint);
-    local = std::move(*started);
+  std::unique_ptr<OpenedTerminal> terminal;
+  if (!as_text) {  // asked before the server is, so that it answers meanwhile
+    auto opened = OpenedTerminal::open();
+    if (!opened)
+      return complain(kExitIo, opened.error().where + ": " + opened.error().what, opened.error().hint);
+    terminal = std::move(*opened);
   }
-  boost::asio::io_context context(1);
-  const protocol::Role role =
-      config.part == Part::kWatch ? protocol::Role::kSpectator : protocol::Role::kPlayer;
-  protocol::Join join = make_join(role, config.name, config.room, config.hashes);
-  if (role == protocol::Role::kSpectator && config.hashes == Hashes::kIgnored) join = by_inputs(join);
-  join.token = config.token;
-  Session session(context, local ? local->address() : *config.server, join);
-  if (!data_of(config).empty()) session.room().own_game().ghosts().keep_in(data_of(config));
-  if (const auto joined = session.join(); !joined) {
-    return complain(kExitUnreachable, joined.error().where + ": " + joined.error().what, joined.error().hint);
-  }
-  const Outcome outcome = judged(
-      as_text ? tell(context, session, config, local.get()) : play(context, session, config, local.get()),
-      session.room());
-  session.leave();
+  const Outcome outcome = join_and_play(config, std::move(terminal));
   std::cerr << outcome.message;
   return outcome.exit_code;
 }

@@ -21,16 +21,15 @@ Outcome no_recording(const core::Error& error) {
 }
 
 Outcome show(const Config& config, RecordingView& recording) {
-  const auto terminal = OpenedTerminal::open(config.color, config.glyphs);
+  const auto terminal = OpenedTerminal::open();
   if (!terminal) return {kExitIo, "woodlouse: " + terminal.error().text() + "\n"};
-  Look look = (*terminal)->look();
+  Look look = (*terminal)->choose(config.color, config.glyphs);
   look.palette = config.palette;
-  auto guard = (*terminal)->enter(TerminalUse::kFullScreen);
-  if (!guard) return {kExitIo, "woodlouse: " + guard.error().text() + "\n"};
+  TerminalGuard& guard = (*terminal)->fill_screen();
   TerminalScreen screen = (*terminal)->screen();
   boost::asio::io_context context(1);
   const std::string name = std::filesystem::path(config.recording).filename().string();
-  return ReplayViewer(context, recording, name, **guard, (*terminal)->take_keys(), screen,
+  return ReplayViewer(context, recording, name, guard, (*terminal)->take_keys(), screen,
                       {look, config.view, config.fps, Overlay::kNone})
       .run();
 }

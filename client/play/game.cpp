@@ -15,6 +15,7 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kServerCheck{500};
+constexpr std::chrono::seconds kStillReading{15};  // since the game has begun by itself
 
 }  // namespace
 
@@ -34,6 +35,7 @@ Outcome Game::run() {
   interface_.has_oblique = paints_pixels(settings_.look);
   interface_.overlay = settings_.first;
   interface_.steer = settings_.steer;
+  begun_ = steady_clock::now();
   return loop_.run();
 }
 
@@ -48,7 +50,18 @@ void Game::on_input(const TerminalInput& input) {
   }
 }
 
+/// The introduction said that any key starts; who has read it for longer than it stands presses Space.
+bool Game::comes_late_to_begin(const Key& key) {
+  if (!settings_.begun_by_itself || key.action == KeyAction::kRelease) return false;
+  settings_.begun_by_itself = false;
+  if (bindings_.keys().find(key) != Control::kCruise || steady_clock::now() - begun_ > kStillReading)
+    return false;
+  session_.room().notice("you play already: once more, and it cruises", steady_clock::now());
+  return true;
+}
+
 void Game::on_key(const Key& key) {
+  if (comes_late_to_begin(key)) return loop_.hurry();
   if (session_.is_trying() && !interface_.chatting && is_leaving(key, bindings_.keys()))
     return loop_.finish({});
   if (interface_.chatting && !control_action(key)) {

@@ -30,6 +30,8 @@ struct GameSettings {
   SteerBy steer = SteerBy::kHeading;
   bool bell = false;
   std::filesystem::path data{};  ///< where it is remembered who has had the lesson; empty: nowhere
+  /// No key has started it, though any would have: the first one that cruises may have been meant so.
+  bool begun_by_itself = false;
 };
 
 class Game final : private Performance {
@@ -46,6 +48,7 @@ class Game final : private Performance {
   void on_input(const TerminalInput& input) override;
   Scene scene(core::Time now, double fps) override;
   void on_key(const Key& key);
+  bool comes_late_to_begin(const Key& key);
   void perform(Action action);
   [[nodiscard]] Handling handling() const;
   void close_chat(ChatEntry::Outcome outcome);
@@ -62,6 +65,7 @@ class Game final : private Performance {
   Interface interface_;
   ChatEntry chat_;
   Teacher teacher_;
+  core::Time begun_{};
   core::Time server_seen_{};  ///< when server_alive_ was last asked
   TerminalLoop loop_;
 };

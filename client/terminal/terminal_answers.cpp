@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <string>
 #include <variant>
 
@@ -53,16 +54,14 @@ bool TerminalAnswers::take(const TerminalInput& input) {
   return false;
 }
 
-TerminalAnswers ask_terminal(TerminalGuard& guard, KeySource& keys, std::chrono::milliseconds patience) {
+TerminalAnswers await_answers(TerminalGuard& guard, KeySource& keys,
+                              std::chrono::steady_clock::time_point end) {
   using std::chrono::steady_clock;
   TerminalAnswers answers;
-  guard.ask(terminal_questions());
-  const auto end = steady_clock::now() + patience;
-  while (!answers.is_finished()) {
+  while (!answers.is_finished()) {  // what has come already is read, however late it is
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - steady_clock::now());
-    if (left.count() <= 0) break;
     pollfd readable{keys.fd, POLLIN, 0};
-    const int ready = poll(&readable, 1, static_cast<int>(left.count()));
+    const int ready = poll(&readable, 1, static_cast<int>(std::max<std::int64_t>(0, left.count())));
     if (ready < 0 && errno == EINTR) continue;
     if (ready <= 0) break;
     std::array<char, 1024> bytes{};

@@ -44,8 +44,10 @@ class TerminalAnswers {
 /// The questions, as bytes. They write on the cursor's line and leave it empty.
 std::string_view terminal_questions();
 
-/// Asks, and waits for the answers for at most `patience`. What was typed meanwhile, and what is left of an
-/// answer that is cut in two, waits in `keys`. guard: has the terminal of `keys`.
-TerminalAnswers ask_terminal(TerminalGuard& guard, KeySource& keys, std::chrono::milliseconds patience);
+/// Waits for the answers to terminal_questions(), which `guard` has asked, until `end` at most. What was
+/// typed meanwhile, and what is left of an answer that is cut in two, waits in `keys`. guard: has the
+/// terminal of `keys`.
+TerminalAnswers await_answers(TerminalGuard& guard, KeySource& keys,
+                              std::chrono::steady_clock::time_point end);
 
 }  // namespace woodlouse::client

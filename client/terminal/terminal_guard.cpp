@@ -281,6 +281,12 @@ TerminalGuard::~TerminalGuard() {
   sigprocmask(SIG_SETMASK, &mask, nullptr);
 }
 
+void TerminalGuard::fill_screen() {
+  assert(borrowed.use == TerminalUse::kKeysOnly);
+  borrowed.use = TerminalUse::kFullScreen;  // before the bytes: leaving what was not entered does no harm
+  put(kEnter);
+}
+
 void TerminalGuard::ask(std::string_view questions) {
   assert(questions.ends_with(kLastQuestion));
   borrowed.asked = std::chrono::steady_clock::now();

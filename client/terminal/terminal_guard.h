@@ -32,6 +32,8 @@ class TerminalGuard {
   TerminalGuard(const TerminalGuard&) = delete;
   TerminalGuard& operator=(const TerminalGuard&) = delete;
 
+  /// From kKeysOnly to kFullScreen, with what was asked and answered so far.
+  void fill_screen();
   /// Writes questions whose last is the one for device attributes (CSI c), which every terminal answers. The
   /// answers come as keys do.
   void ask(std::string_view questions);

@@ -30,7 +30,8 @@ Asked asked(const std::vector<std::string>& parts, std::chrono::milliseconds pat
   {
     const auto guard = TerminalGuard::enter(terminal.slave(), terminal.slave(), TerminalUse::kKeysOnly);
     REQUIRE(guard);
-    result.answers = ask_terminal(**guard, keys, patience);
+    (*guard)->ask(terminal_questions());
+    result.answers = await_answers(**guard, keys, std::chrono::steady_clock::now() + patience);
     result.took = std::chrono::steady_clock::now() - begin;
     result.typed = keys.typed;
     other.join();
@@ -81,6 +82,18 @@ TEST_CASE("a terminal that answers nothing is waited for no longer than it may t
   CHECK(silent.answers.truecolor() == std::nullopt);
   CHECK(silent.typed == std::vector<TerminalInput>{Key{.character = U'w'}});
   CHECK(silent.took < 1500ms);
+}
+
+TEST_CASE("answers that have come while something else was done are all read, though nobody waits any more") {
+  const PseudoTerminal terminal;
+  KeySource keys{terminal.slave(), {}, {}};
+  const auto guard = TerminalGuard::enter(terminal.slave(), terminal.slave(), TerminalUse::kKeysOnly);
+  REQUIRE(guard);
+  (*guard)->ask(terminal_questions());
+  terminal.type(kKnowsAll);
+  const TerminalAnswers answers = await_answers(**guard, keys, std::chrono::steady_clock::now());
+  CHECK(answers.is_finished());
+  CHECK(answers.truecolor() == true);
 }
 
 TEST_CASE("garbage answers nothing and ends with the last answer") {

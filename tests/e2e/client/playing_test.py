@@ -1,10 +1,15 @@
 """The game in a terminal: keys, screens, views."""
 
+import fcntl
 import os
+import pty
 import re
+import signal
+import struct
+import termios
 import time
 
-from terminal import BIN, InATerminal, LOOK, wait_for
+from terminal import BIN, InATerminal, LOOK, Server, wait_for
 
 
 class Playing(InATerminal):
@@ -144,6 +149,36 @@ class Playing(InATerminal):
         self.terminal.shows(r"Any key starts")
         self.terminal.keys("q")
         self.assertEqual(self.exit_code(), 0)
+
+    def test_a_space_that_comes_after_the_introduction_has_gone_by_itself_does_not_cruise_at_once(self):
+        self.terminal.run(f"{BIN}/woodlouse {LOOK} --name mara")
+        self.terminal.shows(r"Any key starts")
+        self.terminal.shows(r"YOU -")
+        self.terminal.keys("Space")
+        self.terminal.shows(r"you play already")
+        self.assertNotIn("cruise", self.line_of("push"))
+        self.terminal.keys("Space")
+        self.terminal.shows(r"push\s.*cruise")
+
+    def test_a_terminal_that_answers_nothing_has_its_first_picture_half_a_second_later(self):
+        server = Server()
+        self.addCleanup(server.stop)
+        pid, master = pty.fork()
+        if pid == 0:
+            os.execve(f"{BIN}/woodlouse", ["woodlouse", server.address, "--name", "mara", "--view", "map"],
+                      {"TERM": "xterm-256color", "HOME": self.terminal.folder})
+        self.addCleanup(os.close, master)
+        self.addCleanup(os.waitpid, pid, 0)
+        self.addCleanup(os.kill, pid, signal.SIGKILL)
+        fcntl.ioctl(master, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+
+        def reads(text):
+            written = b""
+            while text not in written:
+                written += os.read(master, 4096)
+            return time.monotonic()
+        asked = reads(b"\x1b[c")
+        self.assertLess(reads(b"\x1b[?1049h") - asked, 0.85)  # 0.5 s, and what a busy machine adds
 
     def test_r_begins_again_at_a_spawn_point(self):
         self.play()
