@@ -8,6 +8,7 @@
 
 #include "client/play/bell.h"
 #include "client/play/modes/goal.h"
+#include "client/play/spoken_words.h"
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
 #include "shared/map/map_text.h"
@@ -24,11 +25,6 @@ struct Overloaded : Cases... {
 };
 template <typename... Cases>
 Overloaded(Cases...) -> Overloaded<Cases...>;
-
-std::string what_became(const protocol::Welcome& welcome) {
-  if (welcome.id == 0) return "watching again";
-  return welcome.resumed ? "back in your louse" : "your louse is gone: this is a new one";
-}
 
 std::int64_t microseconds(core::Time time) {
   return std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch()).count();
@@ -84,7 +80,7 @@ core::Expected<void> RoomView::on_message(const protocol::ServerMessage& message
 void RoomView::take(const protocol::Welcome& welcome, core::Time now) {
   if (was_here_) {
     const auto& difference = follower().difference();
-    notice(difference ? "watching by frames now: " + to_text(*difference) : what_became(welcome), now);
+    notice(difference ? "watching by frames now: " + to_text(*difference) : words::what_became(welcome), now);
   }
   if (welcome_) {  // another game of the room, on the same connection
     notice(core::joined({"now: ", welcome.mode, " on ", welcome.map_name}), now);
@@ -94,13 +90,16 @@ void RoomView::take(const protocol::Welcome& welcome, core::Time now) {
   }
   was_here_ = false;
   welcome_ = welcome;
-  mode_ = state::mode_from_text(welcome.mode).value_or(state::Mode::kRoam);
+  const state::Mode before =
+      std::exchange(mode_, state::mode_from_text(welcome.mode).value_or(state::Mode::kRoam));
+  const bool goes_on = before == mode_ && map_ && map_->hash == welcome.map_hash;
+  const protocol::Game* const game = goes_on && view_ ? view_->game() : nullptr;
   tick_hz_ = welcome.tick_hz;
   own_game_.take(welcome);
   roster_.welcome(welcome);
   clock_.emplace(welcome.tick_hz);
   word_.expect(welcome.state_hz);
-  view_.emplace(welcome.tick_hz, welcome.fields);
+  view_ = ViewState(welcome.tick_hz, welcome.fields, game != nullptr ? std::optional(*game) : std::nullopt);
   pilot_.reset();
   rate_time_.reset();
   if (welcome.stream == protocol::Stream::kInputs) return stream_.begin(welcome.tick_hz, welcome.state_hz);
@@ -277,9 +276,9 @@ Sight RoomView::sight() const {
     const Resident* resident = roster_.find(id);
     return resident != nullptr ? resident->name : core::joined({"#", std::to_string(id)});
   };
-  const Snapshot* newest = view_ ? view_->newest() : nullptr;
-  if (newest == nullptr || !newest->game) return sight;
-  sight.ruling = {mode_, &*newest->game, shown_tick_, tick_hz_, own_game_.author_ms()};
+  const protocol::Game* const game = view_ ? view_->game() : nullptr;
+  if (game == nullptr) return sight;
+  sight.ruling = {mode_, game, shown_tick_, tick_hz_, own_game_.author_ms()};
   if (sight.ruling.mode == state::Mode::kRoam) sight.ruling.game = nullptr;  // rules that are not known here
   return sight;
 }

@@ -218,6 +218,11 @@ Scene build_scene(const Session& session, const Interface& interface, const Chat
   scene.course = course_of({room.sight(), scene.spectating ? scene.follow_id : own_id,
                             sample_of(room.sight(), scene.spectating ? scene.follow_id : own_id),
                             !scene.spectating, &room.own_game().run(), scene.hud.rank});
+  if (const auto* welcome = room.welcome();
+      scene.course.lines.empty() && welcome != nullptr &&
+      state::mode_from_text(welcome->mode).value_or(state::Mode::kRoam) != state::Mode::kRoam)
+    scene.course.lines = {
+        {{welcome->mode, Tone::kStrong}}};  // the first frame will say more, in the same place
   scene.course.splash = room.own_game().run().splash(facts.now);
   scene.course.ghosts = room.own_game().ghost_marks();
   if (const auto gate = room.own_game().gate().mark()) {

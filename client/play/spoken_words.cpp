@@ -119,6 +119,11 @@ std::vector<std::string> room(const RoomView& view) {
   return lines;
 }
 
+std::string what_became(const protocol::Welcome& welcome) {
+  if (welcome.id == 0) return "watching again";
+  return welcome.resumed ? "back in your louse" : "your louse is gone: this is a new one";
+}
+
 }  // namespace words
 
 }  // namespace woodlouse::client

@@ -25,6 +25,8 @@ std::vector<std::string> podium(const RoomView& room);
 std::string keys(const KeyLabels& keys, SteerBy steer, bool plays);
 /// The room, lice by rank: one line each, your own first.
 std::vector<std::string> room(const RoomView& room);
+/// Of who was here before the line was cut.
+std::string what_became(const protocol::Welcome& welcome);
 }  // namespace words
 
 }  // namespace woodlouse::client

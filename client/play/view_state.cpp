@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace woodlouse::client {
 namespace {
@@ -98,11 +99,13 @@ LouseSample between(const LouseSample& from, const LouseSample& target, double s
   return sample;
 }
 
-ViewState::ViewState(std::uint32_t tick_hz, const std::vector<Column>& columns)
+ViewState::ViewState(std::uint32_t tick_hz, const std::vector<Column>& columns,
+                     std::optional<protocol::Game> before)
     : tick_hz_(tick_hz),
       columns_(columns.size()),
       places_(places_of(wanted_columns(), columns)),
-      standing_places_(places_of(protocol::kRulesColumns, columns)) {}
+      standing_places_(places_of(protocol::kRulesColumns, columns)),
+      before_(std::move(before)) {}
 
 ViewState::Merge ViewState::merge(const protocol::Frame& frame) {
   if (places_.empty() || frame.columns != columns_) return Merge::kUnreadable;
@@ -128,6 +131,7 @@ void ViewState::show(Snapshot snapshot) {
 }
 
 void ViewState::clear() {
+  before_.reset();
   key_.reset();
   snapshots_.clear();
 }

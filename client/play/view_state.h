@@ -63,8 +63,10 @@ class ViewState {
   static constexpr std::size_t kSnapshots = 64;        ///< the oldest are forgotten beyond
   static constexpr double kExtrapolateSeconds = 0.25;  ///< beyond the newest snapshot a louse stands still
 
-  /// columns: of the frames to come; wanted_columns() among them, in any order.
-  explicit ViewState(std::uint32_t tick_hz, const std::vector<protocol::Column>& columns = wanted_columns());
+  /// columns: of the frames to come; wanted_columns() among them, in any order. before: what the rules showed
+  /// last of the same game, which holds until they show something.
+  explicit ViewState(std::uint32_t tick_hz, const std::vector<protocol::Column>& columns = wanted_columns(),
+                     std::optional<protocol::Game> before = std::nullopt);
 
   Merge merge(const protocol::Frame& frame);
   /// One that was made here; passed over where it is not newer than what is here.
@@ -76,12 +78,18 @@ class ViewState {
   [[nodiscard]] std::map<std::uint32_t, LouseSample> at(double tick, const Ways& ways = {}) const;
   /// The newest snapshot; null before the first key.
   [[nodiscard]] const Snapshot* newest() const { return snapshots_.empty() ? nullptr : &snapshots_.back(); }
+  /// What the rules show, or showed last; null: nothing yet, or there are none.
+  [[nodiscard]] const protocol::Game* game() const {
+    const std::optional<protocol::Game>& shown = snapshots_.empty() ? before_ : snapshots_.back().game;
+    return shown ? &*shown : nullptr;
+  }
 
  private:
   double tick_hz_;
   std::size_t columns_;                       ///< of a row
   std::vector<std::size_t> places_;           ///< where in a row the wanted columns stand; empty: not all do
   std::vector<std::size_t> standing_places_;  ///< the same of protocol::kRulesColumns
+  std::optional<protocol::Game> before_;
   std::optional<Snapshot> key_;
   std::deque<Snapshot> snapshots_;  ///< ascending ticks
 };

@@ -106,6 +106,22 @@ TEST_CASE("who loses the line sees what the rules showed last, and where the lou
   CHECK(room.sight().ruling.tick_hz == 30);
   CHECK(room.lice().at(3).sample.heading.x == heading.x);
   CHECK(room.lice().at(3).sample.heading.y == heading.y);
+
+  // Back in: until the next frame comes that still holds; in another game, or after such a frame, it does
+  // not.
+  message.resumed = true;
+  REQUIRE(room.on_message(message, kStart + 3s));
+  room.update(kStart + 3s);
+  REQUIRE(room.sight().ruling.game != nullptr);
+  CHECK(room.sight().ruling.tick == tick);
+  frame.tick = frame.base = 63;
+  frame.game->phase = protocol::GamePhase::kPodium;
+  REQUIRE(room.on_message(frame, kStart + 3s));
+  REQUIRE(room.sight().ruling.game != nullptr);
+  CHECK(room.sight().ruling.game->phase == protocol::GamePhase::kPodium);
+  message.mode = "roam";
+  REQUIRE(room.on_message(message, kStart + 4s));
+  CHECK(room.sight().ruling.game == nullptr);
 }
 
 }  // namespace woodlouse::client
