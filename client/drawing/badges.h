@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <vector>
@@ -11,13 +12,28 @@
 
 namespace woodlouse::client {
 
+/// What tells bodies of one colour apart.
+enum class Coat : std::uint8_t { kPaleHead, kDarkHead, kPaleHeadAndBelt, kDarkHeadAndBelt };
+inline constexpr std::size_t kCoats = 4;
+
 struct Badge {
   char letter = '?';  ///< '@' is you, a..z and A..Z the others, '+' whoever comes behind these
   Rgb color;
+  Coat coat = Coat::kPaleHead;
 };
 
-/// Letters go by id, so that a louse keeps its own while others come and go; none is given twice: behind 52
-/// lice there are no letters any more.
+/// What a body shows at `along` its length, from -1 at its end to 1 at the tip of its head.
+inline Rgb body_color(const Badge& badge, double along) {
+  constexpr double kNeck = 0.42;
+  constexpr double kBeltEnd = -0.45, kBeltBegin = -0.05;
+  const bool has_dark_head = badge.coat == Coat::kDarkHead || badge.coat == Coat::kDarkHeadAndBelt;
+  const bool has_belt = badge.coat == Coat::kPaleHeadAndBelt || badge.coat == Coat::kDarkHeadAndBelt;
+  if (along > kNeck) return has_dark_head ? kMarkShade : Rgb{255, 255, 250};
+  return has_belt && along > kBeltEnd && along < kBeltBegin ? kMarkShade : badge.color;
+}
+
+/// Letters, and colours with coats, go by id, so that a louse keeps its own while others come and go; none is
+/// given twice: behind 52 lice there are no letters any more, behind 28 colours and coats repeat.
 class Badges {
  public:
   explicit Badges(const Scene& scene) : look_(scene.look) {
@@ -33,8 +49,22 @@ class Badges {
  private:
   void add(std::uint32_t id, bool is_you) {
     if (badges_.contains(id)) return;
-    badges_[id] = {is_you ? '@' : free_letter(id),
-                   louse_color(id, is_you ? Owner::kYou : Owner::kOther, look_)};
+    if (is_you) {
+      badges_[id] = {'@', louse_color(id, Owner::kYou, look_)};
+      return;
+    }
+    const std::uint32_t slot = free_slot(id);
+    badges_[id] = {free_letter(id), louse_color(slot, Owner::kOther, look_),
+                   static_cast<Coat>(slot / kBadgeColors)};
+  }
+
+  std::uint32_t free_slot(std::uint32_t id) {
+    constexpr auto kSlots = static_cast<std::uint32_t>(kBadgeColors * kCoats);
+    std::uint32_t slot = id % kSlots;
+    if (used_slots_ == (1u << kSlots) - 1) return slot;
+    while ((used_slots_ >> slot & 1u) != 0) slot = (slot + 1) % kSlots;
+    used_slots_ |= 1u << slot;
+    return slot;
   }
 
   char free_letter(std::uint32_t id) {
@@ -53,6 +83,7 @@ class Badges {
   Look look_;
   std::map<std::uint32_t, Badge> badges_;
   std::uint32_t used_small_ = 0, used_capital_ = 0;  ///< a bit a letter
+  std::uint32_t used_slots_ = 0;                     ///< a bit a colour and coat
 };
 
 /// The lice as they are to be painted one over the other: yours last. Those that are nowhere near the map are

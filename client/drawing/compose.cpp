@@ -67,7 +67,9 @@ struct Composer::Layers {
   void see(const Scene& scene, Size size);
   [[nodiscard]] Key wanted(const Scene& scene, Size size);
   void prepare(const Scene& scene, Size size);
-  void draw_map(const Scene& scene, const Badges& badges, const Viewport& viewport, CellBuffer& cells);
+  /// The cell of your louse, from the viewport's corner.
+  std::optional<Place> draw_map(const Scene& scene, const Badges& badges, const Viewport& viewport,
+                                CellBuffer& cells);
 };
 
 /// Makes the relief and the follower those of this map and size.
@@ -122,11 +124,11 @@ void Composer::Layers::prepare(const Scene& scene, Size size) {
   mark_in_characters(scene.landmarks, domain, *key->above, size, scene.look, cells);
 }
 
-void Composer::Layers::draw_map(const Scene& scene, const Badges& badges, const Viewport& viewport,
-                                CellBuffer& out) {
+std::optional<Place> Composer::Layers::draw_map(const Scene& scene, const Badges& badges,
+                                                const Viewport& viewport, CellBuffer& out) {
   if (scene.terrain == nullptr) {
     out.text(viewport.column + 2, viewport.row + viewport.size.rows / 2, "waiting for the map ...", {});
-    return;
+    return std::nullopt;
   }
   prepare(scene, viewport.size);
   const bool is_oblique = key->oblique.has_value();
@@ -148,7 +150,11 @@ void Composer::Layers::draw_map(const Scene& scene, const Badges& badges, const 
     }
     draw_marks(scene, badges, canvas);
   }
+  std::optional<Place> yours;
   for (const LouseMark& louse : scene.lice) {  // no text over yours
+    if (const auto at = louse.is_you ? canvas.spot(louse.position, louse.above) : std::nullopt)
+      yours = Place{static_cast<int>(std::floor(at->x)),
+                    static_cast<int>(std::floor(at->y / canvas.dots_per_row()))};
     const auto at = louse.is_you && canvas.has_pixels() ? canvas.spot(louse.position) : std::nullopt;
     constexpr int kColumns = 3, kRows = 1;
     for (int y = -kRows; at && y <= kRows; ++y)
@@ -156,6 +162,7 @@ void Composer::Layers::draw_map(const Scene& scene, const Badges& badges, const 
         canvas.keep(static_cast<int>(std::floor(at->x)) + x, static_cast<int>(std::floor(at->y)) / 2 + y);
   }
   draw_mark_labels(scene, badges, canvas);
+  return yours;
 }
 
 Composer::Composer() : layers_(std::make_unique<Layers>()) {}
@@ -181,10 +188,10 @@ void Composer::draw(const Scene& scene, CellBuffer& cells) {
   const int columns = layout_for(size, scene.look, foot).map.size.columns;
   const Layout layout = layout_for(size, scene.look, foot, line_rows(scene, columns));
   const Badges badges(scene);
-  layers_->draw_map(scene, badges, layout.map, cells);
+  const std::optional<Place> yours = layers_->draw_map(scene, badges, layout.map, cells);
   draw_panel(scene, badges, layout.panel, cells);
   draw_status_line(scene, cells);
-  draw_course_board(scene, badges, layout, cells);
+  draw_course_board(scene, badges, layout, yours, cells);
   draw_key_line(scene, layout, cells);
   draw_overlay(scene, badges, cells);
 }

@@ -50,11 +50,10 @@ void draw_shadow(const LouseMark& louse, const MapCamera& camera, const Viewport
   for (const int beside : {0, 1}) put_pixel(cells, viewport, x + beside, y, Color::of({8, 9, 14}));
 }
 
-/// An ellipse along the direction of travel with a white head, `half` pixels long each way, in a dark rim.
-void draw_body(const LouseMark& louse, Rgb color, double half, const MapCamera& camera,
+/// An ellipse along the direction of travel with a head, `half` pixels long each way, in a dark rim.
+void draw_body(const LouseMark& louse, const Badge& badge, double half, const MapCamera& camera,
                const Viewport& viewport, CellBuffer& cells) {
-  constexpr double kSlim = 0.6;   // width over length
-  constexpr double kNeck = 0.42;  // of the half length
+  constexpr double kSlim = 0.6;  // width over length
   const double x = camera.column_of(louse.position);
   const double y = 2.0 * camera.row_of(louse.position);
   if (!(std::abs(x) < 1e5 && std::abs(y) < 1e5)) return;
@@ -75,7 +74,7 @@ void draw_body(const LouseMark& louse, Rgb color, double half, const MapCamera& 
       };
       const bool is_middle = i == middle_x && j == middle_y;  // the least that is seen of one
       if (is_middle || is_within(0.0)) {
-        put_pixel(cells, viewport, i, j, Color::of(along > kNeck * half ? Rgb{255, 255, 250} : color));
+        put_pixel(cells, viewport, i, j, Color::of(body_color(badge, along / half)));
       } else if (is_within(1.0)) {
         const Style& style = cells.at(viewport.column + i, viewport.row + j / 2).style;
         put_pixel(cells, viewport, i, j,
@@ -132,7 +131,7 @@ void draw_lice_on_map(const Scene& scene, const Badges& badges, const MapCamera&
   }
   if (has_bodies)
     for (const LouseMark* louse : order)
-      draw_body(*louse, badges.of(louse->id).color, half, camera, viewport, cells);
+      draw_body(*louse, badges.of(louse->id), half, camera, viewport, cells);
   std::reverse(order.begin(), order.end());  // yours first: put_over() keeps what stands
   for (const LouseMark* louse : order) {
     const Place at = place_of(*louse);

@@ -13,12 +13,11 @@ namespace {
 constexpr Rgb kRim{10, 10, 16};
 
 /// Three brightnesses only: a moving louse then changes fewer cells.
-Rgb skin(const LouseShape::Hit& hit, Rgb color) {
+Rgb skin(const LouseShape::Hit& hit, const Badge& badge) {
   constexpr Vec3 kToSun{-0.55, 0.2, 0.81};
   const double lit = dot(hit.normal, kToSun);
   const double brightness = lit > 0.55 ? 1.0 : lit > 0.1 ? 0.78 : 0.56;
-  constexpr double kNeck = 0.42;
-  return scaled(hit.along > kNeck ? Rgb{255, 255, 250} : color, brightness);
+  return scaled(body_color(badge, hit.along), brightness);
 }
 
 }  // namespace
@@ -70,7 +69,7 @@ void ObliquePainter::shadow(core::Vec2 under, double half_length) {
   }
 }
 
-void ObliquePainter::solid(const LouseShape& shape, double half_length, Rgb color, Owner owner) {
+void ObliquePainter::solid(const LouseShape& shape, double half_length, const Badge& badge, Owner owner) {
   const double favour = owner == Owner::kYou ? 2.0 * half_length : 0.0;
   const auto at = camera_.project(shape.centre());
   if (!at) return;
@@ -88,13 +87,13 @@ void ObliquePainter::solid(const LouseShape& shape, double half_length, Rgb colo
       const auto hit = shape.hit(camera_.eye(), camera_.ray(x + 0.5, y + 0.5));
       if (!hit) continue;
       if (hit->way > ground_[index(x, y)] + 0.5 * half_length) {
-        if (owner == Owner::kYou && (x + y) % 2 == 0) mix_in(x, y, color, 0.75);
+        if (owner == Owner::kYou && (x + y) % 2 == 0) mix_in(x, y, badge.color, 0.75);
         continue;
       }
       if (hit->way - favour > bodies_[index(x, y)]) continue;
       bodies_[index(x, y)] = static_cast<float>(hit->way - favour);
       covered[in_box(x, y)] = true;
-      put_pixel(cells_, viewport_, x, y, Color::of(skin(*hit, color)));
+      put_pixel(cells_, viewport_, x, y, Color::of(skin(*hit, badge)));
     }
   }
   for (int y = upper - 1; y <= lower + 1; ++y) {

@@ -6,6 +6,7 @@
 
 #include "client/cells/cell_buffer.h"
 #include "client/cells/color.h"
+#include "client/drawing/badges.h"
 #include "client/drawing/layout.h"
 #include "client/drawing/louse_shape.h"
 #include "client/drawing/palette.h"
@@ -38,7 +39,7 @@ class ObliquePainter {
   void shadow(core::Vec2 under, double half_length);
   /// A louse with a rim that sets it off from any ground. Yours shows through others that stand less than its
   /// length before it; where hills hide it, its pixels shine through, every second one.
-  void solid(const LouseShape& shape, double half_length, Rgb color, Owner owner);
+  void solid(const LouseShape& shape, double half_length, const Badge& badge, Owner owner);
 
  private:
   [[nodiscard]] bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width_ && y < height_; }

@@ -70,6 +70,7 @@ constexpr std::array<std::uint8_t, 16> kSlope256 = {17,  18,  54,  54,  53,  89,
 struct LouseColors {
   Rgb you;
   std::array<Rgb, kBadgeColors> others;
+  Rgb goal;  ///< also an entry of the cube
 };
 constexpr std::array<LouseColors, 3> kLice = {{{{255, 56, 112},
                                                 {{{255, 205, 84},
@@ -78,7 +79,8 @@ constexpr std::array<LouseColors, 3> kLice = {{{{255, 56, 112},
                                                   {186, 138, 255},
                                                   {255, 156, 220},
                                                   {255, 165, 94},
-                                                  {172, 240, 222}}}},
+                                                  {172, 240, 222}}},
+                                                {255, 255, 95}},
                                                {{135, 95, 255},
                                                 {{{215, 255, 0},
                                                   {95, 175, 255},
@@ -86,7 +88,8 @@ constexpr std::array<LouseColors, 3> kLice = {{{{255, 56, 112},
                                                   {135, 255, 255},
                                                   {175, 215, 135},
                                                   {215, 175, 215},
-                                                  {95, 135, 175}}}},
+                                                  {95, 135, 175}}},
+                                                {255, 255, 175}},
                                                {{0, 255, 175},
                                                 {{{255, 135, 255},
                                                   {95, 135, 255},
@@ -94,7 +97,8 @@ constexpr std::array<LouseColors, 3> kLice = {{{{255, 56, 112},
                                                   {215, 255, 215},
                                                   {255, 0, 0},
                                                   {175, 95, 255},
-                                                  {215, 0, 215}}}}}};
+                                                  {215, 0, 215}}},
+                                                {255, 215, 95}}}};
 
 /// Of the sixteen colours the bright ones but red and blue; blue drowns in many themes.
 constexpr std::uint8_t kBrightRed = 9;
@@ -136,6 +140,13 @@ Rgb louse_color(std::uint32_t id, Owner owner, const Look& look) {
     return palette_color(owner == Owner::kYou ? kBrightRed : kLice16[id % kLice16.size()]);
   const LouseColors& colors = kLice[static_cast<std::size_t>(look.palette)];
   return owner == Owner::kYou ? colors.you : colors.others[id % kBadgeColors];
+}
+
+Rgb goal_color(const Look& look) { return kLice[static_cast<std::size_t>(look.palette)].goal; }
+
+Rgb set_off(Rgb pale, Rgb ground) {
+  constexpr double kBright = 120.0;  // of 255
+  return 0.299 * ground.r + 0.587 * ground.g + 0.114 * ground.b < kBright ? pale : kMarkShade;
 }
 
 Color trail_color(Rgb louse, TrailAge age, ColorMode mode) {

@@ -28,7 +28,7 @@ Color edge_color(double brightness, ColorMode mode);
 
 enum class Owner : std::uint8_t { kYou, kOther };
 
-/// How many colours the others have; then they repeat.
+/// How many colours the others have; then they repeat, with another coat (badges.h).
 inline constexpr std::size_t kBadgeColors = 7;
 
 /// A louse's own colour: yours is raspberry (violet for deuteranopes, mint for tritanopes), the others' go by
@@ -36,6 +36,14 @@ inline constexpr std::size_t kBadgeColors = 7;
 /// true colour and in 256, for the eyes of the palette: palette_test.cpp prints the table. Of 16 colours the
 /// terminal's own theme says how they look, and the palette does not matter.
 Rgb louse_color(std::uint32_t id, Owner owner, const Look& look);
+
+/// What is wanted of you is drawn in this, and nothing else: yellow, 8 or more from every louse. No colour
+/// differs so much from every ground: on the ground it alternates with kMarkShade, one of which always does.
+Rgb goal_color(const Look& look);
+inline constexpr Rgb kMarkShade{10, 10, 16};
+
+/// Of a pale mark and kMarkShade the one that is seen on this ground.
+Rgb set_off(Rgb pale, Rgb ground);
 
 /// A trail has two brightnesses, so that while it grows a frame changes at its two ends and in the middle
 /// only.

@@ -126,7 +126,7 @@ void draw_lice_obliquely(const Scene& scene, const Badges& badges, const Relief&
     }
     const double half_length = half_length_pixels * camera.metres_per_pixel(at->depth);
     const LouseShape shape(foot, exaggerated(louse->attitude, relief.exaggeration()), half_length);
-    painter.solid(shape, half_length, badge.color, louse->is_you ? Owner::kYou : Owner::kOther);
+    painter.solid(shape, half_length, badge, louse->is_you ? Owner::kYou : Owner::kOther);
     if (louse->is_you) {
       // Where the next push goes, which is not always where it rolls.
       const core::Vec2 from = louse->position + (1.7 * half_length) * louse->heading;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace woodlouse::client {
 namespace {
@@ -55,24 +56,29 @@ Vec3 ObliqueCamera::ray(double x, double y) const {
 
 ObliqueCamera oblique_camera_for(const Relief& relief, Size size) {
   const terrain::Rectangle& d = relief.terrain().domain();
-  ObliqueCamera camera(relief, camera_tilt(relief),
-                       kDistances * std::hypot(d.x_max - d.x_min, d.y_max - d.y_min));
-  Box box;
+  std::vector<Vec3> probes;
   constexpr int kProbes = 48;
-  for (int j = 0; j <= kProbes; ++j) {
+  for (int j = 0; j <= kProbes; ++j)
     for (int i = 0; i <= kProbes; ++i) {
       const core::Vec2 p{d.x_min + (d.x_max - d.x_min) * i / kProbes,
                          d.y_min + (d.y_max - d.y_min) * j / kProbes};
-      if (const auto pixel = camera.project({p.x, p.y, relief.sample(p).z * relief.exaggeration()}))
-        box.take(*pixel);
+      probes.push_back({p.x, p.y, relief.sample(p).z * relief.exaggeration()});
     }
-  }
   const double width = size.columns;
   const double height = 2.0 * size.rows;
-  camera.focal_ = kMargin * std::min(width / (box.x_max - box.x_min), height / (box.y_max - box.y_min));
-  camera.middle_x_ = width / 2.0 - camera.focal_ * (box.x_min + box.x_max) / 2.0;
-  camera.middle_y_ = height / 2.0 - camera.focal_ * (box.y_min + box.y_max) / 2.0;
-  return camera;
+  // A map that is much wider than deep is looked at more steeply, until it has most of the picture's height.
+  constexpr double kSteepest = 70.0 * kDegree, kStep = 5.0 * kDegree, kFull = 0.6;
+  for (double tilt = camera_tilt(relief);; tilt = std::min(kSteepest, tilt + kStep)) {
+    ObliqueCamera camera(relief, tilt, kDistances * std::hypot(d.x_max - d.x_min, d.y_max - d.y_min));
+    Box box;
+    for (const Vec3& probe : probes)
+      if (const auto pixel = camera.project(probe)) box.take(*pixel);
+    camera.focal_ = kMargin * std::min(width / (box.x_max - box.x_min), height / (box.y_max - box.y_min));
+    if (camera.focal_ * (box.y_max - box.y_min) < kFull * height && tilt < kSteepest) continue;
+    camera.middle_x_ = width / 2.0 - camera.focal_ * (box.x_min + box.x_max) / 2.0;
+    camera.middle_y_ = height / 2.0 - camera.focal_ * (box.y_min + box.y_max) / 2.0;
+    return camera;
+  }
 }
 
 ObliqueCamera oblique_camera_around(const ObliqueCamera& whole, Vec3 centre, double zoom, Size size) {

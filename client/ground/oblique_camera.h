@@ -52,7 +52,8 @@ double camera_tilt(const Relief& relief);
 /// The map's direction, a unit vector, in which every one of these cameras looks.
 core::Vec2 oblique_up();
 
-/// The whole map in size.columns x 2 size.rows pixels.
+/// Looks down by camera_tilt(), or more steeply, up to 70 degrees, where the map would leave much of the
+/// picture's height empty: the whole map in size.columns x 2 size.rows pixels.
 ObliqueCamera oblique_camera_for(const Relief& relief, Size size);
 
 /// `zoom` times nearer than `whole`, oblique_camera_for() the same size, with `centre` in the middle.

@@ -19,17 +19,16 @@ namespace {
 
 constexpr Rgb kGood{104, 232, 150};
 constexpr Rgb kBad{255, 118, 92};
-constexpr Rgb kGoal{255, 236, 110};
 constexpr int kLineMargins = 2;  ///< columns left and right of a line
 
-Rgb tone_color(Tone tone) {
+Rgb tone_color(Tone tone, const Look& look) {
   switch (tone) {
     case Tone::kGood:
       return kGood;
     case Tone::kBad:
       return kBad;
     case Tone::kGoal:
-      return kGoal;
+      return goal_color(look);
     case Tone::kDim:
       return {150, 156, 172};
     case Tone::kUsual:
@@ -91,11 +90,23 @@ void force_pixel(CellBuffer& cells, const Viewport& map, int x, int y, Rgb color
   put_pixel(cells, map, x, y, Color::of(color));
 }
 
-void draw_splash(const Splash& splash, const Look& look, const Viewport& map, int row, CellBuffer& cells) {
+/// Where `rows` of figures stand: at the top, or at the bottom, where your louse would be under them.
+int row_of_splash(const Viewport& map, int left, int columns, int rows, std::optional<Place> yours) {
+  constexpr int kTop = 1;
+  constexpr Size kLouse{4, 2};  // as far as one reaches from its place
+  const bool is_under = yours && yours->column > left - kLouse.columns &&
+                        yours->column < left + columns + kLouse.columns &&
+                        yours->row < kTop + rows + kLouse.rows;
+  return is_under ? std::max(kTop, map.size.rows - rows - 1) : kTop;
+}
+
+void draw_splash(const Splash& splash, const Look& look, const Viewport& map, std::optional<Place> yours,
+                 CellBuffer& cells) {
   const int width = width_of(splash.text);
   if (width == 0) return;
   if (!paints_pixels(look)) {
     const int left = (map.size.columns - width) / 2;
+    const int row = row_of_splash(map, left, width, kFigureHeight, yours);
     const Style style = tone_style(splash.tone, {}, look);
     for (int y = -1; y <= kFigureHeight; ++y)
       for (int x = -1; x <= width; ++x)
@@ -107,6 +118,7 @@ void draw_splash(const Splash& splash, const Look& look, const Viewport& map, in
   }
   const int scale = map.size.columns >= 2 * width + 12 && map.size.rows >= 20 ? 2 : 1;
   const int left = (map.size.columns - scale * width) / 2;
+  const int row = row_of_splash(map, left, scale * width, (scale * kFigureHeight + 1) / 2, yours);
   const auto paint = [&](int grow, Rgb color) {
     for_dots(splash.text, [&](int x, int y) {
       for (int dy = -grow; dy < scale + grow; ++dy)
@@ -115,7 +127,7 @@ void draw_splash(const Splash& splash, const Look& look, const Viewport& map, in
     });
   };
   paint(1, {14, 15, 20});
-  paint(0, tone_color(splash.tone));
+  paint(0, tone_color(splash.tone, look));
 }
 
 int width_of(const GoalLine& line, const Look& look) {
@@ -202,7 +214,7 @@ void draw_podium(const Scene& scene, const Badges& badges, const Viewport& map, 
         cells.put(column + x, map.row + top, x == 0 || x == width - 1 ? U'+' : U'-', styles.dim);
     Style number = block;
     number.attributes = kBold;
-    if (scene.look.color != ColorMode::kMono) number.foreground = Color::of(kGoal);
+    if (scene.look.color != ColorMode::kMono) number.foreground = Color::of(goal_color(scene.look));
     const int middle = top + (has_pixels ? 0 : 1);
     centred(middle, ascii(std::to_string(place + 1)), number);
     if (!step.medal.empty() && middle + 1 < foot) centred(middle + 1, ascii(step.medal), number);
@@ -221,7 +233,7 @@ Style tone_style(Tone tone, const Style& base, const Look& look) {
   Style style = base;
   if (tone != Tone::kUsual && tone != Tone::kDim) style.attributes |= kBold;
   if (look.color == ColorMode::kMono || tone == Tone::kUsual || tone == Tone::kStrong) return style;
-  style.foreground = Color::of(tone_color(tone));
+  style.foreground = Color::of(tone_color(tone, look));
   return style;
 }
 
@@ -234,7 +246,8 @@ LineRows line_rows(const Scene& scene, int columns) {
   return {goal == 0 ? 0 : std::clamp(goal, 2, kMostGoal), std::min(lesson, kMostLesson)};
 }
 
-void draw_course_board(const Scene& scene, const Badges& badges, const Layout& layout, CellBuffer& cells) {
+void draw_course_board(const Scene& scene, const Badges& badges, const Layout& layout,
+                       std::optional<Place> yours, CellBuffer& cells) {
   const Styles styles = styles_for(scene.look);
   const Viewport& map = layout.map;
   draw_lines(scene.course.lines, scene.look, layout.goal, styles.bar, cells);
@@ -244,7 +257,7 @@ void draw_course_board(const Scene& scene, const Badges& badges, const Layout& l
   if (!scene.course.podium.empty() && kPodiumRows < map.size.rows)
     draw_podium(scene, badges, map, 1, cells);
   else if (scene.course.splash && kFigureHeight + 2 < map.size.rows)
-    draw_splash(*scene.course.splash, scene.look, map, 1, cells);
+    draw_splash(*scene.course.splash, scene.look, map, yours, cells);
 }
 
 }  // namespace woodlouse::client

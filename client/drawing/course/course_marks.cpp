@@ -9,6 +9,7 @@
 
 #include "client/drawing/course/course.h"
 #include "client/drawing/formatted.h"
+#include "client/drawing/palette.h"
 #include "client/drawing/terrain_contour_view.h"
 
 namespace woodlouse::client {
@@ -27,7 +28,16 @@ std::u32string wide(std::string_view ascii) { return {ascii.begin(), ascii.end()
 
 int whole(double dots) { return static_cast<int>(std::floor(dots)); }
 
-/// A post stands up where height is seen, at least three dots; from above it is a spot.
+/// Of what is wanted; on the ground its dashes lie between dark ones.
+Ink goal_ink(const Look& look, char32_t glyph) {
+  return {goal_color(look), glyph, 1.0, kBold, false, kMarkShade};
+}
+
+Ink pale_ink(Rgb color, char32_t glyph, double strength, Attributes attributes = kPlain) {
+  return {color, glyph, strength, attributes, true};
+}
+
+/// A post stands up where height is seen, at least three dots; from above it is a spot. Its foot is dark.
 void draw_post(core::Vec2 foot, const Ink& ink, GroundCanvas& canvas) {
   const auto at = canvas.spot(foot);
   if (!at) return;
@@ -42,56 +52,58 @@ void draw_post(core::Vec2 foot, const Ink& ink, GroundCanvas& canvas) {
   const auto top = canvas.spot(foot, kPost);
   const int dots = std::max(3, top ? static_cast<int>(std::lround(at->y - top->y)) : 0);
   for (int k = 0; k < dots; ++k) canvas.dot(x, y - k, ink);
+  if (ink.between) canvas.dot(x, y + 1, {*ink.between});
 }
 
 void draw_gate(const GateMark& gate, GroundCanvas& canvas) {
-  const Rgb color = gate.is_next ? kGoalColor : kOtherGate;
-  canvas.line(gate.a, gate.b, {color, gate.is_next ? U':' : U'.', gate.is_next ? 0.75 : 0.5, kBold},
-              canvas.has_pixels() ? 2 : 1);
-  const Ink post{color, gate.is_next ? U'#' : U'+', gate.is_next ? 1.0 : 0.75, kBold};
+  const Ink line = gate.is_next ? goal_ink(canvas.look(), U':') : pale_ink(kOtherGate, U'.', 0.5);
+  const Ink post = gate.is_next ? goal_ink(canvas.look(), U'#') : pale_ink(kOtherGate, U'+', 0.75, kBold);
+  canvas.line(gate.a, gate.b, line, canvas.has_pixels() ? 2 : 1);
   draw_post(gate.a, post, canvas);
   draw_post(gate.b, post, canvas);
 }
 
+/// A dear one is larger, and has a shade.
 void draw_crumb(const CrumbMark& crumb, GroundCanvas& canvas) {
   const auto at = canvas.spot(crumb.position);
   if (!at || at->is_hidden) return;
   const bool is_dear = crumb.value > 1;
-  const Ink ink{is_dear ? kGoalColor : kCrumb, is_dear ? U'*' : U'o', 1.0, kBold};
+  const Ink ink = is_dear ? goal_ink(canvas.look(), U'*') : pale_ink(kCrumb, U'o', 1.0, kBold);
   const int x = whole(at->x);
   const int y = whole(at->y);
   canvas.dot(x, y, ink);
   if (!canvas.has_pixels() || !is_dear) return;
   for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{0, -1}, std::pair{1, -1}})
     canvas.dot(x + dx, y + dy, ink);
+  for (const int dx : {0, 1}) canvas.dot(x + dx, y + 1, {kMarkShade});
 }
 
 /// What a ring's line is drawn with, and how it is dashed.
-std::pair<Ink, int> line_of(const RingMark& ring, const Badges& badges) {
+std::pair<Ink, int> line_of(const RingMark& ring, const Badges& badges, const Look& look) {
   switch (ring.state) {
     case RingMark::State::kHeld: {
       const Badge holder = badges.of(ring.holder);
       return {{holder.color, holder.letter == '@' ? U'@' : U'#', 1.0, kBold}, 0};
     }
     case RingMark::State::kContested:
-      return {{kGoalColor, U'x', 1.0, kBold}, 2};
+      return {goal_ink(look, U'x'), 2};
     case RingMark::State::kComing:
-      return {{kFreeRing, U'.', 0.4, kPlain}, 1};
+      return {pale_ink(kFreeRing, U'.', 0.4), 1};
     case RingMark::State::kFree:
       break;
   }
-  return {{kFreeRing, U'o', 1.0, kBold}, 0};
+  return {pale_ink(kFreeRing, U'o', 1.0, kBold), 0};
 }
 
 void draw_ring(const RingMark& ring, const Badges& badges, GroundCanvas& canvas) {
-  const auto [ink, dash] = line_of(ring, badges);
+  const auto [ink, dash] = line_of(ring, badges, canvas.look());
   if (ring.state != RingMark::State::kComing) canvas.disc(ring.at, ring.radius, {ink.color, U' ', 0.22});
   canvas.ellipse(ring.at, {1.0, 0.0}, ring.radius, ring.radius, ink, dash);
 }
 
 /// Lice on the place hide its line: it shines through them.
 void draw_ring_over_lice(const RingMark& ring, const Badges& badges, GroundCanvas& canvas) {
-  auto [ink, dash] = line_of(ring, badges);
+  auto [ink, dash] = line_of(ring, badges, canvas.look());
   ink.strength *= 0.5;
   if (canvas.has_pixels()) canvas.ellipse(ring.at, {1.0, 0.0}, ring.radius, ring.radius, ink, dash);
 }
@@ -108,13 +120,13 @@ void draw_ghost(const GhostMark& ghost, GroundCanvas& canvas) {
   for (std::size_t k = ghost.trail.size() % 2; k < ghost.trail.size(); k += 2) {  // a dotted way
     const auto at = canvas.spot(ghost.trail[k]);
     if (at && !at->is_hidden && canvas.has_pixels())
-      canvas.dot(whole(at->x), whole(at->y), {kGhost, U'.', kGhostStrength});
+      canvas.dot(whole(at->x), whole(at->y), pale_ink(kGhost, U'.', kGhostStrength));
   }
   if (!canvas.has_pixels()) {
     const auto at = canvas.spot(ghost.position);
     if (!at) return;
-    canvas.dot(whole(at->x), whole(at->y), {kGhost, U'(', kGhostStrength});
-    canvas.dot(whole(at->x) + 1, whole(at->y), {kGhost, U')', kGhostStrength});
+    canvas.dot(whole(at->x), whole(at->y), pale_ink(kGhost, U'(', kGhostStrength));
+    canvas.dot(whole(at->x) + 1, whole(at->y), pale_ink(kGhost, U')', kGhostStrength));
     return;
   }
   // As long as the lice of this picture.
@@ -122,9 +134,9 @@ void draw_ghost(const GhostMark& ghost, GroundCanvas& canvas) {
       (canvas.has_height() ? std::clamp(canvas.viewport().size.columns / 32.0, 2.2, 5.0) : 2.6) *
       metres_per_dot(ghost.position, canvas);
   const double across = canvas.has_height() ? 0.75 * half : half;
-  canvas.ellipse(ghost.position, ghost.heading, half, across, {kGhost, U'(', kGhostStrength}, 0);
+  canvas.ellipse(ghost.position, ghost.heading, half, across, pale_ink(kGhost, U'(', kGhostStrength), 0);
   canvas.line(ghost.position + (0.6 * half) * ghost.heading, ghost.position + half * ghost.heading,
-              {kGhost, U'(', 2.0 * kGhostStrength}, 0);
+              pale_ink(kGhost, U'(', 2.0 * kGhostStrength), 0);
 }
 
 /// Writes near a cell: in it, above, below.
@@ -150,8 +162,8 @@ void label_gate(const GateMark& gate, GroundCanvas& canvas) {
   const int row = whole(at->y) / canvas.dots_per_row() - (canvas.has_height()   ? 2
                                                           : canvas.has_pixels() ? 1
                                                                                 : 0);
-  write_near(column, row, text, gate.is_next ? kGoalColor : kOtherGate, gate.is_next ? kBold : kPlain,
-             canvas);
+  write_near(column, row, text, gate.is_next ? goal_color(canvas.look()) : kOtherGate,
+             gate.is_next ? kBold : kPlain, canvas);
   if (!gate.is_next) return;
   // Which way it is driven through: over the line, well off the posts.
   const core::Vec2 along = gate.b - gate.a;
@@ -163,7 +175,7 @@ void label_gate(const GateMark& gate, GroundCanvas& canvas) {
   const HeadingGlyph glyph = screen_glyph(*at, *ahead, canvas);
   const int half = static_cast<int>(text.size() + 1) / 2;
   canvas.write(column + glyph.columns * (half + 1), row + glyph.rows,
-               std::u32string(1, static_cast<char32_t>(glyph.glyph)), kGoalColor);
+               std::u32string(1, static_cast<char32_t>(glyph.glyph)), goal_color(canvas.look()));
 }
 
 void label_ghost(const GhostMark& ghost, GroundCanvas& canvas) {
@@ -203,7 +215,8 @@ void draw_pointer(const LouseMark& you, core::Vec2 target, GroundCanvas& canvas)
   const double reach = canvas.has_pixels() ? kReach : 4.0;
   if (length > 1.5 * reach)
     canvas.write(column + static_cast<int>(std::lround(reach * dx / length)),
-                 row + static_cast<int>(std::lround(reach * dy / length / 2.0)), arrow, kGoalColor);
+                 row + static_cast<int>(std::lround(reach * dy / length / 2.0)), arrow,
+                 goal_color(canvas.look()));
   const Size size = canvas.viewport().size;
   const int to_column = whole(there->x);
   const int to_row = static_cast<int>(std::floor(there->y / rows));
@@ -226,7 +239,9 @@ void draw_pointer(const LouseMark& you, core::Vec2 target, GroundCanvas& canvas)
   const bool fits = edge_column + 2 + text < size.columns;
   const std::u32string told = fits ? arrow + U" " + metres : metres + U" " + arrow;
   for (const int off : {0, -1, 1, -2})  // a louse may stand there
-    if (canvas.write(fits ? edge_column : edge_column - 1 - text, edge_row + off, told, kGoalColor)) return;
+    if (canvas.write(fits ? edge_column : edge_column - 1 - text, edge_row + off, told,
+                     goal_color(canvas.look())))
+      return;
 }
 
 }  // namespace

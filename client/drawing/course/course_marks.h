@@ -14,7 +14,4 @@ void draw_marks(const Scene& scene, const Badges& badges, GroundCanvas& canvas);
 /// Numbers, names and arrows: over the lice in a picture of pixels, where what stands is kept.
 void draw_mark_labels(const Scene& scene, const Badges& badges, GroundCanvas& canvas);
 
-/// What is wanted of you is drawn in this, and nothing else.
-inline constexpr Rgb kGoalColor{255, 236, 110};
-
 }  // namespace woodlouse::client

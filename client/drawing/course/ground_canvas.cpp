@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <numbers>
 
+#include "client/drawing/palette.h"
 #include "client/drawing/pixels.h"
 #include "client/ground/relief.h"
 
@@ -62,14 +63,18 @@ void GroundCanvas::dot(int x, int y, const Ink& ink) {
     if (!is_kept(x, y)) cells_.put(column, row, ink.glyph, style_of(ink));
     return;
   }
-  Rgb color = ink.color;
-  if (ink.strength < 1.0) {
-    const Cell& cell = cells_.at(column, row);
-    const Color below = y % 2 == 0 ? cell.style.foreground : cell.style.background;
-    color =
-        mix(below.kind == Color::Kind::kRgb ? below.rgb : palette_color(below.index()), color, ink.strength);
-  }
-  put_pixel(cells_, viewport_, x, y, Color::of(color));
+  const Cell& cell = cells_.at(column, row);
+  const Rgb below = rgb_of(y % 2 == 0 ? cell.style.foreground : cell.style.background);
+  const Rgb color = ink.is_set_off ? set_off(ink.color, below) : ink.color;
+  put_pixel(cells_, viewport_, x, y, Color::of(ink.strength < 1.0 ? mix(below, color, ink.strength) : color));
+}
+
+void GroundCanvas::dot_of_line(int x, int y, const Ink& ink, int dash, int count) {
+  if (dash == 0 || count / dash % 2 == 0) return dot(x, y, ink);
+  if (!has_pixels_ || !ink.between) return;
+  Ink other = ink;
+  other.color = *ink.between;
+  dot(x, y, other);
 }
 
 void GroundCanvas::line(core::Vec2 from, core::Vec2 to, const Ink& ink, int dash) {
@@ -80,11 +85,10 @@ void GroundCanvas::line(core::Vec2 from, core::Vec2 to, const Ink& ink, int dash
   if (!(dots < 4096.0)) return;
   const int steps = std::max(1, static_cast<int>(std::ceil(dots)));
   for (int i = 0; i <= steps; ++i) {
-    if (dash > 0 && i / dash % 2 != 0) continue;
     const double t = static_cast<double>(i) / steps;
     const auto here = spot(from + t * (to - from));  // the ground between them is no straight line
     if (here && !here->is_hidden)
-      dot(static_cast<int>(std::floor(here->x)), static_cast<int>(std::floor(here->y)), ink);
+      dot_of_line(static_cast<int>(std::floor(here->x)), static_cast<int>(std::floor(here->y)), ink, dash, i);
   }
 }
 
@@ -107,8 +111,8 @@ void GroundCanvas::ellipse(core::Vec2 middle, core::Vec2 along, double axis, dou
     const int y = static_cast<int>(std::floor(here->y));
     if (x == last_x && y == last_y) continue;  // a dot is laid on once: what is mixed would add up
     last_x = x, last_y = y;
-    if (dash > 0 && count++ / dash % 2 != 0) continue;
-    if (!here->is_hidden) dot(x, y, ink);
+    if (!here->is_hidden) dot_of_line(x, y, ink, dash, count);
+    ++count;
   }
 }
 

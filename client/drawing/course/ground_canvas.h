@@ -25,6 +25,9 @@ struct Ink {
   char32_t glyph = U'.';  ///< where a dot is a cell
   double strength = 1.0;  ///< 0..1 of what lies below; where a dot is a cell everything below 0.7 is plain
   Attributes attributes = 0;  ///< of a cell
+  /// Where dots are pixels:
+  bool is_set_off = false;  ///< the colour is a pale one, and dark on bright ground (set_off() in palette.h)
+  std::optional<Rgb> between{};  ///< of the dots that a dashed line leaves out, laid on as strongly
 };
 
 class GroundCanvas {
@@ -62,7 +65,7 @@ class GroundCanvas {
   void dot(int x, int y, const Ink& ink);
   /// Nothing is written over this cell any more, nor drawn where dots are cells.
   void keep(int column, int row) { kept_.emplace_back(column, row); }
-  /// A straight line over the ground; of `dash` dots every second ones are left out (0: none).
+  /// A straight line over the ground; of `dash` dots every second ones are left out, or `between` (0: none).
   void line(core::Vec2 from, core::Vec2 to, const Ink& ink, int dash);
   /// The outline of an ellipse on the ground, `axis` its half axis along the unit vector `along`.
   void ellipse(core::Vec2 middle, core::Vec2 along, double axis, double across, const Ink& ink, int dash);
@@ -78,6 +81,8 @@ class GroundCanvas {
 
  private:
   [[nodiscard]] Style style_of(const Ink& ink) const;
+  /// The count-th dot of a line.
+  void dot_of_line(int x, int y, const Ink& ink, int dash, int count);
   [[nodiscard]] bool is_kept(int column, int row) const {
     return std::find(kept_.begin(), kept_.end(), std::pair(column, row)) != kept_.end();
   }

@@ -1,4 +1,5 @@
 // What a mode of play shows, in characters and in pixels.
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -128,6 +129,28 @@ TEST_CASE("big figures say a split with its sign where there is no colour") {
   CHECK(shows(scene, "### # #    ###  # "));  // their middle
 }
 
+TEST_CASE("big figures hide your louse at no place, in no view") {
+  for (const Size size : {Size{60, 20}, Size{80, 24}, Size{120, 36}})
+    for (const View view : {View::kMap, View::kFollow, View::kSlope}) {
+      Scene scene = a_race();
+      scene.view = view;
+      scene.course.splash = Splash{"0:12.34", Tone::kGood};
+      for (LouseMark& louse : scene.lice) louse.trail.clear();
+      const terrain::Rectangle& d = scene.terrain->domain();
+      for (int i = 1; i < 40; ++i) {
+        scene.lice[0].position = {0.03 * i, d.y_min + (d.y_max - d.y_min) * i / 40.0};
+        CellBuffer cells(size);
+        Composer().draw(scene, cells);
+        const Viewport map = layout_for(size, scene.look).map;
+        int letters = 0;
+        for (int y = 1; y < 1 + map.size.rows; ++y)
+          for (int x = 0; x < map.size.columns; ++x) letters += cells.at(x, y).glyph == U'@' ? 1 : 0;
+        INFO(size.columns << "x" << size.rows << " view " << static_cast<int>(view) << " step " << i);
+        CHECK(letters == 1);
+      }
+    }
+}
+
 TEST_CASE("a podium names the best three, you among them, with medals") {
   Scene scene = a_race();
   scene.course.podium = {{2, "ada", false, "1:02.345", "GOLD"},
@@ -154,6 +177,38 @@ TEST_CASE("no letter is given twice, and behind the letters there is a sign that
   CHECK(letters.count('+') == 70 - 1 - 52);
   for (const char first : {'a', 'A'})
     for (int k = 0; k < 26; ++k) CHECK(letters.count(static_cast<char>(first + k)) == 1);
+}
+
+TEST_CASE("no two of 28 lice have one colour and one coat, and a louse keeps its own") {
+  Scene scene;
+  scene.look = kCourseInHalves;
+  for (std::uint32_t id = 3; id <= 60; id += 2) {
+    LouseMark louse;
+    louse.id = id;
+    louse.is_you = id == 59;
+    scene.lice.push_back(louse);
+  }
+  REQUIRE(scene.lice.size() == 29);
+  const Badges badges(scene);
+  std::set<std::array<int, 4>> seen;
+  for (const LouseMark& louse : scene.lice) {
+    const Badge badge = badges.of(louse.id);
+    seen.insert({badge.color.r, badge.color.g, badge.color.b, static_cast<int>(badge.coat)});
+  }
+  CHECK(seen.size() == 29);
+  const Badge before = badges.of(5);
+  scene.lice.erase(scene.lice.begin());
+  CHECK(Badges(scene).of(5).color == before.color);
+  CHECK(Badges(scene).of(5).coat == before.coat);
+  // Coats show in the body: at the head, or behind it.
+  Badge badge{'a', {255, 205, 84}};
+  std::set<std::array<int, 2>> coats;
+  for (std::size_t k = 0; k < kCoats; ++k) {
+    badge.coat = static_cast<Coat>(k);
+    coats.insert({body_color(badge, 0.8).r, body_color(badge, -0.2).r});
+    CHECK(body_color(badge, 0.2) == badge.color);
+  }
+  CHECK(coats.size() == kCoats);
 }
 
 TEST_CASE("your own row stays in panel and scoreboard, with its rank, whoever is before you") {

@@ -127,6 +127,42 @@ TEST_CASE("yours differs from every ground, and lice from each other, for the ey
   }
 }
 
+TEST_CASE(
+    "marks of the modes differ from the ground, and what is wanted from lice, for the eyes of each palette") {
+  constexpr double kTold = 8.0;
+  constexpr Rgb kPale{200, 210, 235};  // between the gates' and the ghosts'
+  constexpr double kWeakest = 0.4;     // of what a ghost and a ring that comes are laid on with
+  std::cout << "palette  colours    goal:ground  goal:lice  pale marks:ground\n";
+  constexpr std::array<const char*, 3> kNames = {"default", "deutan ", "tritan "};
+  for (const ColorMode mode : {ColorMode::kTruecolor, ColorMode::k256}) {
+    const std::vector<Rgb> ground = grounds(mode);
+    for (const Palette palette : {Palette::kDefault, Palette::kDeutan, Palette::kTritan}) {
+      const Look look{mode, GlyphSet::kHalfBlocks, palette};
+      const Triple goal = seen(as_shown(goal_color(look), mode), palette);
+      const Triple shade = seen(as_shown(kMarkShade, mode), palette);
+      double goal_ground = 1e9, goal_lice = 1e9, pale_ground = 1e9;
+      for (const Rgb color : ground) {
+        const Triple below = seen(color, palette);
+        goal_ground = std::min(goal_ground, std::max(difference(goal, below), difference(shade, below)));
+        const Rgb laid_on = as_shown(mix(color, set_off(kPale, color), kWeakest), mode);
+        pale_ground = std::min(pale_ground, difference(seen(laid_on, palette), below));
+      }
+      for (std::uint32_t id = 0; id < kBadgeColors; ++id)
+        goal_lice = std::min(
+            goal_lice, difference(goal, seen(as_shown(louse_color(id, Owner::kOther, look), mode), palette)));
+      goal_lice = std::min(
+          goal_lice, difference(goal, seen(as_shown(louse_color(0, Owner::kYou, look), mode), palette)));
+      std::cout << kNames[static_cast<std::size_t>(palette)]
+                << (mode == ColorMode::k256 ? "  256       " : "  truecolor ") << ' '
+                << std::round(10 * goal_ground) / 10 << "         " << std::round(10 * goal_lice) / 10
+                << "       " << std::round(10 * pale_ground) / 10 << '\n';
+      CHECK(goal_ground >= kTold);
+      CHECK(goal_lice >= kTold);
+      CHECK(pale_ground >= kTold);
+    }
+  }
+}
+
 TEST_CASE("the simulated eyes see what they are known to confuse as one, and normal ones do not") {
   const Rgb red{200, 80, 60}, green{121, 119, 60};
   CHECK(difference(seen(red, Palette::kDefault), seen(green, Palette::kDefault)) > 15.0);
