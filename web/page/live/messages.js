@@ -1,0 +1,66 @@
+// @ts-check
+// What comes over the socket, checked at the edge: a message whose fields are not what docs/protocol.md says is none.
+
+const whole = (v) => Number.isSafeInteger(v);
+const number = (v) => typeof v === 'number' && Number.isFinite(v);
+const text = (v) => typeof v === 'string';
+const flag = (v) => typeof v === 'boolean';
+const listOf = (is) => (v) => Array.isArray(v) && v.every(is);
+const objectOf = (shape) => (v) => v !== null && typeof v === 'object' && !Array.isArray(v) &&
+  Object.keys(shape).every((name) => name.endsWith('?') ? v[name.slice(0, -1)] === undefined || shape[name](v[name.slice(0, -1)]) : shape[name](v[name]));
+const pair = (v) => Array.isArray(v) && v.length === 2 && v.every(number);
+const any = (v) => v !== undefined;
+
+const rows = listOf(listOf(number));
+const game = objectOf({
+  'phase?': text, 'round?': whole, 'until?': whole, 'table?': listOf((v) => Array.isArray(v) && v.length === 2 && v.every(whole)),
+  'crumbs?': listOf((v) => Array.isArray(v) && v.length === 4 && v.every(number)),
+  'place?': whole, 'holder?': whole, 'contested?': flag, 'moves_at?': whole,
+});
+const run = { board: text, name: text, time: whole, splits: listOf(whole) };
+const said = { code: text, text };
+
+const SHAPES = {
+  hello: { protocol: whole, behavior: whole, rooms: listOf(text), features: listOf(text), limits: objectOf({}) },
+  welcome: {
+    id: whole, 'name?': text, 'resume_token?': text, 'resumed?': flag, room: text, mode: text, tick: whole, tick_hz: (v) => whole(v) && v > 0,
+    state_hz: (v) => whole(v) && v > 0, fields: listOf(text), quantum: listOf(number), format: text, 'stream?': text,
+    map: objectOf({ name: text, hash: text, extent: (v) => Array.isArray(v) && v.length === 4 && v.every(number) }),
+    physics: objectOf({ gravity: number, thrust_max: number, edges: text }),
+    players: listOf(objectOf({ id: whole, name: text, role: text })), 'spectators?': whole, 'rules?': objectOf({}),
+  },
+  key: { tick: whole, louse: rows, hash: text, 'game?': game },
+  delta: { tick: whole, base: whole, louse: rows, 'gone?': listOf(whole), 'game?': game },
+  ack: {
+    seq: whole, tick: whole, margin_us: number, late: flag, dropped: flag,
+    'you?': objectOf({
+      tick: whole, id: whole, x: number, y: number, vx: number, vy: number, heading: pair, thrust: pair, thrust_kind: whole,
+      thrust_ticks: whole, phase: whole, flight_z: number, flight_vz: number, distance: number,
+    }),
+  },
+  event: { n: whole, tick: whole, kind: text, id: whole, name: text, 'text?': text, 'role?': text, 'moment?': whole },
+  map: { name: text, hash: text, definition: objectOf({}), 'overview?': flag, 'knots?': objectOf({ origin: pair, spacing: pair, heights: any }) },
+  records: { board: text, count: whole, rows: listOf(objectOf({ ...run, rank: whole })) },
+  ghost: { ...run, start: whole, behavior: whole, tick_hz: whole, spawn: whole, ticks: whole, inputs: rows },
+  rooms: { rooms: listOf(objectOf({ name: text, map: text, players: whole, bots: whole, spectators: whole })) },
+  notice: said,
+  error: { ...said, fatal: flag, 'retry_after_ms?': number },
+  bye: { ...said, resumable: flag },
+  ping: { t: whole },
+  pong: { t: whole },
+};
+const CHECKS = Object.fromEntries(Object.entries(SHAPES).map(([type, shape]) => [type, objectOf(shape)]));
+
+/** Of a line. Null: of a type that a newer server may say, to be passed over. Throws an Error where it is no message.
+ * @returns {any} */
+export function decoded(line) {
+  let message;
+  try { message = JSON.parse(line); } catch { throw new Error('a line that is no JSON'); }
+  if (message === null || typeof message !== 'object' || !text(message.type)) throw new Error('a line without a type');
+  if (!Object.hasOwn(CHECKS, message.type)) return null;
+  if (!CHECKS[message.type](message)) throw new Error(`a "${message.type}" with other fields`);
+  return message;
+}
+
+/** Whether a line is one of a recording, of who watches by inputs: it has no `type`. */
+export const isRecorded = (line) => !line.startsWith('{"type":');

@@ -1,0 +1,67 @@
+// @ts-check
+// The first minute: three things to do, each told until it was really done. Pure; time is an argument, in seconds.
+
+const PUSH = 0.6, SPEED = 1, QUARTER = 1.5, DOWNHILL = -0.035;       // s, m/s, rad, slope
+const SWING = 0.6, HIGHEST_RISE = 1, RISE_OF_RELIEF = 0.1, LEAST_RELIEF = 1, PRAISE = 4;
+
+export class Lesson {
+  /** @type {any} */ #before = null; #begun = 0; #pushed = 0; #turned = 0; #lowest = 0;
+
+  /** @param {number} relief between the map's highest and lowest place [m]; where that is little nobody can swing */
+  constructor(relief) { this.relief = relief; /** @type {'push'|'turn'|'swing'|'praise'|'over'} */ this.step = 'push'; }
+
+  get isOver() { return this.step === 'over'; }
+  /** Everything was done; praise may still stand there. */
+  get isLearnt() { return this.step === 'praise' || this.step === 'over'; }
+  skip() { this.step = 'over'; }
+
+  /** Goes on once the step was done. True: another one begins, or it is over now.
+   * @param {{now: number, isPushing: boolean, heading: number[], slope: number, height: number, speed: number}} facts slope: along the way, uphill positive */
+  observe(facts) {
+    if (this.isOver) return false;
+    const before = this.#before;
+    this.#before = facts;
+    if (!before) { this.#begin(this.step, facts); return true; }
+    if (!this.#isDone(facts, before, Math.min(0.2, Math.max(0, facts.now - before.now)))) return false;
+    const next = { push: 'turn', turn: this.relief >= LEAST_RELIEF ? 'swing' : 'praise', swing: 'praise', praise: 'over' };
+    this.#begin(next[this.step], facts);
+    return true;
+  }
+
+  /** What is to be done, in two lines; empty: it is over. */
+  get lines() {
+    const of = this.relief >= LEAST_RELIEF ? 3 : 2;
+    return {
+      push: [`1/${of} PUSH: hold W, an arrow, or the stick`, 'each key pushes that way in the picture'],
+      turn: [`2/${of} TURN: push another way`, 'a curve: two keys at once'],
+      swing: ['3/3 SWING: push while rolling DOWN', 'speed climbs what no push can'],
+      praise: ['WELL DONE: that is how hills are won', '? shows all keys, V another view'],
+      over: [],
+    }[this.step];
+  }
+
+  #begin(step, facts) {
+    this.step = step;
+    this.#begun = facts.now;
+    this.#pushed = this.#turned = 0;
+  }
+
+  #isDone(facts, before, seconds) {
+    switch (this.step) {
+      case 'push':
+        if (facts.isPushing) this.#pushed += seconds;
+        return this.#pushed >= PUSH && facts.speed >= SPEED;
+      case 'turn': {
+        const [ax, ay] = before.heading, [bx, by] = facts.heading;
+        this.#turned += Math.abs(Math.atan2(ax * by - ay * bx, ax * bx + ay * by));
+        return this.#turned >= QUARTER;
+      }
+      case 'swing':
+        if (facts.isPushing && facts.slope < DOWNHILL && facts.speed > SPEED) this.#pushed += seconds;
+        if (this.#pushed < SWING || facts.height < this.#lowest) this.#lowest = facts.height;
+        return this.#pushed >= SWING && facts.height > this.#lowest + Math.min(HIGHEST_RISE, RISE_OF_RELIEF * this.relief);
+      case 'praise': return facts.now - this.#begun >= PRAISE;
+      default: return false;
+    }
+  }
+}

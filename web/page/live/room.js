@@ -1,0 +1,249 @@
+// @ts-check
+// Everything the page knows of the room it is in: what the server said, merged and timed; your louse, and what is to be
+// drawn now. No DOM.
+import { Door } from './door.js';
+import { Grounds } from './grounds.js';
+import { Link } from './link.js';
+import { OwnGame } from './own/own_game.js';
+import { Pings } from './pings.js';
+import { Roster } from './roster.js';
+import { factsOf, marksIn } from './sight.js';
+import { Stream } from './stream.js';
+import { Timeline } from './timeline.js';
+import { Ways } from './ways.js';
+import { farewell } from './words.js';
+
+const COUNT_EVERY = 10;  // s
+/** Before the first welcome. */
+const NOTHING = { tick_hz: 60, state_hz: 10, fields: [], quantum: [] };
+
+const seconds = () => performance.now() / 1000;
+
+export class Room {
+  #core; #link; #grounds; #time = new Timeline(NOTHING, 0); #pings = new Pings(); #countedAt = -Infinity; #was = false;
+
+  /** @param {{url: string, core: any, wish: import('./door.js').Wish, storage: Storage|null, onNotice: (text: string, tone?: string) => void,
+   *   onTokenWanted: (why: string) => void, Socket?: any}} options onTokenWanted: ask a person, then enter(token) */
+  constructor({ url, core, wish, storage, onNotice, onTokenWanted, Socket }) {
+    this.#core = core;
+    this.#grounds = new Grounds(core);
+    this.door = new Door(wish, core.behavior);
+    this.onNotice = onNotice;
+    this.onTokenWanted = onTokenWanted;
+    this.own = new OwnGame(storage, (message) => this.send(message));
+    this.roster = new Roster();
+    this.ways = new Ways();
+    /** What is re-run here, of who watches by inputs. @type {Stream|null} */ this.stream = null;
+    /** The `welcome` of the game that is on; null while there is none. @type {any} */ this.welcome = null;
+    /** The map's ground (core.js), or null. @type {any} */ this.ground = null;
+    /** As of the last update. @type {any[]} */ this.lice = [];
+    /** The rooms with their counts. @type {any[]} */ this.rooms = [];
+    /** Why the line is down, and when it is tried again [s, of performance.now()]; null while it is up.
+     * @type {{reason: string, code: string, again: number|null}|null} */ this.lost = null;
+    this.#link = new Link({
+      url, Socket, joinOf: (hello) => this.door.joinOf(hello), on: (message, line) => this.#on(message, line, seconds()),
+      onRecorded: (line) => this.#follow(line, seconds()), onBatch: () => this.#afterBatch(seconds()), onLost: (closing, again) => this.#onLost(closing, again),
+    });
+  }
+
+  start() { this.#link.start(); }
+  stop() { this.#link.stop(); }
+  send(message) { this.#link.send(message); }
+  get phase() { return this.#link.phase; }
+  get hz() { return this.#time.hz; }
+  /** The server's tick, as of the last update. */
+  get tick() { return this.#time.tick; }
+  /** No tick passes: the room is paused. */
+  get stands() { return this.#time.word.stands; }
+  get you() { return this.welcome?.id ?? 0; }
+  get mode() { return this.welcome?.mode ?? 'roam'; }
+  get game() { return this.#time.game; }
+  /** The shortest of the last round trips [s]; null: none yet. */
+  get trip() { return this.#pings.trip; }
+  get behavior() { return this.#core.behavior; }
+  get bytes() { return this.#link.bytes; }
+  /** Seconds without a word of the server's, when they are too many; else null. */
+  get silence() { return this.welcome ? this.#time.word.silence(seconds()) : null; }
+
+  /** With a password, after onTokenWanted(). */
+  enter(token) {
+    this.door.wish.token = token;
+    this.#link.joinAgain();
+  }
+
+  /** Chat; `/skip` is a vote for the room's next game. */
+  say(text) { this.send(text.trim() === '/skip' ? { type: 'skip' } : { type: 'chat', text }); }
+
+  /** Nobody looks at the page, or somebody does again: another rate, on a new line. */
+  hide(isHidden) {
+    if (this.door.isHidden === isHidden) return;
+    this.door.isHidden = isHidden;
+    this.own.steering.releaseAll();
+    if (this.phase === 'joined') this.#rejoin();
+  }
+
+  /** Runs on to now [s]: pings, your louse, what is drawn. */
+  update(now) {
+    if (!this.welcome) return;
+    const time = this.#time, ping = this.#pings.due(now, time.word.isLate(now) && !time.word.stands);
+    if (ping) this.send(ping);
+    if (now - this.#countedAt >= COUNT_EVERY) {
+      this.#countedAt = now;
+      this.send({ type: 'list', watch: true });
+    }
+    if (!time.isKnown(now)) return;  // what was seen last stays until there is something newer
+    const input = this.own.pilot?.update(now, time.clock);
+    if (input) this.send(input);
+    this.lice = time.lice(now, this.ways);
+    this.#placeOwn();
+  }
+
+  nameOf(id) { return this.roster.nameOf(id); }
+  isBot(id) { return this.roster.isBot(id); }
+  /** For goal.js: of the louse `id`; 0: nobody's. */
+  facts(id) { return factsOf(this, id); }
+  marks(facts) { return marksIn(this, facts); }
+  louse(id) { return this.lice.find((louse) => louse.id === id) ?? null; }
+
+  #placeOwn() {
+    const own = this.own.pilot?.louse, newest = own && this.#time.newest?.lice.get(own.id);
+    if (newest) {  // what the rules say of it only the server knows
+      const louse = { ...newest, ...own, z: undefined }, k = this.lice.findIndex(({ id }) => id === own.id);
+      if (k >= 0) this.lice[k] = louse; else this.lice.push(louse);
+    }
+    const you = this.louse(this.you);
+    if (you) this.own.run.observe(you);
+  }
+
+  #on(message, line, now) {
+    this.#time.word.heard(now);
+    switch (message.type) {
+      case 'welcome': return this.#welcome(message, now);
+      case 'key': case 'delta': return this.#frame(message, now);
+      case 'map': return this.#map(line);
+      case 'event':
+        this.roster.event(message, this.you, this.hz);
+        if (this.welcome) this.own.event(message, this.welcome, now);
+        return;
+      case 'ack': return this.own.pilot?.acknowledge(message);
+      case 'ping': return this.send({ type: 'pong', t: message.t });
+      case 'pong': return this.#pong(message, now);
+      case 'rooms':
+        this.rooms = message.rooms;
+        this.roster.spectators = message.rooms.find(({ name }) => name === this.welcome?.room)?.spectators ?? this.roster.spectators;
+        return;
+      case 'ghost': return this.own.ghosts.addRecord(message);
+      case 'notice':
+        if (message.code === 'paused') this.#time.word.paused();
+        this.roster.note(message.text);
+        return this.onNotice(message.text);
+      case 'error': return this.#error(message);
+    }
+  }
+
+  #error(error) {
+    if (error.code === 'no_records') return;  // nobody else has asked for them
+    if (this.phase === 'joined' || error.fatal) return this.onNotice(error.text, 'bad');
+    const next = this.door.refused(error);
+    if (next === 'again') return this.#link.joinAgain();
+    if (next === 'token') {
+      this.#link.hold();
+      return this.onTokenWanted(error.text);
+    }
+    this.onNotice(error.text, 'bad');
+    if (next === 'over') this.#link.giveUp({ code: error.code, reason: error.text });
+  }
+
+  #welcome(welcome, now) {
+    if (this.welcome) this.onNotice(`now: ${welcome.mode} on ${welcome.map.name}`);  // another game, on the same connection
+    else if (this.#was && !this.door.isHidden) this.onNotice(welcome.id === 0 ? 'watching again' : welcome.resumed ? 'back in your louse' : 'your louse is gone: this is a new one');
+    this.own.end(!this.welcome);
+    if (this.welcome) this.lice = [];
+    this.#was = true;
+    this.lost = null;
+    if (welcome.resume_token) this.door.resume = welcome.resume_token;
+    this.welcome = welcome;
+    this.roster.welcome(welcome);
+    this.#time = new Timeline(welcome, now);
+    this.#pings = new Pings();
+    this.#countedAt = -Infinity;
+    if (welcome.stream === 'inputs') {
+      this.stream ??= new Stream(this.#core);
+      return this.stream.begin(welcome.tick_hz, welcome.state_hz);
+    }
+    const known = this.#grounds.of(welcome);
+    if (known) this.#begin(known); else this.send({ type: 'get_map' });
+  }
+
+  #map(line) {
+    if (!this.welcome) return;
+    let ground;
+    try { ground = this.#grounds.open(line, this.welcome); } catch (error) { return this.onNotice(`the server's map can't be read: ${/** @type {Error} */ (error).message}`, 'bad'); }
+    if (ground.isExact && ground.hash !== this.welcome.map.hash) this.onNotice('the map is another one here than on the server: nothing is predicted', 'bad');
+    if (ground.isExact || this.door.wantsHeights) return this.#begin(ground);
+    this.door.wantsHeights = true;  // the server knows how high the lice are
+    this.#rejoin();
+  }
+
+  #begin(ground) {
+    this.ground = ground;
+    this.ways = new Ways(ground.domain, ground.wraps);
+    const isSame = this.door.isSame && ground.isExact && ground.hash === this.welcome.map.hash;
+    this.own.begin(this.welcome, ground, this.ways, { behavior: this.#core.behavior, isSame, hasRecords: this.door.has('records') });
+  }
+
+  #frame(frame, now) {
+    if (!this.welcome) return;
+    const time = this.#time;
+    this.#observe(frame.tick, now);
+    if (time !== this.#time || !this.welcome) return;
+    const merged = time.merge(frame, now);
+    if (merged === 'unreadable') return this.onNotice('the server\'s rows have other columns than asked for', 'bad');
+    if (merged === 'resync') this.send({ type: 'resync' });
+    const row = merged === 'taken' ? time.newest.lice.get(this.you) : null;
+    if (row) this.own.pilot?.compare(frame.tick, row);
+  }
+
+  #observe(tick, now) {
+    const { isAnew, isTooOld } = this.#time.observe(tick, now);
+    if (isAnew) this.own.pilot?.beginAnew();
+    if (!isTooOld || this.door.isHidden || !this.door.halve()) return;
+    this.onNotice('this page can\'t keep up: half as many frames from now on');
+    this.#rejoin();
+  }
+
+  #follow(line, now) {
+    this.#time.word.heard(now);
+    if (!this.welcome || !this.stream || this.stream.take(line)) return;
+    this.onNotice(`${this.stream.difference}. Watching by frames now.`, 'bad');
+    this.door.watchByFrames();
+    this.#rejoin();
+  }
+
+  #afterBatch(now) {
+    const stream = this.welcome?.stream === 'inputs' ? this.stream : null;
+    if (!stream?.isRunning) return;
+    if (stream.ground !== this.ground) this.#begin(stream.ground);
+    for (const snapshot of stream.takeSnapshots()) this.#time.frames.show(snapshot);
+    if (stream.isOnTime) this.#observe(stream.tick, now);
+  }
+
+  #pong(pong, now) {
+    const trip = this.#pings.answered(pong, now);
+    if (trip === null) return;
+    this.#time.word.answered(now - trip);
+    this.own.pilot?.lead.trip(trip);
+  }
+
+  #rejoin() {
+    this.welcome = null;
+    this.own.end(true);
+    this.#link.rejoin();
+  }
+
+  #onLost(closing, again) {
+    this.welcome = null;
+    this.own.end(true);
+    this.lost = { reason: farewell(closing), code: closing.code, again: again === null ? null : seconds() + again };
+  }
+}

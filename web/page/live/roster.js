@@ -1,0 +1,45 @@
+// @ts-check
+// Who is in the room and what was said: names from the welcome and from events, the chat and the game's own notices.
+import { told } from './words.js';
+
+/** The oldest lines are forgotten beyond. */
+const LINES = 60;
+
+export class Roster {
+  /** @type {Map<number, {name: string, role: string}>} */ #residents = new Map();
+  /** @type {{from: string, id: number, text: string}[]} `from` is empty for a notice of the game */ lines = [];
+  /** How many lines there ever were: tells what is new. */ said = 0;
+  spectators = 0;
+
+  /** A new session: who is there replaces who was; the chat stays. */
+  welcome(welcome) {
+    this.#residents = new Map(welcome.players.map(({ id, name, role }) => [id, { name, role }]));
+    if (welcome.id && welcome.name) this.#residents.set(welcome.id, { name: welcome.name, role: 'player' });
+    this.spectators = welcome.spectators ?? 0;
+  }
+
+  event(event, you, hz) {
+    if (event.id !== 0 && event.kind === 'joined') this.#residents.set(event.id, { name: event.name, role: event.role ?? 'player' });
+    if (event.id !== 0 && event.kind === 'left') this.#residents.delete(event.id);
+    if (event.kind === 'chat') this.say(event.name, event.text ?? '', event.id);
+    else this.note(told(event, you, hz));
+  }
+
+  note(text) { if (text) this.say('', text, 0); }
+
+  say(from, text, id) {
+    this.lines.push({ from, id, text });
+    if (this.lines.length > LINES) this.lines.shift();
+    this.said++;
+  }
+
+  nameOf(id) { return this.#residents.get(id)?.name ?? `#${id}`; }
+  isBot(id) { return this.#residents.get(id)?.role === 'bot'; }
+  get lice() { return this.#residents.size; }
+  get bots() { return [...this.#residents.values()].filter(({ role }) => role === 'bot').length; }
+  /** The louse of that name or number; 0: none. */
+  find(text) {
+    for (const [id, { name }] of this.#residents) if (name === text || String(id) === text) return id;
+    return 0;
+  }
+}

@@ -1,0 +1,30 @@
+// @ts-check
+// What there is to see of a room: what the rules show and want, the table, what is proven.
+import { marksOf, scoreRows } from './goal.js';
+
+/** For goal.js: of the louse `id`, yours or one that is watched; 0: nobody's. @param {import('./room.js').Room} room */
+export function factsOf(room, id) {
+  const isOwn = id !== 0 && id === room.you;
+  const facts = {
+    mode: room.mode, rules: room.welcome?.rules ?? null, game: room.mode === 'roam' ? null : room.game, tick: room.tick, hz: room.hz, lice: room.lice, ways: room.ways,
+    you: room.louse(id), id, isOwn, run: isOwn ? room.own.run : null, nameOf: (of) => room.roster.nameOf(of), rank: 0,
+  };
+  const rows = scoreRows(facts);
+  facts.rank = rows.find((row) => row.id === id)?.rank ?? 0;
+  return { ...facts, rows };
+}
+
+/** What the picture shows on the ground. @param {import('./room.js').Room} room @param {ReturnType<typeof factsOf>} facts */
+export function marksIn(room, facts) {
+  return { ...marksOf(facts), ghosts: facts.isOwn && facts.you ? room.own.ghostsAt(room.tick) : [] };
+}
+
+/** What is proven of what is shown. @param {import('./room.js').Room} room @returns {{text: string, tone: 'ok'|'bad'|''}} */
+export function proofOf(room) {
+  if (room.stream?.difference) return { text: room.stream.difference, tone: 'bad' };
+  if (room.door.behavior !== null && !room.door.isSame)
+    return { text: `no proof: the server computes by behavior ${room.door.behavior}, this page by ${room.behavior}`, tone: '' };
+  if (room.welcome?.stream === 'inputs') return { text: `state ok ${room.stream?.proven ?? 0}`, tone: 'ok' };
+  const { exact = 0, corrected = 0 } = room.own.pilot?.prediction ?? {};
+  return exact + corrected ? { text: `predicted ${exact}/${exact + corrected}`, tone: corrected ? '' : 'ok' } : { text: '', tone: '' };
+}

@@ -1,0 +1,65 @@
+// @ts-check
+// Whether the server still speaks, whether its game goes on, and whether the page keeps up with it. Pure: time is an
+// argument, in seconds.
+
+/** Without a word for so long, what is shown is no longer known. [s] */
+export const SILENCE = 1.5;
+const LATE = 0.3;
+
+export class ServerWord {
+  /** @type {number|null} */ #heard = null;
+  /** @type {number|null} */ #moved = null;
+  #late = LATE; #tick = 0; #stands = false;
+
+  /** So many frames a second come. */
+  expect(framesHz) { this.#late = Math.max(LATE, 3 / Math.max(0.1, framesHz)); }
+  heard(now) { this.#heard = now; }
+
+  /** A frame of `tick` came. True: the game goes on after it stood, or nothing was known of it. */
+  shown(tick, now) {
+    const stood = !this.goesOn(now);
+    if (this.#moved !== null && tick === this.#tick) {
+      this.#stands = now - this.#moved > this.#late;
+      return false;
+    }
+    this.#tick = tick;
+    this.#moved = now;
+    this.#stands = false;
+    return stood;
+  }
+
+  /** The answer came to what was asked at `asked`: frames from before it, which it can't overtake, would be here. */
+  answered(asked) { this.#stands ||= this.#moved !== null && asked - this.#moved > this.#late; }
+  /** The server says so. */
+  paused() { this.#stands = this.#moved !== null; }
+
+  /** The next tick should have been shown by now: time to ask. */
+  isLate(now) { return this.#moved !== null && now - this.#moved > this.#late; }
+  /** Seconds without a word, when they are too many; else null. */
+  silence(now) { return this.#heard === null || now - this.#heard < SILENCE ? null : now - this.#heard; }
+  /** No tick passes. */
+  get stands() { return this.#stands; }
+  /** Whether what was last shown can be thought on to now. */
+  goesOn(now) { return this.#moved !== null && !this.#stands && now - this.#moved < SILENCE + this.#late; }
+}
+
+const TOO_OLD = 1, FOR = 3;
+
+/** A browser reads for its page without being asked, so a stalled page never looks slow to the server: the page itself
+ * sees how old the newest frame is, and asks for fewer. */
+export class Pace {
+  #earliest = -Infinity;
+  /** @type {number|null} */ #since = null;
+
+  /** @param {number} hz ticks a second */
+  constructor(hz) { this.hz = hz; }
+
+  /** A frame was read at `now`. True: for 3 s they have been more than 1 s old; half of them would do. */
+  observe(tick, now) {
+    const seen = tick / this.hz - now;
+    this.#earliest = Math.max(this.#earliest, seen);
+    if (this.#earliest - seen <= TOO_OLD) { this.#since = null; return false; }
+    const since = this.#since ??= now;
+    return now - since >= FOR;
+  }
+}

@@ -1,0 +1,35 @@
+// @ts-check
+// The few things that all panels do with the document. What comes from outside becomes text, never markup.
+
+/** @param {string} id @returns {any} */
+export const byId = (id) => document.getElementById(id);
+
+/** Touches the document only where it changes. */
+export function setText(element, text) { if (element.textContent !== text) element.textContent = text; }
+export function setClass(element, name) { if (element.className !== name) element.className = name; }
+export function setHidden(element, isHidden) { if (element.hidden !== isHidden) element.hidden = isHidden; }
+export function setPressed(action, isPressed) {
+  for (const button of document.querySelectorAll(`[data-do=${action}]`))
+    if (button.getAttribute('aria-pressed') !== String(isPressed)) button.setAttribute('aria-pressed', String(isPressed));
+}
+
+/** A new element with a text and a class. @returns {any} */
+export function made(tag, text = '', className = '') {
+  const element = document.createElement(tag);
+  if (text) element.textContent = text;
+  if (className) element.className = className;
+  return element;
+}
+
+/** As many children as there are values: missing ones are made, each is filled, those too many go.
+ * @param {Element} parent @param {any[]} values @param {() => Element} make @param {(child: any, value: any, k: number) => void} fill */
+export function fillChildren(parent, values, make, fill) {
+  while (parent.children.length > values.length) parent.lastElementChild?.remove();
+  while (parent.children.length < values.length) parent.append(make());
+  values.forEach((value, k) => fill(parent.children[k], value, k));
+}
+
+/** A line of spans with tones. @param {Element} line @param {{text: string, tone?: string}[]} spans */
+export function fillSpans(line, spans) {
+  fillChildren(line, spans, () => made('span'), (span, { text, tone = '' }) => { setText(span, text); setClass(span, tone); });
+}

@@ -1,0 +1,98 @@
+// @ts-check
+// All panels together, told what there is: some things with each frame, the rest ten times a second.
+import { goalLines, podium } from '../live/goal.js';
+import { proofOf } from '../live/sight.js';
+import { rulesInWords } from '../live/words.js';
+import { Chat } from './chat.js';
+import { showHelp } from './dialogs.js';
+import { byId, setHidden, setPressed, setText } from './elements.js';
+import { Hud } from './hud.js';
+import { LousePanel } from './louse_panel.js';
+import { RecordingBar } from './recording_bar.js';
+import { Scores } from './scores.js';
+import { TopBar } from './top_bar.js';
+
+const plural = (count, one, many) => `${count} ${count === 1 ? one : many}`;
+
+export class Panels {
+  /** @type {import('./lab_panel.js').LabPanel|null} */ lab = null;
+  /** @type {any} */ #facts = null;
+
+  /** @param {{follow: (id: number) => void, say: (text: string) => void, choose: (room: string) => void, seek: (tick: number) => void}} hands */
+  constructor({ follow, say, choose, seek }) {
+    this.top = new TopBar(choose);
+    this.scores = new Scores(follow);
+    this.louse = new LousePanel();
+    this.chat = new Chat(say, () => byId('picture').focus());
+    this.hud = new Hud();
+    this.bar = new RecordingBar({ seek });
+  }
+
+  /** A recording begins, or null: there is none any more. @param {import('../live/player.js').Player|null} player */
+  recording(player) { if (player) this.bar.begin(player); else this.bar.end(); }
+
+  help(source) { showHelp(source?.welcome ? rulesInWords(source.mode, source.welcome.rules) : ''); }
+
+  /** With each frame. @param {any} source @param {any} facts @param {number} now [s] */
+  every(source, facts, now) {
+    this.#facts = facts;
+    this.hud.goal(goalLines(facts));
+    this.hud.splash(facts.run?.splash(now) ?? null);
+    this.hud.podium(podium(facts), source.you ?? 0);
+  }
+
+  /** Ten times a second. @param {any} page */
+  update(page) {
+    const { room, player, source, picture, isPlaying } = page, { camera } = picture, colourOf = (id) => picture.colourOf(id && id === source?.you ? 'you' : id);
+    for (const view of ['orbit', 'follow', 'map']) setPressed(view, camera.view === view);
+    setPressed('slope', picture.shading === 'slope');
+    setPressed('cruise', !!room?.own.steering.isCruising);
+    setPressed('pad', document.body.hasAttribute('data-pad'));
+    for (const button of document.querySelectorAll('[data-do=join]')) setText(button, source !== room ? 'Live' : room?.door.wish.role === 'player' ? 'Watch' : 'Play');
+    this.#line(room);
+    this.#insets(camera);
+    if (room && source === room) this.#room(room, colourOf, isPlaying ? page.teacher.observe(room, performance.now() / 1000) : []);
+    if (player) this.bar.update(player);
+    if (page.lab) return this.lab?.update(page.lab);
+    if (player) { this.chat.update(player, colourOf); setText(byId('proof'), ''); }
+    const facts = this.#facts;
+    if (!facts || !source?.ground) return;
+    const followed = page.followed || source.you || facts.rows[0]?.id || 0, nameOf = (id) => source.nameOf(id);
+    this.scores.update({ rows: facts.rows, you: source.you ?? 0, followed: page.followed || source.you || 0, nameOf, colourOf, count: this.#count(source) });
+    const louse = source.louse(followed);
+    this.louse.update(louse && { ...louse, ...source.ground.sample(louse.x, louse.y) }, followed === source.you ? `${nameOf(followed)} (you)` : nameOf(followed));
+  }
+
+  #room(room, colourOf, lesson) {
+    this.hud.lesson(lesson);
+    this.chat.update(room.roster, colourOf);
+    this.top.rooms(room.rooms.length ? room.rooms.map(({ name }) => name) : room.door.rooms, room.rooms, room.welcome?.room ?? room.door.wish.room);
+    this.top.proof(proofOf(room));
+    this.top.line(room.trip === null ? '' : `${(room.trip * 1000).toFixed(0)} ms`);
+    setHidden(document.querySelector('[data-do=skip]'), !room.door.has('rotation') || room.welcome?.room !== 'rotation');
+  }
+
+  #line(room) {
+    const lost = room?.lost, again = lost?.again == null ? null : Math.max(0, lost.again - performance.now() / 1000);
+    const silence = room?.silence ?? null;
+    if (lost) this.top.lost(`${capital(lost.reason)}. ${again === null ? '' : `Trying again in ${again.toFixed(0)} s.`}`, true);
+    else if (silence !== null) this.top.lost(`The server has not spoken for ${silence.toFixed(1)} s.`, false);
+    else this.top.lost(room?.stands && room.lice.length ? 'The room is paused: no tick passes.' : '', false);
+  }
+
+  /** What the panels cover of the picture: the map is fitted into what is free. */
+  #insets(camera) {
+    const over = byId('over').getBoundingClientRect(), isNarrow = over.width <= 760;
+    const box = (id) => byId(id).getBoundingClientRect(), tall = (id) => box(id).height;
+    const wide = (id) => box(id).width + 12;
+    camera.insets = isNarrow ? { left: 0, right: 0, top: Math.max(tall('top') + 8, box('hud').bottom), bottom: over.height - box('bar').top + tall('chat') }
+      : { left: wide('lab'), right: Math.max(wide('scores'), wide('louse')), top: tall('top') + 20, bottom: over.height - Math.min(box('bar').top, box('recording').height ? box('recording').top : Infinity) };
+  }
+
+  #count(source) {
+    const lice = source.lice.length, bots = source.lice.filter(({ id }) => source.isBot(id)).length, spectators = source.roster?.spectators ?? 0;
+    return [plural(lice, 'louse', 'lice'), bots ? plural(bots, 'bot', 'bots') : '', spectators ? `${spectators} watching` : ''].filter(Boolean).join(', ');
+  }
+}
+
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);

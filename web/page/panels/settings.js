@@ -1,0 +1,36 @@
+// @ts-check
+// What a person chose, kept in the browser: light or dark, palette, the stick on the screen, the name, and whether the lesson was had.
+
+import { byId } from './elements.js';
+
+const KEY = 'woodlouse-';
+
+/** The storage, or null where the browser forbids it. @type {Storage|null} */
+export const storage = (() => { try { return localStorage; } catch { return null; } })();
+
+export function kept(name) { try { return storage?.getItem(KEY + name) ?? ''; } catch { return ''; } }
+export function keep(name, value) { try { storage?.setItem(KEY + name, value); } catch { /* then it is asked again */ } }
+
+const prefersLight = matchMedia('(prefers-color-scheme: light)');
+
+/** @returns {'light'|'dark'} as chosen, else as the system has it */
+export function theme() { return /** @type {any} */ (['light', 'dark'].find((name) => name === (document.documentElement.dataset.theme || kept('theme'))) ?? (prefersLight.matches ? 'light' : 'dark')); }
+
+/** @param {string} name */
+export function setTheme(name) {
+  document.documentElement.dataset.theme = name;
+  keep('theme', name);
+}
+/** @param {() => void} then */
+export function onSystemTheme(then) { prefersLight.addEventListener('change', then); }
+
+/** Tells which palette is chosen, now and whenever another one is. @param {(palette: any) => void} then */
+export function onPalette(then) {
+  const select = byId('palette');
+  select.value = kept('palette') || 'default';
+  select.onchange = () => {
+    keep('palette', select.value);
+    then(select.value);
+  };
+  then(select.value || 'default');
+}

@@ -1,0 +1,126 @@
+import assert from 'node:assert/strict';
+import test, { afterEach } from 'node:test';
+import { Door } from '../page/live/door.js';
+import { Link, waitBefore } from '../page/live/link.js';
+import { decoded, isRecorded } from '../page/live/messages.js';
+
+const HELLO = { type: 'hello', protocol: 1, behavior: 10, server: 's', session: '1', rooms: ['hills', 'volcano'], features: ['rules', 'inputs'], limits: {} };
+const WELCOME = {
+  type: 'welcome', id: 7, name: 'ann', resume_token: 'abc', resumed: false, room: 'hills', mode: 'roam', tick: 5, tick_hz: 60, state_hz: 20, fields: ['id'], quantum: [1],
+  format: 'quantized', map: { name: 'hills', hash: '0123456789abcdef', extent: [-20, -20, 20, 20], bytes: 9 }, physics: { gravity: 9.81, thrust_max: 4, edges: 'walls' }, players: [],
+};
+
+/** As a WebSocket of the browser, without a network. */
+class Wire {
+  static all = [];
+  constructor(url) { Object.assign(this, { url, readyState: 1, bufferedAmount: 0, sent: [] }); Wire.all.push(this); }
+  send(text) { this.sent.push(JSON.parse(text)); }
+  close() { this.readyState = 3; }
+  say(...messages) { this.onmessage({ data: messages.map((m) => (typeof m === 'string' ? m : JSON.stringify(m)) + '\n').join('') }); }
+}
+
+const links = [];
+afterEach(() => links.splice(0).forEach((link) => link.stop()));  // a line that is waited for would keep the test alive
+
+function linked(more = {}) {
+  const heard = [], lost = [], recorded = [];
+  Wire.all = [];
+  const link = new Link({ url: 'ws://x/ws', Socket: Wire, joinOf: () => ({ role: 'player', name: 'ann' }), on: (message) => heard.push(message), onRecorded: (line) => recorded.push(line),
+                          onLost: (closing, again) => lost.push({ ...closing, again }), ...more });
+  links.push(link);
+  link.start();
+  return { link, heard, lost, recorded, wire: () => Wire.all.at(-1) };
+}
+
+test('the page joins once the server has said hello, and says nothing before its welcome', () => {
+  const { link, wire } = linked();
+  link.send({ type: 'chat', text: 'early' });
+  assert.deepEqual(wire().sent, []);
+  wire().say(HELLO);
+  assert.deepEqual(wire().sent, [{ type: 'join', protocol: 1, role: 'player', name: 'ann' }]);
+  wire().say(WELCOME);
+  link.send({ type: 'chat', text: 'hi' });
+  assert.deepEqual(wire().sent.at(-1), { type: 'chat', text: 'hi' });
+  link.stop();
+  assert.deepEqual(wire().sent.at(-1), { type: 'leave' });
+});
+
+test('a line that breaks is tried again, later and later, and never by all at once', (t) => {
+  t.mock.timers.enable({ apis: ['setTimeout'] });
+  const { lost, wire } = linked();
+  const waits = [];
+  for (let k = 0; k < 8; k++) {
+    const before = Wire.all.length;
+    wire().onclose({});
+    waits.push(lost.at(-1).again);
+    t.mock.timers.tick(lost.at(-1).again * 1000 + 1);
+    assert.equal(Wire.all.length, before + 1);
+  }
+  assert.ok(waits[0] <= 0.375 && waits[7] >= 4 && waits[7] <= 12, waits.join());
+  assert.ok(waitBefore(3, 0) < waitBefore(3, 1));
+});
+
+test('who was sent out, banned or replaced does not come back by itself', () => {
+  for (const code of ['kicked', 'banned', 'replaced', 'flood', 'bad_protocol']) {
+    const { link, lost, wire } = linked();
+    wire().say(HELLO, WELCOME, { type: 'bye', code, text: 'because', resumable: false });
+    wire().onclose({});
+    assert.deepEqual([lost[0].code, lost[0].again, link.phase], [code, null, 'stopped']);
+  }
+  const { lost, wire } = linked();
+  wire().say(HELLO, WELCOME, { type: 'bye', code: 'shutdown', text: 'the server stops', resumable: false });
+  wire().onclose({});
+  assert.ok(lost[0].again > 0);
+});
+
+test('a full room is tried again when the server says so', () => {
+  const { lost, wire } = linked();
+  wire().say(HELLO, { type: 'error', code: 'room_full', text: 'full', fatal: false, retry_after_ms: 7000 });
+  assert.ok(lost[0].again >= 7);
+});
+
+test('an open line that says nothing for five seconds is a broken one', (t) => {
+  t.mock.timers.enable({ apis: ['setTimeout'] });
+  const { lost, wire } = linked();
+  wire().say(HELLO, WELCOME);
+  t.mock.timers.tick(4900);
+  wire().say({ type: 'pong', t: 1 });
+  t.mock.timers.tick(4900);
+  assert.equal(lost.length, 0);
+  t.mock.timers.tick(200);
+  assert.equal(lost[0].reason, 'the server has fallen silent');
+});
+
+test('what is no message of the protocol ends the line with words, a newer type is passed over', () => {
+  for (const line of ['nonsense', '{"type":"key","tick":"x","louse":[]}', '[1]', '{"type":"key","tick":1,"hash":"a","louse":[[1,null]]}', '{"type":"event","n":1,"tick":1,"kind":"chat","id":1}']) {
+    const { lost, wire } = linked();
+    wire().say(HELLO, WELCOME, line.startsWith('{"type"') ? line : JSON.stringify({ type: 'hello' }));
+    assert.match(lost[0].reason, /no woodlouse server/);
+  }
+  assert.equal(decoded('{"type":"fireworks"}'), null);
+  assert.throws(() => decoded('nonsense'), /no JSON/);
+  assert.throws(() => decoded('{"type":"__proto__"}') ?? assert.fail('null'));
+});
+
+test('lines of a recording are told from messages', () => {
+  const { recorded, wire } = linked();
+  wire().say(HELLO, { ...WELCOME, stream: 'inputs' }, '{"keyframe":812,"hash":"x"}');
+  assert.deepEqual(recorded, ['{"keyframe":812,"hash":"x"}']);
+  assert.ok(!isRecorded('{"type":"event"}'));
+});
+
+test('a door asks for inputs where it can compute as the server does, else for frames, and finds another way where it is refused', () => {
+  const door = new Door({ role: 'spectator', name: 'eve', room: 'volcano', token: '' }, 10);
+  assert.equal(door.joinOf(HELLO).stream, 'inputs');
+  assert.equal(door.joinOf(HELLO).room, 'volcano');
+  assert.equal(door.refused({ code: 'bad_field', fatal: false }), 'again');
+  assert.equal(door.joinOf(HELLO).stream, undefined);
+  assert.equal(door.joinOf({ ...HELLO, rooms: ['other'] }).room, 'other');
+  assert.equal(new Door({ role: 'spectator', name: 'eve', room: '', token: '' }, 9).joinOf(HELLO).stream, undefined);
+  assert.equal(door.refused({ code: 'bad_token', fatal: false }), 'token');
+  door.isHidden = true;
+  assert.equal(door.joinOf(HELLO).state_hz, 1);
+  door.isHidden = false;
+  const hz = door.joinOf(HELLO).state_hz;
+  assert.ok(door.halve() && door.joinOf(HELLO).state_hz === hz / 2);
+});
