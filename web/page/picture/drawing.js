@@ -1,11 +1,12 @@
 // @ts-check
 // Everything of the WebGL context: what was lost with it is made again.
 import { Batch } from './batch.js';
-import { Surface, layOut, makeBuffer, makePrograms, use } from './gl.js';
+import { DEPTHS, Surface, layOut, makeBuffer, makePrograms, use } from './gl.js';
 import { GroundDrawing } from './ground_drawing.js';
 import { LiceDrawing } from './lice_drawing.js';
 
 const STANDING = 350;  // ms that the camera must have stood before the ground's outline is smoothed
+const NEARER = 3e-4;  // of the depth from -1 to 1
 const NO_CHANGE = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
 /** @typedef {{camera: import('./camera.js').Camera, theme: import('./colours.js').ThemeName, shading: 'height' | 'slope'}} Look */
@@ -13,7 +14,7 @@ const NO_CHANGE = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 export class Drawing {
   /** Throws an Error where there is no WebGL 2. @param {HTMLCanvasElement} canvas */
   constructor(canvas) {
-    const gl = canvas.getContext('webgl2', { alpha: false, antialias: false, depth: false, powerPreference: 'low-power' });
+    const gl = canvas.getContext('webgl2', { antialias: false, powerPreference: 'low-power' });
     if (!gl) throw new Error('this browser shows no WebGL 2, which the picture is drawn with');
     this.gl = gl;
     const info = gl.getExtension('WEBGL_debug_renderer_info');
@@ -28,6 +29,8 @@ export class Drawing {
     /** What never moves: the block's shadow, what lies on the ground, walls. */
     this.scenery = { floor: new Batch(), border: new Batch(), walls: new Batch() };
     this.version = 0;
+    /** When the camera came to stand [ms]. */
+    this.stood = 0;
     canvas.addEventListener('webglcontextlost', event => {
       event.preventDefault();
       this.isLost = true;
@@ -95,58 +98,78 @@ export class Drawing {
       this.isPainted = true;
       this.version++;
     }
-    this.surface = this.fitted(this.surface, width, height, this.isSoftware ? 0 : 4);
-    this.drawGround(look, width, height, now);
-    this.drawScene(look, staging);
-    this.surface.copyTo(null, false);
+    if (!this.isSoftware) {
+      this.surface = this.fitted(this.surface ?? null, width, height, 4);
+      this.drawGround(look, this.surface.frame, width, height);
+      this.drawScene(look, staging, this.surface.frame, width, height, false);
+      this.surface.copyTo(null, false);
+    } else {
+      const hides = this.copyGround(look, width, height, now);
+      this.drawScene(look, staging, null, width, height, hides);
+    }
   }
 
   /** A surface of this size: the given one, or another in its place. @private
-   * @param {Surface | null | undefined} surface @param {number} width @param {number} height @param {number} samples */
+   * @param {Surface | null} surface @param {number} width @param {number} height @param {number} samples */
   fitted(surface, width, height, samples) {
     if (surface && surface.width === width && surface.height === height) return surface;
     surface?.free();
     return new Surface(this.gl, width, height, samples);
   }
 
-  /** The ground into this.surface: anew, or, where a processor draws and the camera stands, copied. @private
-   * @param {Look} look @param {number} width @param {number} height @param {number} now */
-  drawGround(look, width, height, now) {
-    const { gl, ground } = this, surface = /** @type {Surface} */ (this.surface);
-    const paint = to => {
-      gl.bindFramebuffer(gl.FRAMEBUFFER, to.frame);
-      gl.viewport(0, 0, width, height);
-      gl.depthMask(true);
-      gl.clear(gl.DEPTH_BUFFER_BIT);
-      ground?.draw(look.camera, look.theme, width, height, look.shading === 'slope', () => {
-        gl.enable(gl.BLEND);
-        gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-        this.flush(this.scenery.floor, 3, look.camera.matrix);
-      });
-    };
-    if (!this.isSoftware) return paint(surface);
-    const key = `${look.camera.matrix.map(v => v.toFixed(4))} ${width} ${height} ${this.version}`;
-    if (key !== this.key) this.key = key, this.stood = now, this.kept = 0;
-    else if (this.kept === 0) {
-      this.still = this.fitted(this.still, width, height, 0);
-      paint(this.still);
+  /** @private @param {Look} look @param {WebGLFramebuffer | null} frame @param {number} width @param {number} height */
+  drawGround(look, frame, width, height) {
+    const { gl } = this;
+    gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
+    gl.viewport(0, 0, width, height);
+    gl.depthMask(true);
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    this.ground?.draw(look.camera, look.theme, width, height, look.shading === 'slope', () => {
+      gl.enable(gl.BLEND);
+      gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+      this.flush(this.scenery.floor, 3, look.camera.matrix, 0, false);
+    });
+  }
+
+  /** The ground onto the canvas, where a processor draws: anew while the camera moves, else copied. Gives whether it was: then its depths are in a texture.
+   * @private @param {Look} look @param {number} width @param {number} height @param {number} now */
+  copyGround(look, width, height, now) {
+    const { gl } = this, key = `${look.camera.matrix.map(v => v.toFixed(4))} ${width} ${height} ${this.version}`;
+    if (key !== this.key) {
+      this.key = key;
+      this.stood = now;
+      this.kept = 0;
+      this.drawGround(look, null, width, height);
+      return false;
+    }
+    const still = this.still = this.fitted(this.still ?? null, width, height, 0);
+    if (this.kept === 0) {
+      this.drawGround(look, still.frame, width, height);
       this.kept = 1;
-    } else if (this.kept === 1 && now - (this.stood ?? 0) > STANDING) {
+    } else if (this.kept === 1 && now - this.stood > STANDING) { // time for smooth outlines
       const smooth = new Surface(gl, width, height, 4);
-      paint(smooth);
-      smooth.copyTo(this.still, true);
+      this.drawGround(look, smooth.frame, width, height);
+      smooth.copyTo(still, true);
       smooth.free();
       this.kept = 2;
     }
-    if (this.kept && this.still) this.still.copyTo(surface, true); else paint(surface);
+    // the canvas is cleared by the first call that draws or clears; copying does not count as one
+    gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.depthMask(true);
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    still.copyTo(null, false);
+    return true;
   }
 
-  /** All but the ground: what is solid, what lies on the ground, lice, what one looks through. @private @param {Look} look @param {import('./staging.js').Staging} staging */
-  drawScene({ camera }, staging) {
-    const { gl, lice, ghosts, scenery } = this, surface = /** @type {Surface} */ (this.surface), { matrix } = camera;
+  /** All but the ground: what is solid, what lies on the ground, lice, what one looks through.
+   * @private @param {Look} look @param {import('./staging.js').Staging} staging @param {WebGLFramebuffer | null} frame @param {number} width @param {number} height
+   * @param {boolean} hides whether the ground was copied */
+  drawScene({ camera }, staging, frame, width, height, hides) {
+    const { gl, lice, ghosts, scenery } = this, { matrix } = camera;
     if (!lice || !ghosts) return;
-    gl.bindFramebuffer(gl.FRAMEBUFFER, surface.frame);
-    gl.viewport(0, 0, surface.width, surface.height);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
+    gl.viewport(0, 0, width, height);
+    if (hides) this.still?.showDepths(true);
     gl.enable(gl.DEPTH_TEST);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     const solid = is => {
@@ -154,34 +177,33 @@ export class Drawing {
       if (is) gl.disable(gl.BLEND); else gl.enable(gl.BLEND);
     };
     solid(true);
-    this.flush(staging.solid, 0, matrix);
+    this.flush(staging.solid, 0, matrix, 0, hides);
     solid(false);
-    gl.enable(gl.POLYGON_OFFSET_FILL);
-    gl.polygonOffset(-2, -8);
-    this.flush(scenery.border, 3, matrix);
-    this.flush(staging.decals, 1, matrix);
-    gl.disable(gl.POLYGON_OFFSET_FILL);
-    this.flush(staging.ribbons, 4, NO_CHANGE, gl.TRIANGLE_STRIP);
+    this.flush(scenery.border, 3, matrix, NEARER, hides);
+    this.flush(staging.decals, 1, matrix, NEARER, hides);
+    this.flush(staging.ribbons, 4, NO_CHANGE, NEARER, hides, gl.TRIANGLE_STRIP);
     solid(true);
     lice.begin();
     ghosts.begin();
     for (let k = 0; k < staging.instances; k++) {
       const instance = staging.data.subarray(16 * k, 16 * k + 16);
-      (instance[11] ? ghosts : lice).add(instance, staging.pixels[k]);
+      (instance[11] ? ghosts : lice).add(instance, staging.pixels[k], staging.instances);
     }
-    lice.draw(camera);
+    lice.draw(camera, hides);
     solid(false);
-    ghosts.draw(camera);
-    this.flush(staging.air, 2, matrix);
-    this.flush(scenery.walls, 3, matrix);
+    ghosts.draw(camera, hides);
+    this.flush(staging.air, 2, matrix, 0, hides);
+    this.flush(scenery.walls, 3, matrix, 0, hides);
     gl.bindVertexArray(null);
+    if (hides) this.still?.showDepths(false);
   }
 
-  /** Sends vertices through one of the buffers. @private @param {{data: Float32Array, count: number}} batch @param {number} which @param {number[]} matrix @param {number} kind */
-  flush({ data, count }, which, matrix, kind = this.gl.TRIANGLES) {
+  /** Sends vertices through one of the buffers. @private @param {{data: Float32Array, count: number}} batch @param {number} which @param {number[]} matrix
+   * @param {number} nearer as which they are taken, so that they are seen on the ground @param {boolean} hides @param {number} kind */
+  flush({ data, count }, which, matrix, nearer, hides, kind = this.gl.TRIANGLES) {
     if (count < 3 || !this.flat || !this.strips) return;
     const { gl } = this, strip = this.strips[which], bytes = count * 32;
-    use(gl, this.flat, { M: matrix });
+    use(gl, this.flat, { M: matrix, nearer, hides: +hides, depths: DEPTHS });
     gl.bindVertexArray(strip.array);
     gl.bindBuffer(gl.ARRAY_BUFFER, strip.buffer);
     if (strip.room < bytes) gl.bufferData(gl.ARRAY_BUFFER, strip.room = bytes * 2, gl.DYNAMIC_DRAW);

@@ -2,6 +2,9 @@
 // The little that the picture needs around WebGL 2.
 import { SHADERS } from './shaders.js';
 
+/** The texture unit of a surface's depths. */
+export const DEPTHS = { unit: 4 };
+
 /** @typedef {{program: WebGLProgram, at: Record<string, WebGLUniformLocation | null>}} Program */
 
 /** Compiles every program; how each went is asked for afterwards, so that a driver can do them side by side.
@@ -86,23 +89,36 @@ export function fillTexture(gl, texture, unit, width, height, kind, data) {
   return made;
 }
 
-/** What is drawn into: colour and depth, several samples a pixel if wanted. */
+/** What is drawn into besides the canvas: colour and depth; several samples a pixel, or the depth as a texture. */
 export class Surface {
-  /** @param {WebGL2RenderingContext} gl @param {number} width @param {number} height @param {number} samples 0: one */
+  /** @param {WebGL2RenderingContext} gl @param {number} width @param {number} height @param {number} samples 0: one, and depth is a texture */
   constructor(gl, width, height, samples) {
     this.gl = gl;
     this.width = width;
     this.height = height;
-    this.samples = samples;
     this.frame = gl.createFramebuffer();
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.frame);
-    this.buffers = [[gl.COLOR_ATTACHMENT0, gl.RGBA8], [gl.DEPTH_ATTACHMENT, gl.DEPTH_COMPONENT24]].map(([attachment, format]) => {
+    this.depths = samples ? null : gl.createTexture();
+    this.buffers = [[gl.COLOR_ATTACHMENT0, gl.RGBA8], [gl.DEPTH_ATTACHMENT, gl.DEPTH_COMPONENT24]].slice(0, samples ? 2 : 1).map(([attachment, format]) => {
       const buffer = gl.createRenderbuffer();
       gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
       gl.renderbufferStorageMultisample(gl.RENDERBUFFER, samples, format, width, height);
       gl.framebufferRenderbuffer(gl.FRAMEBUFFER, attachment, gl.RENDERBUFFER, buffer);
       return buffer;
     });
+    if (!this.depths) return;
+    gl.activeTexture(gl.TEXTURE0 + DEPTHS.unit);
+    gl.bindTexture(gl.TEXTURE_2D, this.depths);
+    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.DEPTH_COMPONENT24, width, height);
+    for (const which of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, which, gl.NEAREST);
+    gl.bindTexture(gl.TEXTURE_2D, null);
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, this.depths, 0);
+  }
+
+  /** Its depths to the shaders; or no more: what is drawn into can't be read. @param {boolean} on */
+  showDepths(on) {
+    this.gl.activeTexture(this.gl.TEXTURE0 + DEPTHS.unit);
+    this.gl.bindTexture(this.gl.TEXTURE_2D, on ? this.depths : null);
   }
 
   /** Copies into another one of the same size, or (null) onto the canvas. @param {Surface | null} to @param {boolean} depth its depth, too */
@@ -116,5 +132,6 @@ export class Surface {
   free() {
     this.gl.deleteFramebuffer(this.frame);
     for (const buffer of this.buffers) this.gl.deleteRenderbuffer(buffer);
+    this.gl.deleteTexture(this.depths);
   }
 }

@@ -45,21 +45,23 @@ export class GroundDrawing {
     for (let j = 0, k = 0; j < high; j++)
       for (let i = 0; i < wide; i++) places[k++] = X(i - mc), places[k++] = Y(j - mr), places[k++] = Z(i - mc, j - mr);
     const triangles = new Uint32Array(6 * (wide - 1) * (high - 1));
-    for (let j = 0, n = 0; j + 1 < high; j++)
-      for (let i = 0; i + 1 < wide; i++) {
-        const k = j * wide + i;
-        triangles[n++] = k, triangles[n++] = k + 1, triangles[n++] = k + wide;
-        triangles[n++] = k + 1, triangles[n++] = k + wide + 1, triangles[n++] = k + wide;
-      }
+    // in stripes of a few columns: corners are found again before they are forgotten
+    for (let stripe = 0, n = 0; stripe + 1 < wide; stripe += 6)
+      for (let j = 0; j + 1 < high; j++)
+        for (let i = stripe; i < Math.min(stripe + 6, wide - 1); i++) {
+          const k = j * wide + i;
+          triangles.set([k, k + 1, k + wide, k + 1, k + wide + 1, k + wide], n);
+          n += 6;
+        }
     this.top = this.mesh(places, [[0, 3]], triangles);
     // the soil under the edges; none where the map goes on
     this.thick = .12 * relief.radius / relief.exaggeration;
-    this.bottom = relief.lowest - .07 * range - .045 * relief.radius / relief.exaggeration;
+    const b = this.bottom = relief.lowest - .07 * range - .045 * relief.radius / relief.exaggeration;
     const soil = [];
     const face = (count, at, nx, ny) => {
       const shade = .66 + .5 * Math.max(0, (nx * SUN[0] + ny * SUN[1]) / Math.hypot(SUN[0], SUN[1]));
       for (let k = 0; k + 1 < count; k++) {
-        const [x, y, z] = at(k), [u, v, w] = at(k + 1), b = this.bottom;
+        const [x, y, z] = at(k), [u, v, w] = at(k + 1);
         for (const [px, py, pz, deep] of [[x, y, z, 0], [u, v, w, 0], [x, y, b, z - b], [u, v, w, 0], [u, v, b, w - b], [x, y, b, z - b]])
           soil.push(px, py, pz, deep, shade);
       }
@@ -117,8 +119,7 @@ export class GroundDrawing {
     gl.bindVertexArray(null);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.activeTexture(gl.TEXTURE0 + PAINTED.unit);
-    gl.generateMipmap(gl.TEXTURE_2D);
-    gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, this.isSoftware ? gl.LINEAR_MIPMAP_NEAREST : gl.LINEAR_MIPMAP_LINEAR);
+    if (!this.isSoftware) gl.generateMipmap(gl.TEXTURE_2D), gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
     if (wraps[0]) gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.REPEAT);
     if (wraps[1]) gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.REPEAT);
     const sharper = !this.isSoftware && gl.getExtension('EXT_texture_filter_anisotropic');
@@ -133,14 +134,8 @@ export class GroundDrawing {
     const [skyAbove, skyBelow, skyGlow] = look.sky.map(rgb);
     const common = {
       M: camera.matrix, size: [width, height], skyAbove, skyBelow, skyGlow, exaggeration: relief.exaggeration,
-      far: camera.now && camera.view !== 'map' ? camera.now.distance + relief.radius * 1.3 : 1e9,
+      far: camera.now && camera.view !== 'map' ? camera.now.distance + relief.radius * .6 : 1e9,
     };
-    gl.disable(gl.BLEND);
-    gl.disable(gl.DEPTH_TEST);
-    use(gl, programs.sky, common);
-    gl.bindVertexArray(null);
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
-    if (soil.count) floor();
     gl.disable(gl.BLEND);
     gl.enable(gl.DEPTH_TEST);
     gl.depthMask(true);
@@ -150,7 +145,18 @@ export class GroundDrawing {
     });
     gl.bindVertexArray(top.array);
     gl.drawElements(gl.TRIANGLES, top.count, gl.UNSIGNED_INT, 0);
-    if (!soil.count) return;
+    this.drawSides(look, common);
+    use(gl, programs.sky, common);
+    gl.bindVertexArray(null);
+    gl.depthMask(false);
+    gl.drawArrays(gl.TRIANGLES, 0, 960);
+    if (soil.count) floor();
+  }
+
+  /** @private @param {typeof THEMES['dark']} look @param {any} common */
+  drawSides(look, common) {
+    const { gl, programs, soil } = this;
+    if (!soil?.count) return;
     const [a, b, c] = look.soil.map(rgb);
     use(gl, programs.soil, { ...common, top: a, middle: b, bottom: c, thick: this.thick });
     gl.bindVertexArray(soil.array);

@@ -1,13 +1,13 @@
 // @ts-check
 // Lice: one mesh for those near, plainer ones for those far off, all of one kind in a call.
 import { SUN } from './bake.js';
-import { layOut, makeBuffer, use } from './gl.js';
+import { DEPTHS, layOut, makeBuffer, use } from './gl.js';
 import { louseMesh } from './louse_mesh.js';
 
 /** Numbers an instance: x, y, z, half length; forward, phase of the walk; up, 1 a ghost; colour, unused. */
 export const INSTANCE = 16;
-/** From so many pixels of half length on a louse has head and legs, and all of it. */
-const FINER = [9, 20];
+/** From so many pixels of half length on a louse has head and legs, and all of it; where there are many, later. */
+const FINER = [9, 20], FINER_OF_MANY = [17, 30], MANY = 60;
 
 export class LiceDrawing {
   /** @param {WebGL2RenderingContext} gl @param {Record<string, import('./gl.js').Program>} programs */
@@ -34,9 +34,9 @@ export class LiceDrawing {
     for (const kind of this.kinds) kind.count = 0;
   }
 
-  /** Copies an instance. @param {Float32Array} instance @param {number} pixels its half length in the picture */
-  add(instance, pixels) {
-    const kind = this.kinds[pixels < FINER[0] ? 0 : pixels < FINER[1] ? 1 : 2];
+  /** Copies an instance. @param {Float32Array} instance @param {number} pixels its half length in the picture @param {number} of how many there are */
+  add(instance, pixels, of) {
+    const finer = of > MANY ? FINER_OF_MANY : FINER, kind = this.kinds[pixels < finer[0] ? 0 : pixels < finer[1] ? 1 : 2];
     if ((kind.count + 1) * INSTANCE > kind.data.length) {
       const grown = new Float32Array(2 * kind.data.length);
       grown.set(kind.data);
@@ -45,12 +45,13 @@ export class LiceDrawing {
     kind.data.set(instance, INSTANCE * kind.count++);
   }
 
-  /** @param {import('./camera.js').Camera} camera */
-  draw(camera) {
+  /** @param {import('./camera.js').Camera} camera @param {boolean} hides whether the ground's depths are in a texture */
+  draw(camera, hides) {
     const { gl } = this;
-    use(gl, this.program, { M: camera.matrix, eye: camera.eye, toSun: SUN });
+    const values = { M: camera.matrix, eye: camera.eye, toSun: SUN, hides: +hides, depths: DEPTHS };
     for (const kind of this.kinds) {
       if (!kind.count) continue;
+      use(gl, this.program, { ...values, plain: +(kind === this.kinds[0]) });
       gl.bindVertexArray(kind.array);
       gl.bindBuffer(gl.ARRAY_BUFFER, kind.buffer);
       if (kind.room * INSTANCE < kind.data.length) {

@@ -73,9 +73,9 @@ function back(maker, rows, across) {
 export function louseMesh(detail) {
   const maker = new Maker();
   if (detail < 2) {
-    const rows = detail ? 14 : 8;
-    back(maker, Array.from({ length: rows + 1 }, (_, i) => [-1 + 1.86 * i / rows, 1]), detail ? 7 : 4);
-  } else {
+    const rows = detail ? 14 : 7;
+    back(maker, Array.from({ length: rows + 1 }, (_, i) => [-1 + (detail ? 1.86 : 2) * i / rows, 1]), detail ? 7 : 4);
+    } else {
     // each plate lies over the next one behind it: its hind edge stands off
     const rows = [];
     for (let k = 0; k < PLATES; k++)
@@ -84,7 +84,6 @@ export function louseMesh(detail) {
   }
   const fine = detail === 2;
   maker.ball(.8, 0, .2, .22, .3, .2, fine ? 8 : 4, fine ? 10 : 6, HEAD);
-  if (!detail) return maker.done();
   for (const side of [-1, 1]) {
     if (fine) maker.ball(.9, side * .2, .3, .05, .055, .055, 4, 6, EYE);
     maker.pipe([[.9, .14 * side, .26, .035], [1.12, .3 * side, .4, .03], [1.3, .4 * side, .3, .022], [1.56, .46 * side, .16, .01]], FEELER);

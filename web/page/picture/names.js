@@ -1,5 +1,6 @@
 // @ts-check
-// Names and numbers over the picture, each written once and then copied.
+// Names and numbers over the picture. Each is written once, into a canvas of its own that is then only moved: one
+// canvas over the whole picture costs a software renderer as much as the lice do.
 import { THEMES, css } from './colours.js';
 import { placeLabels } from './labels.js';
 
@@ -7,73 +8,97 @@ const FONT = '600 12px system-ui, "Segoe UI", "DejaVu Sans", sans-serif';
 const HEIGHT = 18, PAD = 4;
 /** More names than this are noise; of many lice even fewer. */
 const MOST = 40, MOST_OF_MANY = 24, MANY = 60;
-const KEPT = 500;  // written texts
+const KEPT = 400;  // written texts
 
 /** One to show: where, how far from there at least, CSS pixels; higher ranks first, Infinity always; colour 0xRRGGBB or null: text's own; a badge has a plate of that colour.
  * @typedef {{key: any, text: string, colour: number | null, badge: boolean, x: number, y: number, reach: number, rank: number}} Name */
+/** Towards what is outside the picture. @typedef {{x: number, y: number, angle: number, colour: number}} Arrow */
 
 export class Names {
-  /** @param {HTMLCanvasElement} canvas */
-  constructor(canvas) {
-    this.canvas = canvas;
-    this.context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
-    /** @type {Map<string, HTMLCanvasElement>} */
+  /** @param {HTMLElement} parent over the picture, of its size */
+  constructor(parent) {
+    this.parent = parent;
+    /** Written texts, by what makes them look as they do. @type {Map<string, HTMLCanvasElement>} */
     this.written = new Map();
     /** @type {Map<any, {x: number, y: number}>} */
     this.placed = new Map();
+    /** @type {Set<HTMLCanvasElement>} */
+    this.shown = new Set();
     this.ratio = 0;
-    this.isClean = false;
+    /** @type {CanvasRenderingContext2D | undefined} */
+    this.measure = undefined;
   }
 
-  /** @param {string} text @param {number | null} colour @param {boolean} badge @param {import('./colours.js').ThemeName} theme */
-  write(text, colour, badge, theme) {
-    const key = `${text}\n${colour}\n${badge}\n${theme}`;
-    const known = this.written.get(key);
-    if (known) return known;
-    if (this.written.size > KEPT) this.written.clear();
-    const look = THEMES[theme], canvas = document.createElement('canvas'), context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
-    context.font = FONT;
-    const width = Math.ceil(context.measureText(text).width) + 2 * PAD + (badge ? 6 : 0);
-    canvas.width = width * this.ratio;
-    canvas.height = HEIGHT * this.ratio;
+  /** A canvas that is kept by this key, drawn the first time it is asked for. @param {string} key @param {number} width CSS pixels @param {number} height
+   * @param {(context: CanvasRenderingContext2D) => void} draw */
+  keep(key, width, height, draw) {
+    const canvas = document.createElement('canvas'), context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
+    canvas.width = Math.ceil(width * this.ratio);
+    canvas.height = Math.ceil(height * this.ratio);
+    canvas.style.cssText = `position:absolute;left:0;top:0;width:${width}px;height:${height}px;will-change:transform;pointer-events:none`;
     context.scale(this.ratio, this.ratio);
-    context.font = FONT;
-    context.textAlign = 'center';
-    context.textBaseline = 'middle';
     context.lineJoin = 'round';
-    const dark = theme === 'dark';
-    if (badge) {
-      context.fillStyle = colour === null ? look.halo : css(colour);
-      context.beginPath();
-      context.roundRect(0, 0, width, HEIGHT, HEIGHT / 2);
-      context.fill();
-      context.fillStyle = colour === null ? look.text : readableOn(colour);
-    } else {
-      context.lineWidth = 4;
-      context.strokeStyle = look.halo;
-      context.strokeText(text, width / 2, HEIGHT / 2 + .5);
-      context.fillStyle = dark && colour !== null ? css(colour) : look.text;
-    }
-    context.fillText(text, width / 2, HEIGHT / 2 + .5);
+    context.lineWidth = 4;
+    draw(context);
     this.written.set(key, canvas);
     return canvas;
   }
 
-  /** @param {Name[]} names @param {import('./camera.js').Camera} camera @param {import('./colours.js').ThemeName} theme
-   * @param {{x: number, y: number, angle: number, colour: number}[]} arrows towards what is outside the picture */
+  /** @param {Name} name @param {import('./colours.js').ThemeName} theme @param {number} twin how many of the same text and colour are shown already */
+  write({ text, colour, badge }, theme, twin) {
+    const key = `${text}\n${colour}\n${badge}\n${theme}\n${twin}`, known = this.written.get(key);
+    if (known) return known;
+    const look = THEMES[theme], measure = this.measure ??= /** @type {CanvasRenderingContext2D} */ (document.createElement('canvas').getContext('2d'));
+    measure.font = FONT;
+    const width = Math.ceil(measure.measureText(text).width) + 2 * PAD + (badge ? 6 : 0);
+    return this.keep(key, width, HEIGHT, context => {
+      context.font = FONT;
+      context.textAlign = 'center';
+      context.textBaseline = 'middle';
+      if (badge) {
+        context.fillStyle = colour === null ? look.halo : css(colour);
+        context.beginPath();
+        context.roundRect(0, 0, width, HEIGHT, HEIGHT / 2);
+        context.fill();
+        context.fillStyle = colour === null ? look.text : readableOn(colour);
+      } else {
+        context.strokeStyle = look.halo;
+        context.strokeText(text, width / 2, HEIGHT / 2 + .5);
+        context.fillStyle = theme === 'dark' && colour !== null ? css(colour) : look.text;
+      }
+      context.fillText(text, width / 2, HEIGHT / 2 + .5);
+    });
+  }
+
+  /** @param {Arrow} arrow @param {import('./colours.js').ThemeName} theme @param {number} number */
+  arrow({ colour }, theme, number) {
+    const key = `\n${colour}\n${theme}\n${number}`;
+    return this.written.get(key) ?? this.keep(key, 36, 36, context => {
+      context.beginPath();
+      for (const [x, y] of [[32, 18], [10, 28], [15, 18], [10, 8]]) context.lineTo(x, y);
+      context.closePath();
+      context.strokeStyle = THEMES[theme].halo;
+      context.stroke();
+      context.fillStyle = css(colour);
+      context.fill();
+    });
+  }
+
+  /** @param {Name[]} names @param {import('./camera.js').Camera} camera @param {import('./colours.js').ThemeName} theme @param {Arrow[]} arrows */
   draw(names, camera, theme, arrows) {
-    const { canvas, context } = this, ratio = Math.min(2, globalThis.devicePixelRatio || 1);
-    const width = Math.round(camera.width * ratio), height = Math.round(camera.height * ratio);
-    if (canvas.width !== width || canvas.height !== height || ratio !== this.ratio) {
-      canvas.width = width;
-      canvas.height = height;
+    const ratio = Math.min(2, globalThis.devicePixelRatio || 1);
+    if (ratio !== this.ratio || this.written.size > KEPT) {
       this.ratio = ratio;
       this.written.clear();
-    } else if (!this.isClean) context.clearRect(0, 0, width, height);
-    this.isClean = !names.length && !arrows.length;
+    }
+    /** @type {Map<any, HTMLCanvasElement>} */
     const pictures = new Map();
+    /** @type {Map<string, number>} */
+    const twins = new Map();
     const wanted = names.map(name => {
-      const picture = this.write(name.text, name.colour, name.badge, theme);
+      const like = name.text + name.colour, twin = twins.get(like) ?? 0;
+      twins.set(like, twin + 1);
+      const picture = this.write(name, theme, twin);
       pictures.set(name.key, picture);
       // who was named stays named: names do not flicker
       const rank = name.rank + (this.placed.has(name.key) ? .5 : 0);
@@ -82,25 +107,16 @@ export class Names {
     const { left, top, right, bottom } = camera.insets;
     this.placed = placeLabels(wanted, { left: left + 2, top: top + 2, right: camera.width - right - 2, bottom: camera.height - bottom - 2 },
       names.length > MANY ? MOST_OF_MANY : MOST);
-    for (const [key, at] of this.placed) context.drawImage(pictures.get(key), Math.round(at.x * ratio), Math.round(at.y * ratio));
-    for (const arrow of arrows) {
-      context.save();
-      context.setTransform(ratio, 0, 0, ratio, arrow.x * ratio, arrow.y * ratio);
-      context.rotate(arrow.angle);
-      context.beginPath();
-      context.moveTo(16, 0);
-      context.lineTo(-8, 10);
-      context.lineTo(-3, 0);
-      context.lineTo(-8, -10);
-      context.closePath();
-      context.lineWidth = 4;
-      context.lineJoin = 'round';
-      context.strokeStyle = THEMES[theme].halo;
-      context.stroke();
-      context.fillStyle = css(arrow.colour);
-      context.fill();
-      context.restore();
-    }
+    const now = new Set();
+    const show = (picture, transform) => {
+      picture.style.transform = transform;
+      if (!this.shown.has(picture)) this.parent.append(picture);
+      now.add(picture);
+    };
+    for (const [key, at] of this.placed) show(pictures.get(key), `translate(${Math.round(at.x * ratio) / ratio}px,${Math.round(at.y * ratio) / ratio}px)`);
+    arrows.forEach((arrow, k) => show(this.arrow(arrow, theme, k), `translate(${arrow.x - 18}px,${arrow.y - 18}px) rotate(${arrow.angle}rad)`));
+    for (const picture of this.shown) if (!now.has(picture)) picture.remove();
+    this.shown = now;
   }
 }
 

@@ -1,6 +1,6 @@
 // @ts-check
 // What the page looks like: a ground, lice on it, names over them. It is given arrays and draws them; it asks
-// neither the network nor the core, and touches nothing of the page but its two canvases.
+// neither the network nor the core, and touches nothing of the page but its canvas and the element for names.
 import { Camera } from './camera.js';
 import { THEMES, css, louseColour } from './colours.js';
 import { Drawing } from './drawing.js';
@@ -13,14 +13,14 @@ import { Staging } from './staging.js';
 export class Picture {
   /**
    * Throws an Error that a person understands where there is no WebGL 2.
-   * @param {HTMLCanvasElement} canvas @param {HTMLCanvasElement} labelsCanvas over it, of the same size
+   * @param {HTMLCanvasElement} canvas @param {HTMLElement} labels an empty element over it, of the same size, that cuts off what overflows
    * @param {{calm?: boolean}} options calm: nothing glides or pulses
    */
-  constructor(canvas, labelsCanvas, { calm = false } = {}) {
+  constructor(canvas, labels, { calm = false } = {}) {
     this.canvas = canvas;
     this.calm = calm;
     this.camera = new Camera(calm);
-    this.names = new Names(labelsCanvas);
+    this.names = new Names(labels);
     this.staging = new Staging();
     this.drawing = new Drawing(canvas);
     this.resolution = new Resolution(this.drawing.isSoftware ? 1 : 0);
@@ -32,6 +32,8 @@ export class Picture {
     this.shading = 'height';
     /** @type {Relief | null} */
     this.relief = null;
+    /** @type {Worker | undefined} */
+    this.worker = undefined;
     this.number = 0;
     this.last = 0;
     /** Milliseconds of own script in the last frame. */
@@ -40,7 +42,7 @@ export class Picture {
 
   /** How many points a grid of this ground should have: more than the machine can draw help nobody. @param {number[]} domain */
   gridFor(domain) {
-    const longest = this.drawing.isSoftware ? 144 : 224, w = domain[2] - domain[0], h = domain[3] - domain[1];
+    const longest = this.drawing.isSoftware ? 112 : 224, w = domain[2] - domain[0], h = domain[3] - domain[1];
     const side = v => Math.max(24, Math.round(longest * v / Math.max(w, h)));
     return { columns: side(w), rows: side(h) };
   }

@@ -9,7 +9,13 @@ export class Ribbons {
   /** @param {number} most vertices */
   constructor(most) {
     this.data = new Float32Array(most * STRIDE);
-    this.begin([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], 1, 1);
+    /** @type {number[]} */
+    this.matrix = [];
+    this.halfWidth = this.halfHeight = 1;
+    this.count = this.length = 0;
+    // the line's last point: in the picture, in clip space, the side there, width and colour
+    this.px = this.py = this.cx = this.cy = this.cz = this.w = this.nx = this.ny = 0;
+    this.half = this.red = this.green = this.blue = this.alpha = 0;
   }
 
   /** Empties it. @param {number[]} matrix world to clip space @param {number} width of the picture, pixels @param {number} height */
@@ -32,14 +38,14 @@ export class Ribbons {
    * @param {number} red @param {number} green @param {number} blue @param {number} alpha
    */
   add(x, y, z, half, red, green, blue, alpha) {
-    const m = /** @type {number[]} */ (this.matrix), w = m[3] * x + m[7] * y + m[11] * z + m[15];
+    const m = this.matrix, w = m[3] * x + m[7] * y + m[11] * z + m[15];
     if (w <= 1e-6) return this.cut();
     const cx = m[0] * x + m[4] * y + m[8] * z + m[12], cy = m[1] * x + m[5] * y + m[9] * z + m[13];
-    const cz = m[2] * x + m[6] * y + m[10] * z + m[14] - 4e-4 * w;  // a hair nearer than the ground it lies on
+    const cz = m[2] * x + m[6] * y + m[10] * z + m[14];
     const px = cx / w * this.halfWidth, py = cy / w * this.halfHeight;
     if (this.length) {
       const dx = px - this.px, dy = py - this.py, n = Math.hypot(dx, dy);
-      if (n < .4) return;
+      if (n < 2) return;
       const nx = -dy / n, ny = dx / n;
       if (this.length === 1) {
         // the first point was kept back until the way was known; two more vertices of no area join it to the strip

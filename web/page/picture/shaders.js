@@ -4,18 +4,23 @@
 
 const HEAD = '#version 300 es\nprecision highp float;\n';
 
-/** The sky at a place of the picture, and what far things fade into. */
+/** The sky at a place of the picture, 0 to 1. */
 const SKY = `
-uniform vec3 skyAbove, skyBelow, skyGlow; uniform vec2 size;
-vec3 sky(){ vec2 p=gl_FragCoord.xy/size, q=(p-vec2(.5,.56))*vec2(1.,1.15);
-  float grain=fract(52.98*fract(dot(gl_FragCoord.xy,vec2(.06711,.00584))))-.5;
-  return mix(mix(skyBelow,skyAbove,smoothstep(0.,1.,p.y)),skyGlow,.85*exp(-dot(q,q)*5.))+grain/170.; }`;
+uniform vec3 skyAbove, skyBelow, skyGlow;
+vec3 sky(vec2 p){ vec2 q=(p-vec2(.5,.56))*vec2(1.,1.15); return mix(mix(skyBelow,skyAbove,smoothstep(0.,1.,p.y)),skyGlow,.85*exp(-dot(q,q)*5.)); }`;
 
-const WHOLE = HEAD + `out vec2 t; void main(){ vec2 p=vec2(gl_VertexID&1,gl_VertexID>>1)*4.-1.; t=p*.5+.5; gl_Position=vec4(p,.99999,1); }`;
+/** Where the ground was only copied as a picture, its depths stand in a texture: what lies behind it is not drawn. */
+const HIDE = `
+uniform highp sampler2D depths; uniform float hides; bool isHidden(){ return hides>.5&&gl_FragCoord.z>texelFetch(depths,ivec2(gl_FragCoord.xy),0).r; }`;
+
+const WHOLE = HEAD + `out vec2 t; void main(){ vec2 p=vec2(gl_VertexID&1,gl_VertexID>>1)*4.-1.; t=p*.5+.5; gl_Position=vec4(p,.999999,1); }`;
 
 /** @type {Record<string, [string, string]>} */
 export const SHADERS = {
-  sky: [WHOLE, HEAD + SKY + 'out vec4 o; void main(){ o=vec4(sky(),1); }'],
+  // on 16 x 10 tiles, between whose corners colours go over into one another; a grain hides the steps of 8 bits
+  sky: [HEAD + SKY + `out vec3 c; void main(){ int k=gl_VertexID%6, n=gl_VertexID/6; vec2 p=(vec2(n%16,n/16)+vec2(k==1||k>2&&k<5?1:0,k==2||k>3?1:0))/vec2(16,10);
+c=sky(p); gl_Position=vec4(p*2.-1.,.999999,1); }`,
+  HEAD + 'in vec3 c; out vec4 o; void main(){ o=vec4(c+(fract(52.98*fract(dot(gl_FragCoord.xy,vec2(.06711,.00584))))-.5)/170.,1); }'],
 
   // shape: z from 0 to 1, zx, zy; light: of sun and sky; ramps: height, below it slope
   paint: [WHOLE, HEAD + `in vec2 t; out vec4 o; uniform sampler2D shape,light,ramps;
@@ -37,24 +42,22 @@ void main(){ vec2 u=t*(points-1.)/points+.5/points, at=t*metres; vec3 s=texture(
 
   ground: [HEAD + `layout(location=0) in vec3 p; uniform mat4 M; uniform vec4 domain; uniform float exaggeration; out vec2 t; out float z,w;
 void main(){ t=(p.xy-domain.xy)/(domain.zw-domain.xy); z=p.z; gl_Position=M*vec4(p.xy,p.z*exaggeration,1); w=gl_Position.w; }`,
-  HEAD + SKY + `in vec2 t; in float z,w; out vec4 o; uniform sampler2D painted; uniform float interval,ink,far,margin;
-float line(float k,float wide){ float f=fwidth(k); return (1.-smoothstep(wide*.35,wide,abs(fract(k)-.5)/max(f,1e-6)))*(1.-smoothstep(.12,.4,f)); }
-void main(){ vec3 c=texture(painted,fract(t)).rgb;
-  if(interval>0.){ float k=z/interval+.07; float a=max(line(k,1.1)*.5,line(k/5.+.4,1.7)); c*=mix(1.,ink,a); }
-  vec2 e=min(t,1.-t)/fwidth(t); if(margin<=0.) c=mix(c,c*1.25+.16,.8*smoothstep(2.2,.9,min(e.x,e.y)));
-  float away=smoothstep(.5*far,2.*far,w)*.7;
-  if(margin>0.){ vec2 b=abs(t-.5)-.5; away=max(away,smoothstep(0.,margin,max(b.x,b.y))*1.2); }
-  o=vec4(away>0.?mix(c,sky(),min(away,1.)):c,1); }`],
+  HEAD + SKY + `in vec2 t; in float z,w; out vec4 o; uniform sampler2D painted; uniform vec2 size; uniform float interval,ink,far,margin;
+float line(float k,float f,float wide){ return clamp((1.2*wide-abs(fract(k)-.5)/f)/wide,0.,1.)*clamp((.4-f)*4.,0.,1.); }
+void main(){ vec3 c=texture(painted,t).rgb;
+  if(interval>0.){ float k=z/interval+.07, f=max(fwidth(k),1e-6); c*=mix(1.,ink,max(line(k,f,.8)*.5,line(k*.2+.4,f*.2,1.2))); }
+  if(margin>0.){ vec2 b=abs(t-.5)-.5; c=mix(c,sky(gl_FragCoord.xy/size),min(1.,smoothstep(0.,margin,max(b.x,b.y))*1.2)); }
+  o=vec4(mix(c,skyGlow,clamp((w/far-1.)*.5,0.,.5)),1); }`],
 
   // p.w: how deep below the surface; the soil in layers
   soil: [HEAD + `layout(location=0) in vec4 p; layout(location=1) in float shade; uniform mat4 M; uniform float exaggeration; out vec4 q; out float s,w;
 void main(){ q=p; s=shade; gl_Position=M*vec4(p.xy,p.z*exaggeration,1); w=gl_Position.w; }`,
-  HEAD + SKY + `in vec4 q; in float s,w; out vec4 o; uniform vec3 top,middle,bottom; uniform float thick,far;
+  HEAD + `uniform vec3 skyGlow; in vec4 q; in float s,w; out vec4 o; uniform vec3 top,middle,bottom; uniform float thick,far;
 void main(){ float along=q.x+q.y, d=q.w/thick+.02*sin(along*.9/thick*4.)+.012*sin(along*2.3/thick*4.+1.);
   vec3 c=mix(top,middle,smoothstep(.12,.3,d)); c=mix(c,bottom,smoothstep(.45,1.05,d));
   float k=fract(d*7.); c*=.93+.1*smoothstep(.05,.4,k)*smoothstep(1.,.6,k);
   c=mix(c*1.55,c,smoothstep(0.,.035,q.w/thick)); c*=s*(1.-.3*smoothstep(.5,1.4,d));
-  o=vec4(mix(c,sky(),smoothstep(.5*far,2.*far,w)*.7),1); }`],
+  o=vec4(mix(c,skyGlow,clamp((w/far-1.)*.5,0.,.5)),1); }`],
 
   // part: 0 plate, 1 leg, 2 feeler, 3 head, 4 eye; place.w: half its length [m]; forward.w: the walk's phase;
   // up.w: 1 a ghost, of which only the outline is seen
@@ -64,18 +67,18 @@ void main(){ vec3 q=p.xyz; part=p.w; along=q.x; c=colour.rgb; ghost=up.w;
   if(part>.5&&part<1.5){ float s=sign(q.y), k=forward.w+q.x*4.6+s*1.5708, out_=smoothstep(.36,.8,abs(q.y)); q.x+=sin(k)*.11*out_; q.z+=max(cos(k),0.)*.09*out_; }
   if(part>1.5&&part<2.5) q.y+=.10*sin(forward.w*.31+q.y*6.)*(q.x-.8);
   mat3 R=mat3(forward.xyz,cross(up.xyz,forward.xyz),up.xyz); W=place.xyz+R*(q*place.w); N=R*n; gl_Position=M*vec4(W,1); }`,
-  HEAD + `in vec3 N,W,c; in float along,part,ghost; out vec4 o; uniform vec3 toSun,eye;
-void main(){ vec3 n=normalize(N), v=normalize(eye-W); float facing=max(dot(n,v),0.);
+  HEAD + HIDE + `in vec3 N,W,c; in float along,part,ghost; out vec4 o; uniform vec3 toSun,eye; uniform float plain;
+void main(){ if(isHidden()) discard; vec3 n=normalize(N), v=normalize(eye-W); float facing=max(dot(n,v),0.);
   if(ghost>.5){ float a=(.10+.9*pow(1.-facing,1.6))*.8; o=vec4(mix(c,vec3(1),.35)*a,a); return; }
   vec3 k=c*c;
-  if(part<.5){ float seg=fract((along+1.)*3.5); k=mix(k*.30,k,smoothstep(0.,.16,seg)*smoothstep(1.,.90,seg)); }
+  if(part<.5){ float seg=fract((along+1.)*3.5); k=mix(k*.30,k,clamp(seg*7.,0.,1.)*clamp((1.-seg)*11.,0.,1.)); if(plain>.5) k=mix(k,vec3(.92),clamp((along-.62)*14.,0.,1.)); }
   else if(part<2.5) k=k*.16+.01;
   else if(part<3.5) k=mix(k,vec3(.92),.9);
   else k=vec3(.005);
-  float d=max(dot(n,toSun),0.); vec3 h=normalize(toSun+v);
-  vec3 lit=k*(vec3(.34,.40,.50)*(.6+.4*n.z)+vec3(1.12,1.04,.9)*d)+vec3(.45)*pow(max(dot(n,h),0.),36.)*step(part,.5)+k*.5*pow(1.-facing,3.)+step(3.5,part)*.6*pow(max(dot(n,h),0.),20.);
+  float d=max(dot(n,toSun),0.); float shine=max(dot(n,normalize(toSun+v)),0.), away=1.-facing; shine*=shine; shine*=shine; shine*=shine; shine*=shine*shine*shine*shine;
+  vec3 lit=k*(vec3(.34,.40,.50)*(.6+.4*n.z)+vec3(1.12,1.04,.9)*d)+shine*(part<.5?.45:part>3.5?.8:0.)+k*.5*away*away*away;
   o=vec4(sqrt(clamp(lit,0.,1.)),1); }`],
 
-  flat: [HEAD + 'layout(location=0) in vec4 p; layout(location=1) in vec4 k; uniform mat4 M; out vec4 c; void main(){ c=k; gl_Position=M*p; }',
-    HEAD + 'in vec4 c; out vec4 o; void main(){ o=c; }'],
+  flat: [HEAD + 'layout(location=0) in vec4 p; layout(location=1) in vec4 k; uniform mat4 M; uniform float nearer; out vec4 c; void main(){ c=k; gl_Position=M*p; gl_Position.z-=nearer*gl_Position.w; }',
+    HEAD + HIDE + 'in vec4 c; out vec4 o; void main(){ if(isHidden()) discard; o=c; }'],
 };

@@ -42,6 +42,7 @@ export class Staging {
     this.shown = [];
     /** The height of the drawn ground. @type {(x: number, y: number) => number} */
     this.heightAt = () => 0;
+    this.seconds = 0;
     /** @type {any} */
     this.lastFollowed = null;
   }
@@ -194,7 +195,7 @@ export class Staging {
     const { left, top, right, bottom } = camera.insets, p = camera.project(at.x, at.y, at.z);
     const x0 = left + 22, y0 = top + 22, x1 = camera.width - right - 22, y1 = camera.height - bottom - 22, mx = (x0 + x1) / 2, my = (y0 + y1) / 2;
     if (p && p.x >= x0 && p.x <= x1 && p.y >= y0 && p.y <= y1) {
-      if (inside) this.arrows.push({ x: p.x, y: p.y - 34 - 3 * Math.sin((this.seconds ?? 0) * 5), angle: Math.PI / 2, colour });
+      if (inside) this.arrows.push({ x: p.x, y: p.y - 34 - 3 * Math.sin(this.seconds * 5), angle: Math.PI / 2, colour });
       return;
     }
     // before the division by w what lies behind the eye is on its own side, too

@@ -1,9 +1,9 @@
 // @ts-check
 // Where lice were in the last seconds: a point each so often, from what was shown, not from each frame.
 
-const EVERY = 90;  // ms
+const EVERY = 120;  // ms
 /** Points of a trail. */
-export const POINTS = 36;
+export const POINTS = 24;
 
 /** Of one louse: a ring of points x, y, z, and whether the trail is broken before it. */
 class Trail {
