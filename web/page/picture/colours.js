@@ -14,6 +14,9 @@ export const LICE = {
   tritan: [0x00ffaf, 0xff87ff, 0x5f87ff, 0x87d75f, 0xd7ffd7, 0xff0000, 0xaf5fff, 0xd700d7],
 };
 
+/** What is wanted of you, a goal, is in this and nothing else is. @type {Record<Palette, number>} */
+export const GOALS = { default: 0xffff5f, deutan: 0xffffaf, tritan: 0xffd75f };
+
 /**
  * height: the ground by tone; sky: above, below, the glow behind the map; soil: three layers; ink: how much of the
  * ground's light a contour leaves; halo: behind names; text: names that have no colour of their own.
@@ -52,6 +55,9 @@ export function along(ramp, t) {
   return [a[0] + (b[0] - a[0]) * u, a[1] + (b[1] - a[1]) * u, a[2] + (b[2] - a[2]) * u];
 }
 
+/** How many colours the others have; then they repeat, with another coat. */
+export const OTHERS = 7;
+
 /** A louse's: yours, or by number. @param {Palette} palette @param {number | 'you'} index */
 export const louseColour = (palette, index) =>
-  LICE[palette][index === 'you' ? 0 : 1 + ((index % 7) + 7) % 7];
+  LICE[palette][index === 'you' ? 0 : 1 + (index % OTHERS + OTHERS) % OTHERS];

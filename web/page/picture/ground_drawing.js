@@ -59,7 +59,7 @@ export class GroundDrawing {
     const b = this.bottom = relief.lowest - .07 * range - .045 * relief.radius / relief.exaggeration;
     const soil = [];
     const face = (count, at, nx, ny) => {
-      const shade = .66 + .5 * Math.max(0, (nx * SUN[0] + ny * SUN[1]) / Math.hypot(SUN[0], SUN[1]));
+      const shade = .76 + .42 * Math.max(0, (nx * SUN[0] + ny * SUN[1]) / Math.hypot(SUN[0], SUN[1]));
       for (let k = 0; k + 1 < count; k++) {
         const [x, y, z] = at(k), [u, v, w] = at(k + 1);
         for (const [px, py, pz, deep] of [[x, y, z, 0], [u, v, w, 0], [x, y, b, z - b], [u, v, w, 0], [u, v, b, w - b], [x, y, b, z - b]])

@@ -75,7 +75,8 @@ export function louseMesh(detail) {
   if (detail < 2) {
     const rows = detail ? 14 : 7;
     back(maker, Array.from({ length: rows + 1 }, (_, i) => [-1 + (detail ? 1.86 : 2) * i / rows, 1]), detail ? 7 : 4);
-    } else {
+    if (!detail) return maker.done();
+  } else {
     // each plate lies over the next one behind it: its hind edge stands off
     const rows = [];
     for (let k = 0; k < PLATES; k++)

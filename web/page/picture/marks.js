@@ -13,13 +13,13 @@ import { THEMES, rgb } from './colours.js';
  * size(x, y): half the length that a louse is drawn with there [m]; seconds: a clock, standing where the reader
  * wants calm.
  * @typedef {{solid: import('./batch.js').Batch, decals: import('./batch.js').Batch, air: import('./batch.js').Batch,
- *   heightAt: import('./batch.js').HeightAt, size: (x: number, y: number) => number, seconds: number, louse: (index: any) => Light,
+ *   heightAt: import('./batch.js').HeightAt, size: (x: number, y: number) => number, seconds: number, louse: (index: any) => Light, goal: Light,
  *   isDark: boolean}} Board
  */
 
 /** @type {Light} */
 const WHITE = [1, 1, 1];
-const GOLD = rgb(0xffd34d), PASSED = rgb(0x8d95a8), LATER = rgb(0xcfe0ff), AIR = rgb(0x7fe3ff);
+const GOLD = rgb(0xffc83d), PASSED = rgb(0x8d95a8), LATER = rgb(0xcfe0ff), AIR = rgb(0x7fe3ff);
 const CRUMB = rgb(0xffe6b0), ALARM = rgb(0xff5a3c), DUSK = rgb(0x141828);
 
 /** How high a gate's posts are, in half lengths of a louse there. */
@@ -30,18 +30,20 @@ export const middleOf = gate => [(gate.a[0] + gate.b[0]) / 2, (gate.a[1] + gate.
 
 /** Gates, and the way from one to the next. @param {Board} board @param {Gate[]} gates */
 export function drawGates(board, gates) {
-  const { solid, decals, air, heightAt, seconds, isDark } = board;
+  const { solid, decals, air, heightAt, seconds, isDark, goal } = board;
   for (let k = 0; k < gates.length; k++) {
     const gate = gates[k], to = gates[(k + 1) % gates.length], from = middleOf(gate), [mx, my] = from;
     const size = board.size(mx, my), isNext = gate.state === 'next', isDone = gate.state === 'passed';
     if (gates.length > 2 || k === 0) decals.band(heightAt, from, middleOf(to), size * .09, size * .05, isDark ? WHITE : DUSK, .4, 1);
-    const colour = isNext ? GOLD : isDone ? PASSED : gate.air ? AIR : LATER;
+    const colour = isNext ? goal : isDone ? PASSED : gate.air ? AIR : LATER;
     const height = size * POSTS * (isNext ? 1.25 : 1), half = size * (isNext ? .17 : .12);
     for (const [x, y] of [gate.a, gate.b]) {
       solid.post(x, y, heightAt(x, y), half, height, colour);
       if (isNext) solid.stone(x, y, heightAt(x, y) + height + half * 2.4, half * 2, seconds, colour);
     }
     const a = [...gate.a, heightAt(gate.a[0], gate.a[1])], b = [...gate.b, heightAt(gate.b[0], gate.b[1])];
+    // no colour is seen on every ground: it lies on a dark one
+    decals.band(heightAt, gate.a, gate.b, size * (isNext ? .3 : .16), size * .05, DUSK, isDone ? .3 : .7, 0);
     decals.band(heightAt, gate.a, gate.b, size * (isNext ? .16 : .09), size * .06, colour, isDone ? .5 : .95, isNext ? 0 : 1);
     const low = gate.air ? .55 : 0, pieces = 8, shine = isDone ? .07 : isNext ? .34 : .15;
     const at = (t, up) => {
@@ -58,7 +60,7 @@ export function drawGates(board, gates) {
 }
 
 /** Which way a gate is driven through: from the right-hand side of a to b to the left. @param {Board} board @param {Gate} gate @param {number} size */
-function drawChevrons({ decals, heightAt, seconds }, gate, size) {
+function drawChevrons({ decals, heightAt, seconds, goal }, gate, size) {
   const dx = gate.b[0] - gate.a[0], dy = gate.b[1] - gate.a[1], n = Math.hypot(dx, dy) || 1, [mx, my] = middleOf(gate);
   const ahead = [-dy / n, dx / n], side = [dx / n, dy / n], w = Math.min(n * .16, size * 2), lift = size * .07;
   for (let k = 0; k < 3; k++) {
@@ -67,7 +69,7 @@ function drawChevrons({ decals, heightAt, seconds }, gate, size) {
       const x = mx + ahead[0] * (s + along) + side[0] * across, y = my + ahead[1] * (s + along) + side[1] * across;
       return [x, y, heightAt(x, y) + lift];
     };
-    for (const hand of [-1, 1]) decals.quad(at(0, hand * w), at(w * .4, hand * w), at(w * 1.1, 0), at(w * .7, 0), GOLD, alpha);
+    for (const hand of [-1, 1]) decals.quad(at(0, hand * w), at(w * .4, hand * w), at(w * 1.1, 0), at(w * .7, 0), goal, alpha);
   }
 }
 
@@ -104,7 +106,7 @@ export function drawRing(board, ring) {
   for (let k = 0; k < pieces; k++) air.quad(at(k, 0), at(k + 1, 0), at(k + 1, high), at(k, high), colour, state === 'free' ? .15 : .32, 0);
   if (next) {
     decals.circle(heightAt, next.x, next.y, next.radius, width * 1.2, lift, isDark ? DUSK : WHITE, .4, 0);
-    decals.circle(heightAt, next.x, next.y, next.radius, width * .8, lift * 1.2, GOLD, .55 + .35 * Math.sin(seconds * 5), 3);
+    decals.circle(heightAt, next.x, next.y, next.radius, width * .8, lift * 1.2, board.goal, .55 + .35 * Math.sin(seconds * 5), 3);
   }
 }
 

@@ -58,7 +58,7 @@ export class Relief {
 
   /** Where a height stands on the colour ramp, 0 to 1: by height, and by how much of the map lies below. @param {number} z */
   tone(z) {
-    if (this.isFlat) return .4;
+    if (this.isFlat) return this.ground.centre ? .07 : .4;  // a meadow; where something pulls, the dark of space
     let low = 0, high = this.heights.length;
     while (low < high) {
       const at = low + high >> 1;

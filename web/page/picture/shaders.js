@@ -60,20 +60,20 @@ void main(){ float along=q.x+q.y, d=q.w/thick+.02*sin(along*.9/thick*4.)+.012*si
   o=vec4(mix(c,skyGlow,clamp((w/far-1.)*.5,0.,.5)),1); }`],
 
   // part: 0 plate, 1 leg, 2 feeler, 3 head, 4 eye; place.w: half its length [m]; forward.w: the walk's phase;
-  // up.w: 1 a ghost, of which only the outline is seen
+  // up.w: 1 a ghost, of which most is its outline; colour.w: the coat, 1 a dark head, 2 a belt, 3 both
   louse: [HEAD + `layout(location=0) in vec4 p; layout(location=1) in vec3 n; layout(location=2) in vec4 place; layout(location=3) in vec4 forward;
-layout(location=4) in vec4 up; layout(location=5) in vec4 colour; uniform mat4 M; out vec3 N,W,c; out float along,part,ghost;
-void main(){ vec3 q=p.xyz; part=p.w; along=q.x; c=colour.rgb; ghost=up.w;
+layout(location=4) in vec4 up; layout(location=5) in vec4 colour; uniform mat4 M; out vec3 N,W,c; out float along,part,ghost,coat;
+void main(){ vec3 q=p.xyz; part=p.w; along=q.x; c=colour.rgb; ghost=up.w; coat=colour.w;
   if(part>.5&&part<1.5){ float s=sign(q.y), k=forward.w+q.x*4.6+s*1.5708, out_=smoothstep(.36,.8,abs(q.y)); q.x+=sin(k)*.11*out_; q.z+=max(cos(k),0.)*.09*out_; }
   if(part>1.5&&part<2.5) q.y+=.10*sin(forward.w*.31+q.y*6.)*(q.x-.8);
   mat3 R=mat3(forward.xyz,cross(up.xyz,forward.xyz),up.xyz); W=place.xyz+R*(q*place.w); N=R*n; gl_Position=M*vec4(W,1); }`,
-  HEAD + HIDE + `in vec3 N,W,c; in float along,part,ghost; out vec4 o; uniform vec3 toSun,eye; uniform float plain;
+  HEAD + HIDE + `in vec3 N,W,c; in float along,part,ghost,coat; out vec4 o; uniform vec3 toSun,eye; uniform float plain;
 void main(){ if(isHidden()) discard; vec3 n=normalize(N), v=normalize(eye-W); float facing=max(dot(n,v),0.);
-  if(ghost>.5){ float a=(.10+.9*pow(1.-facing,1.6))*.8; o=vec4(mix(c,vec3(1),.35)*a,a); return; }
-  vec3 k=c*c;
-  if(part<.5){ float seg=fract((along+1.)*3.5); k=mix(k*.30,k,clamp(seg*7.,0.,1.)*clamp((1.-seg)*11.,0.,1.)); if(plain>.5) k=mix(k,vec3(.92),clamp((along-.62)*14.,0.,1.)); }
+  if(ghost>.5){ float a=.24+.7*pow(1.-facing,1.5); o=vec4(mix(c,vec3(1),.3)*a,a); return; }
+  vec3 k=c*c, head=vec3(mod(coat,2.)>.5?.006:.92); if(coat>1.5&&part<.5&&abs(along+.25)<.2) k=vec3(.006);
+  if(part<.5){ float seg=fract((along+1.)*3.5); k=mix(k*.30,k,clamp(seg*7.,0.,1.)*clamp((1.-seg)*11.,0.,1.)); if(plain>.5) k=mix(k,head,clamp((along-.62)*14.,0.,1.)); }
   else if(part<2.5) k=k*.16+.01;
-  else if(part<3.5) k=mix(k,vec3(.92),.9);
+  else if(part<3.5) k=mix(k,head,.9);
   else k=vec3(.005);
   float d=max(dot(n,toSun),0.); float shine=max(dot(n,normalize(toSun+v)),0.), away=1.-facing; shine*=shine; shine*=shine; shine*=shine; shine*=shine*shine*shine*shine;
   vec3 lit=k*(vec3(.34,.40,.50)*(.6+.4*n.z)+vec3(1.12,1.04,.9)*d)+shine*(part<.5?.45:part>3.5?.8:0.)+k*.5*away*away*away;

@@ -2,7 +2,7 @@
 // Turns a scene into what is drawn of it: instances of lice, triangles, ribbons, names.
 import { bodyAxes } from './attitude.js';
 import { Batch } from './batch.js';
-import { LICE, louseColour, rgb } from './colours.js';
+import { GOALS, OTHERS, louseColour, rgb } from './colours.js';
 import { POSTS, centreOf, drawCrumbs, drawGates, drawRing, drawSun, middleOf } from './marks.js';
 import { Ribbons } from './ribbon.js';
 import { POINTS, Trails } from './trails.js';
@@ -43,6 +43,7 @@ export class Staging {
     /** The height of the drawn ground. @type {(x: number, y: number) => number} */
     this.heightAt = () => 0;
     this.seconds = 0;
+    this.goal = GOALS.default;
     /** @type {any} */
     this.lastFollowed = null;
   }
@@ -91,8 +92,9 @@ export class Staging {
     };
     const board = {
       solid: this.solid, decals: this.decals, air: this.air, heightAt: this.heightAt, seconds: this.seconds, isDark: look.theme === 'dark',
-      size: (x, y) => size(x, y, this.heightAt(x, y)), louse: index => rgb(louseColour(palette, index)),
+      size: (x, y) => size(x, y, this.heightAt(x, y)), louse: index => rgb(louseColour(palette, index)), goal: rgb(GOALS[palette]),
     };
+    this.goal = GOALS[palette];
     if (marks.ring) drawRing(board, marks.ring);
     if (marks.gates) drawGates(board, marks.gates), this.nameGates(marks.gates, board);
     if (marks.crumbs) drawCrumbs(board, marks.crumbs);
@@ -114,7 +116,7 @@ export class Staging {
       if (isYou) this.pointAt(at, colour, camera, false);
     }
     if (isDue) this.trails.sweep();
-    if (marks.arrow) this.pointAt({ ...marks.arrow, z: this.heightAt(marks.arrow.x, marks.arrow.y) }, 0xffd34d, camera, true);
+    if (marks.arrow) this.pointAt({ ...marks.arrow, z: this.heightAt(marks.arrow.x, marks.arrow.y) }, GOALS[palette], camera, true);
     const centre = relief.ground.centre;
     if (centre) {
       const m = camera.matrix, [x, y] = centreOf(centre), n = Math.hypot(m[0], m[4], m[8]), u = Math.hypot(m[1], m[5], m[9]);
@@ -144,7 +146,7 @@ export class Staging {
     d[k] = at.x, d[k + 1] = at.y, d[k + 2] = at.z + (isFlying ? half * .2 : 0), d[k + 3] = half;
     d[k + 7] = louse.distance / half * 4;
     d[k + 11] = isGhost ? 1 : 0;
-    d[k + 12] = c[0], d[k + 13] = c[1], d[k + 14] = c[2], d[k + 15] = 1;
+    d[k + 12] = c[0], d[k + 13] = c[1], d[k + 14] = c[2], d[k + 15] = isYou ? 0 : Math.floor((louse.colour ?? louse.id) / OTHERS) % 4 || 0;
     // on the ground below it
     const ground = isFlying ? this.heightAt(at.x, at.y) : at.z, high = at.z - ground, lift = half * .07;
     const fx = hx * half, fy = hy * half, rise = s => [s * fx, s * fy, s * (zx * fx + zy * fy)], side = s => [-s * fy, s * fx, s * (zy * fx - zx * fy)];
@@ -185,7 +187,7 @@ export class Staging {
     for (const gate of gates) {
       const [x, y] = middleOf(gate), isNext = gate.state === 'next', z = this.heightAt(x, y) + board.size(x, y) * POSTS * (isNext ? 1.3 : .8);
       const p = this.look?.camera.project(x, y, z);
-      if (p) this.names.push({ key: `gate ${gate.number}`, text: String(gate.number) + (gate.air ? ' air' : ''), colour: isNext ? 0xffd34d : null, badge: isNext, x: p.x, y: p.y, reach: 2, rank: isNext ? 1e7 : 10 });
+      if (p) this.names.push({ key: `gate ${gate.number}`, text: String(gate.number) + (gate.air ? ' air' : ''), colour: isNext ? this.goal : null, badge: isNext, x: p.x, y: p.y, reach: 2, rank: isNext ? 1e7 : 10 });
     }
   }
 
