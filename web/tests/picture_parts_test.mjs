@@ -2,6 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { SUN, bake } from '../page/picture/bake.js';
+import { extentOf, ticks } from '../page/picture/curves.js';
 import { placeLabels } from '../page/picture/labels.js';
 import { Relief, roundStep } from '../page/picture/relief.js';
 import { Resolution, SCALES } from '../page/picture/resolution.js';
@@ -166,4 +167,17 @@ test('resolution falls while frames are slow, never below 0.6, and comes back wh
     if (border.scale !== last) changes++, last = border.scale;
   }
   assert.ok(changes <= 12, `${changes} changes in 150 s`);
+});
+
+test('an axis has round numbers, few of them, all on it; curves of nothing have a size', () => {
+  const next = sequence(9);
+  for (let k = 0; k < 500; k++) {
+    const a = (next() - .5) * 10 ** (8 * next() - 4), b = a + 10 ** (8 * next() - 4) + Math.abs(a) * 1e-6, found = ticks(a, b, 6);
+    assert.ok(found.length >= 1 && found.length <= 7, `${a} ${b}: ${found}`);
+    assert.ok(found.every(t => t >= a - (b - a) * 1e-6 && t <= b + (b - a) * 1e-6));
+  }
+  for (const series of [[], [{ name: 'a', x: [], y: [] }], [{ name: 'a', x: [0, 1], y: [5, 5] }], [{ name: 'a', x: [0, 1], y: [NaN, Infinity] }]]) {
+    const { x0, x1, y0, y1 } = extentOf(series);
+    assert.ok(x1 > x0 && y1 > y0 && [x0, x1, y0, y1].every(Number.isFinite));
+  }
 });
