@@ -10,7 +10,7 @@
 namespace woodlouse::client {
 
 /// Trails as pixels; lice, each with a rim and, where it flies, a shadow to the south-east as far off as it
-/// is high; names where there is room. From 80 columns a louse is an ellipse with a white head that lies as
+/// is high; names where there is room. From 80 columns a louse is an ellipse with a head that lies as
 /// it travels, yours with a line where the next push goes; below, a letter on its colour with a heading glyph
 /// beside.
 void draw_lice_on_map(const Scene& scene, const Badges& badges, const MapCamera& camera,

@@ -85,7 +85,7 @@ std::vector<HelpLine> game_help(const Scene& scene) {
   lines.push_back({"MAP", "Close lines are steep. You roll downhill for free,"});
   lines.push_back({"", "hills eat speed. @ is you, a-z others, * marks a"});
   lines.push_back({"", "bot, the glyph beside a letter is its heading."});
-  lines.push_back({"", "In colour low is blue, and a white head leads."});
+  lines.push_back({"", "In colour low is blue; heads are white or black."});
   return lines;
 }
 

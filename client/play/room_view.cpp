@@ -203,7 +203,8 @@ void RoomView::measure_rate(std::uint64_t tick, core::Time now) {
   }
   const double seconds = std::chrono::duration<double>(now - *rate_time_).count();
   if (seconds < 2.0) return;
-  measured_tick_hz_ = static_cast<double>(tick - rate_tick_) / seconds;
+  const double measured = static_cast<double>(tick - rate_tick_) / seconds;
+  if (measured < 1.1 * tick_hz_) measured_tick_hz_ = measured;  // more: what had waited for us came at once
   rate_time_ = now;
   rate_tick_ = tick;
 }

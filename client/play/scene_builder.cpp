@@ -7,8 +7,10 @@
 #include <numbers>
 #include <utility>
 
+#include "client/drawing/formatted.h"
 #include "client/drawing/layout.h"
 #include "client/play/modes/course_builder.h"
+#include "client/play/modes/goal.h"
 
 namespace woodlouse::client {
 namespace {
@@ -229,6 +231,11 @@ Scene build_scene(const Session& session, const Interface& interface, const Chat
     scene.course.gates.push_back(*gate);
     scene.course.target = 0.5 * (gate->a + gate->b);
     scene.course.lines.push_back(room.own_game().gate().line(facts.now));
+    if (const LouseSample* you = sample_of(room.sight(), own_id)) {
+      const core::Vec2 way = *scene.course.target - you->position;
+      scene.course.lines.back().push_back(
+          {formatted("  %s %.0f m", compass(way).c_str(), std::hypot(way.x, way.y)), Tone::kGoal});
+    }
   }
   scene.silence = room.silence(facts.now);
   scene.paused = room.stands() && !scene.silence;

@@ -35,8 +35,9 @@ constexpr std::chrono::milliseconds kLastAnswer{1000};
 
 // alternate screen, no cursor, bracketed paste, focus reports
 constexpr std::string_view kEnter = "\x1b[?1049h\x1b[?25l\x1b[?2004h\x1b[?1004h\x1b[0m\x1b[2J";
-// The end of a synchronized update comes first: a signal may have cut a frame in two.
-constexpr std::string_view kQuiet = "\x1b[?2026l\x1b[?1004l\x1b[?2004l\x1b[0m";
+// The end of a synchronized update comes first: a signal may have cut a frame in two. And before it a
+// beginning: some terminals complain of an end of what has not begun.
+constexpr std::string_view kQuiet = "\x1b[?2026h\x1b[?2026l\x1b[?1004l\x1b[?2004l\x1b[0m";
 constexpr std::string_view kLeave = "\x1b[?25h\x1b[?1049l";
 // Flags 31: press without ambiguity, releases, alternate keys, all keys, their text.
 constexpr std::string_view kPushKitty = "\x1b[>31u";

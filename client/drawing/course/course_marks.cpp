@@ -63,19 +63,21 @@ void draw_gate(const GateMark& gate, GroundCanvas& canvas) {
   draw_post(gate.b, post, canvas);
 }
 
-/// A dear one is larger, and has a shade.
+/// Pale, over a shade; a dear one is larger.
 void draw_crumb(const CrumbMark& crumb, GroundCanvas& canvas) {
   const auto at = canvas.spot(crumb.position);
   if (!at || at->is_hidden) return;
   const bool is_dear = crumb.value > 1;
-  const Ink ink = is_dear ? goal_ink(canvas.look(), U'*') : pale_ink(kCrumb, U'o', 1.0, kBold);
+  const Ink ink = is_dear ? goal_ink(canvas.look(), U'*') : Ink{kCrumb, U'o', 1.0, kBold};
   const int x = whole(at->x);
   const int y = whole(at->y);
   canvas.dot(x, y, ink);
-  if (!canvas.has_pixels() || !is_dear) return;
+  if (!canvas.has_pixels()) return;
+  canvas.dot(x, y + 1, {kMarkShade});
+  if (!is_dear) return;
   for (const auto& [dx, dy] : {std::pair{1, 0}, std::pair{0, -1}, std::pair{1, -1}})
     canvas.dot(x + dx, y + dy, ink);
-  for (const int dx : {0, 1}) canvas.dot(x + dx, y + 1, {kMarkShade});
+  canvas.dot(x + 1, y + 1, {kMarkShade});
 }
 
 /// What a ring's line is drawn with, and how it is dashed.
@@ -83,7 +85,7 @@ std::pair<Ink, int> line_of(const RingMark& ring, const Badges& badges, const Lo
   switch (ring.state) {
     case RingMark::State::kHeld: {
       const Badge holder = badges.of(ring.holder);
-      return {{holder.color, holder.letter == '@' ? U'@' : U'#', 1.0, kBold}, 0};
+      return {{holder.color, holder.letter == '@' ? U'%' : U'#', 1.0, kBold}, 0};
     }
     case RingMark::State::kContested:
       return {goal_ink(look, U'x'), 2};

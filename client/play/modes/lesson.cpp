@@ -98,7 +98,7 @@ std::vector<GoalLine> Lesson::lines(const KeyLabels& keys) const {
     case Step::kSwing:
       return told("3SWING", "push while rolling DOWN", "speed climbs what no push can");
     case Step::kPraise:
-      return {{{"WELL DONE", Tone::kGood}, {"  that is how hills are won", Tone::kStrong}},
+      return {{{"WELL DONE", Tone::kGood}, {"  that is how it is driven", Tone::kStrong}},
               {{keys.help + " shows all keys, " + keys.view + " another view", Tone::kUsual}}};
     case Step::kOver:
       break;

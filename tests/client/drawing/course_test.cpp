@@ -129,6 +129,23 @@ TEST_CASE("big figures say a split with its sign where there is no colour") {
   CHECK(shows(scene, "### # #    ###  # "));  // their middle
 }
 
+TEST_CASE("whoever holds the place, yours is the only @ in a picture of characters") {
+  for (const RingMark::State state :
+       {RingMark::State::kFree, RingMark::State::kHeld, RingMark::State::kContested})
+    for (const std::uint32_t holder : {0u, 1u, 2u}) {
+      Scene scene = a_race();
+      scene.course = {};
+      scene.course.rings.push_back({{2.0, 2.0}, 3.0, state, holder});
+      CellBuffer cells({80, 24});
+      Composer().draw(scene, cells);
+      const Viewport map = layout_for(cells.size(), scene.look).map;
+      int letters = 0;
+      for (int y = 1; y < 1 + map.size.rows; ++y)
+        for (int x = 0; x < map.size.columns; ++x) letters += cells.at(x, y).glyph == U'@' ? 1 : 0;
+      CHECK(letters == 1);
+    }
+}
+
 TEST_CASE("big figures hide your louse at no place, in no view") {
   for (const Size size : {Size{60, 20}, Size{80, 24}, Size{120, 36}})
     for (const View view : {View::kMap, View::kFollow, View::kSlope}) {
