@@ -59,7 +59,7 @@ export class GroundDrawing {
     const b = this.bottom = relief.lowest - .07 * range - .045 * relief.radius / relief.exaggeration;
     const soil = [];
     const face = (count, at, nx, ny) => {
-      const shade = .76 + .42 * Math.max(0, (nx * SUN[0] + ny * SUN[1]) / Math.hypot(SUN[0], SUN[1]));
+      const shade = .84 + .36 * Math.max(0, (nx * SUN[0] + ny * SUN[1]) / Math.hypot(SUN[0], SUN[1]));
       for (let k = 0; k + 1 < count; k++) {
         const [x, y, z] = at(k), [u, v, w] = at(k + 1);
         for (const [px, py, pz, deep] of [[x, y, z, 0], [u, v, w, 0], [x, y, b, z - b], [u, v, w, 0], [u, v, b, w - b], [x, y, b, z - b]])
@@ -98,7 +98,9 @@ export class GroundDrawing {
     const { gl } = this, relief = /** @type {import('./relief.js').Relief} */ (this.relief), { columns, rows, edges, wraps = [] } = relief.ground;
     const look = THEMES[theme], ramps = new Uint8Array(2 * 256 * 4);
     for (let k = 0; k < 256; k++) {
-      const tone = relief.tone(relief.lowest + (relief.highest - relief.lowest) * k / 255);
+      // of what lies about as high, lest plains have hard edges
+      let tone = 0;
+      for (let d = -6; d <= 6; d++) tone += relief.tone(relief.lowest + (relief.highest - relief.lowest) * Math.max(0, Math.min(255, k + d)) / 255) / 13;
       ramps.set(along(look.height, tone).map(v => 255 * v), 4 * k);
       ramps.set(along(look.slope, k / 255).map(v => 255 * v), 4 * (256 + k));
     }

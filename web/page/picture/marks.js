@@ -11,10 +11,10 @@ import { THEMES, rgb } from './colours.js';
 /**
  * Where marks are drawn: solid ones, those that lie on the ground, and what one looks through.
  * size(x, y): half the length that a louse is drawn with there [m]; seconds: a clock, standing where the reader
- * wants calm.
+ * wants calm; nearest(a, b): where b is nearest to a, beyond an edge perhaps.
  * @typedef {{solid: import('./batch.js').Batch, decals: import('./batch.js').Batch, air: import('./batch.js').Batch,
  *   heightAt: import('./batch.js').HeightAt, size: (x: number, y: number) => number, seconds: number, louse: (index: any) => Light, goal: Light,
- *   isDark: boolean}} Board
+ *   isDark: boolean, nearest: (a: number[], b: number[]) => number[]}} Board
  */
 
 /** @type {Light} */
@@ -30,11 +30,20 @@ export const middleOf = gate => [(gate.a[0] + gate.b[0]) / 2, (gate.a[1] + gate.
 
 /** Gates, and the way from one to the next. @param {Board} board @param {Gate[]} gates */
 export function drawGates(board, gates) {
-  const { solid, decals, air, heightAt, seconds, isDark, goal } = board;
+  const { solid, decals, air, heightAt, seconds, goal } = board;
   for (let k = 0; k < gates.length; k++) {
     const gate = gates[k], to = gates[(k + 1) % gates.length], from = middleOf(gate), [mx, my] = from;
     const size = board.size(mx, my), isNext = gate.state === 'next', isDone = gate.state === 'passed';
-    if (gates.length > 2 || k === 0) decals.band(heightAt, from, middleOf(to), size * .09, size * .05, isDark ? WHITE : DUSK, .4, 1);
+    if (gates.length > 2 || k === 0) {
+      // the shorter way, over the edges of a map that wraps: then once from either end
+      const end = middleOf(to), near = board.nearest(from, end);
+      const line = (a, b) => {
+        decals.band(heightAt, a, b, size * .13, size * .04, DUSK, .22, 0);
+        decals.band(heightAt, a, b, size * .08, size * .05, WHITE, .6, 1);
+      };
+      line(from, near);
+      if (near[0] !== end[0] || near[1] !== end[1]) line([from[0] + end[0] - near[0], from[1] + end[1] - near[1]], end);
+    }
     const colour = isNext ? goal : isDone ? PASSED : gate.air ? AIR : LATER;
     const height = size * POSTS * (isNext ? 1.25 : 1), half = size * (isNext ? .17 : .12);
     for (const [x, y] of [gate.a, gate.b]) {

@@ -15,6 +15,9 @@ export function roundStep(least) {
   return [1, 2, 5].map(digit => digit * power).find(step => step >= least) ?? 10 * power;
 }
 
+/** v from 0 to n, as going round brings it there. @param {number} v @param {number} n */
+const loop = (v, n) => v - Math.floor(v / n) * n;
+
 export class Relief {
   /** @param {GroundData} ground */
   constructor(ground) {
@@ -59,21 +62,36 @@ export class Relief {
   /** Where a height stands on the colour ramp, 0 to 1: by height, and by how much of the map lies below. @param {number} z */
   tone(z) {
     if (this.isFlat) return this.ground.centre ? .07 : .4;  // a meadow; where something pulls, the dark of space
-    let low = 0, high = this.heights.length;
-    while (low < high) {
-      const at = low + high >> 1;
-      if (this.heights[at] < z) low = at + 1; else high = at;
-    }
-    return .45 * clamp((z - this.lowest) / (this.highest - this.lowest), 0, 1) + .55 * low / this.heights.length;
+    const { heights, lowest, highest } = this;
+    /** How many lie below, or are not above. */
+    const count = isAbove => {
+      let low = 0, high = heights.length;
+      while (low < high) {
+        const at = low + high >> 1;
+        if (isAbove(heights[at])) high = at; else low = at + 1;
+      }
+      return low;
+    };
+    // a plain is as high as the middle of it
+    const below = (count(h => h >= z) + count(h => h > z)) / 2;
+    return .45 * clamp((z - lowest) / (highest - lowest), 0, 1) + .55 * below / heights.length;
   }
 
-  /** The drawn ground's height at a place, without exaggeration; beyond the edge the edge's. @param {number} x @param {number} y */
+  /** The drawn ground's height at a place, without exaggeration; beyond the edge the edge's, or of a map that wraps the other one's. @param {number} x @param {number} y */
   heightAt(x, y) {
-    const { domain, columns, rows, grid } = this.ground;
+    const { domain, columns, rows, grid, wraps = [] } = this.ground;
+    if (wraps[0]) x = domain[0] + loop(x - domain[0], this.width);
+    if (wraps[1]) y = domain[1] + loop(y - domain[1], this.depth);
     const u = clamp((x - domain[0]) / this.width, 0, 1) * (columns - 1), i = Math.min(columns - 2, Math.floor(u));
     const v = clamp((y - domain[1]) / this.depth, 0, 1) * (rows - 1), j = Math.min(rows - 2, Math.floor(v));
     const k = 3 * (j * columns + i), up = 3 * columns;
     return mix(mix(grid[k], grid[k + 3], u - i), mix(grid[k + up], grid[k + up + 3], u - i), v - j);
+  }
+
+  /** Where a place is nearest to another, beyond an edge where the map wraps. @param {number[]} a @param {number[]} b */
+  nearest(a, b) {
+    const { wraps = [] } = this.ground;
+    return [this.width, this.depth].map((n, k) => wraps[k] ? b[k] - Math.round((b[k] - a[k]) / n) * n : b[k]);
   }
 
   /** What the camera must know: the middle, and places that have to be in the picture. @param {number} bottom of the block, as drawn [m] */

@@ -30,15 +30,16 @@ float noise(vec2 p){ vec2 i=floor(p),f=p-i; f=f*f*(3.-2.*f); return mix(mix(rand
 void main(){ vec2 u=t*(points-1.)/points+.5/points, at=t*metres; vec3 s=texture(shape,u).rgb; vec2 l=texture(light,u).rg;
   float grade=length(s.yz), rough=noise(at*1.3)*.5+noise(at*4.1)*.3+noise(at*11.)*.2-.5;
   vec3 n=normalize(vec3(-s.yz*exaggeration+(1.-slope)*.10*vec2(noise(at*2.7)-.5,noise(at*2.7+50.)-.5),1));
-  vec3 c=slope>.5?texture(ramps,vec2(clamp(grade/(steep*1.25),0.,1.),.75)).rgb:texture(ramps,vec2(clamp(s.x+.006*rough,0.,1.),.25)).rgb;
-  c*=c; c*=1.+.16*rough*(1.-slope);
+  vec3 c=slope>.5?texture(ramps,vec2(clamp(grade/(steep*1.25),0.,1.),.75)).rgb:texture(ramps,vec2(s.x,.25)).rgb;
+  c*=c; c*=1.+.11*rough*(1.-slope);
   if(tile>0.){ vec2 k=at/tile; c*=mod(floor(k.x)+floor(k.y),2.)<.5?1.:.8; vec2 g=abs(fract(k+.5)-.5)*tile; c*=.8+.2*smoothstep(.0,.05*tile,min(g.x,g.y)); }
   float d=max(dot(n,toSun),0.)*l.r;
   vec3 lit=c*(vec3(.30,.38,.52)*(.3+.7*l.g)*(.72+.28*n.z)+sun*vec3(1.18,1.06,.88)*d);
   vec2 e=min(at,metres-at); float rim=min(e.x,e.y);
   if(open>.5){ float w=.02*min(metres.x,metres.y); float k=smoothstep(w,w*.9,rim)*(.25+.75*step(.5,fract((at.x+at.y)/(2.*w)))); lit=mix(lit,vec3(.85,.33,.06)*(.35+.65*l.r),k*.8); }
   if(seam>.5) lit=mix(lit,vec3(.9),.35*smoothstep(.006,.003,rim/min(metres.x,metres.y))*step(.5,fract((at.x+at.y)*.5)));
-  o=vec4(sqrt(clamp(lit,0.,1.)),1); }`],
+  lit=min(lit,.66+.34*(1.-exp(-max(lit-.66,0.)/.34)));
+  o=vec4(sqrt(lit),1); }`],
 
   ground: [HEAD + `layout(location=0) in vec3 p; uniform mat4 M; uniform vec4 domain; uniform float exaggeration; out vec2 t; out float z,w;
 void main(){ t=(p.xy-domain.xy)/(domain.zw-domain.xy); z=p.z; gl_Position=M*vec4(p.xy,p.z*exaggeration,1); w=gl_Position.w; }`,

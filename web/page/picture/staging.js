@@ -92,7 +92,7 @@ export class Staging {
     };
     const board = {
       solid: this.solid, decals: this.decals, air: this.air, heightAt: this.heightAt, seconds: this.seconds, isDark: look.theme === 'dark',
-      size: (x, y) => size(x, y, this.heightAt(x, y)), louse: index => rgb(louseColour(palette, index)), goal: rgb(GOALS[palette]),
+      size: (x, y) => size(x, y, this.heightAt(x, y)), louse: index => rgb(louseColour(palette, index)), goal: rgb(GOALS[palette]), nearest: (a, b) => relief.nearest(a, b),
     };
     this.goal = GOALS[palette];
     if (marks.ring) drawRing(board, marks.ring);
