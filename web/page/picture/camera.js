@@ -93,7 +93,7 @@ export class Camera {
       z: target ? target.z : stage.centre[2],
       yaw: view === 'map' ? -Math.PI / 2 : this.yaw, pitch: this.pitch[view], distance: 0, sx: 0, sy: 0,
     };
-    wanted.distance = (target ? clamp(stage.radius * .85, 20, 46) : this.fit(wanted)) / this.zooms[view];
+    wanted.distance = (target ? clamp(stage.radius * .85, 20, 46) * Math.max(1, Math.min(2, 1.2 * height / width)) : this.fit(wanted)) / this.zooms[view];
     if (target) wanted.pitch = this.clearPitch(wanted);
     // zoomed in on the map, what is followed comes to the middle
     if (!target && followed && this.zooms[view] > 1.15) {

@@ -35,7 +35,7 @@ export const THEMES = {
     height: [[0, 0x35618f], [.15, 0x4c8bb0], [.3, 0x6db3ab], [.45, 0x9ac58c], [.6, 0xcdce8e], [.76, 0xecd29c],
       [.9, 0xf7e3c6], [1, 0xffffff]],
     slope: [[0, 0x3a3a7c], [.25, 0x8c56a4], [.5, 0xd86a86], [.75, 0xf8b070], [1, 0xfdf8c8]],
-    sky: [0xcfdcea, 0xf6f4ef, 0xffffff], soil: [0xa98d72, 0x8f7761, 0x6f5e50], ink: .55, sun: 1.06,
+    sky: [0xcfdcea, 0xf6f4ef, 0xffffff], soil: [0xa98d72, 0x8f7761, 0x6f5e50], ink: .55, sun: 1.16,
     halo: 'rgba(255,255,255,.86)', text: '#14161d', shade: .3,
   },
 };

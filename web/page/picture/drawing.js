@@ -3,7 +3,7 @@
 import { Batch } from './batch.js';
 import { DEPTHS, Surface, layOut, makeBuffer, makePrograms, use } from './gl.js';
 import { GroundDrawing } from './ground_drawing.js';
-import { LiceDrawing } from './lice_drawing.js';
+import { INSTANCE, LiceDrawing } from './lice_drawing.js';
 
 const STANDING = 350;  // ms that the camera must have stood before the ground's outline is smoothed
 const NEARER = 3e-4;  // of the depth from -1 to 1
@@ -186,8 +186,7 @@ export class Drawing {
     lice.begin();
     ghosts.begin();
     for (let k = 0; k < staging.instances; k++) {
-      const instance = staging.data.subarray(16 * k, 16 * k + 16);
-      (instance[11] ? ghosts : lice).add(instance, staging.pixels[k], staging.instances);
+      (staging.data[INSTANCE * k + 11] ? ghosts : lice).add(staging.data, k, staging.pixels[k], staging.instances);
     }
     lice.draw(camera, hides);
     solid(false);

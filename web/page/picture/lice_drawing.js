@@ -34,15 +34,15 @@ export class LiceDrawing {
     for (const kind of this.kinds) kind.count = 0;
   }
 
-  /** Copies an instance. @param {Float32Array} instance @param {number} pixels its half length in the picture @param {number} of how many there are */
-  add(instance, pixels, of) {
+  /** Copies the k-th instance. @param {Float32Array} data @param {number} k @param {number} pixels its half length in the picture @param {number} of how many there are */
+  add(data, k, pixels, of) {
     const finer = of > MANY ? FINER_OF_MANY : FINER, kind = this.kinds[pixels < finer[0] ? 0 : pixels < finer[1] ? 1 : 2];
     if ((kind.count + 1) * INSTANCE > kind.data.length) {
       const grown = new Float32Array(2 * kind.data.length);
       grown.set(kind.data);
       kind.data = grown;
     }
-    kind.data.set(instance, INSTANCE * kind.count++);
+    for (let to = INSTANCE * kind.count++, from = INSTANCE * k, end = to + INSTANCE; to < end;) kind.data[to++] = data[from++];
   }
 
   /** @param {import('./camera.js').Camera} camera @param {boolean} hides whether the ground's depths are in a texture */

@@ -95,18 +95,17 @@ export class Names {
     const pictures = new Map();
     /** @type {Map<string, number>} */
     const twins = new Map();
-    const wanted = names.map(name => {
+    // who was named stays named: names do not flicker
+    const rankOf = name => name.rank * (this.placed.has(name.key) ? 1.5 : 1), most = names.length > MANY ? MOST_OF_MANY : MOST;
+    const wanted = names.sort((a, b) => rankOf(b) - rankOf(a)).slice(0, 3 * most).map(name => {
       const like = name.text + name.colour, twin = twins.get(like) ?? 0;
       twins.set(like, twin + 1);
       const picture = this.write(name, theme, twin);
       pictures.set(name.key, picture);
-      // who was named stays named: names do not flicker
-      const rank = name.rank + (this.placed.has(name.key) ? .5 : 0);
-      return { key: name.key, x: name.x, y: name.y, reach: name.reach, width: picture.width / ratio, height: HEIGHT - 2, rank };
+      return { key: name.key, x: name.x, y: name.y, reach: name.reach, width: picture.width / ratio, height: HEIGHT - 2, rank: rankOf(name) };
     });
     const { left, top, right, bottom } = camera.insets;
-    this.placed = placeLabels(wanted, { left: left + 2, top: top + 2, right: camera.width - right - 2, bottom: camera.height - bottom - 2 },
-      names.length > MANY ? MOST_OF_MANY : MOST);
+    this.placed = placeLabels(wanted, { left: left + 2, top: top + 2, right: camera.width - right - 2, bottom: camera.height - bottom - 2 }, most);
     const now = new Set();
     const show = (picture, transform) => {
       picture.style.transform = transform;

@@ -44,7 +44,7 @@ export class Ribbons {
     const cz = m[2] * x + m[6] * y + m[10] * z + m[14];
     const px = cx / w * this.halfWidth, py = cy / w * this.halfHeight;
     if (this.length) {
-      const dx = px - this.px, dy = py - this.py, n = Math.hypot(dx, dy);
+      const dx = px - this.px, dy = py - this.py, n = Math.sqrt(dx * dx + dy * dy);
       if (n < 2) return;
       const nx = -dy / n, ny = dx / n;
       if (this.length === 1) {
@@ -57,7 +57,7 @@ export class Ribbons {
       }
       // between the last way's side and this one's
       let sx = nx + this.nx, sy = ny + this.ny;
-      const s = Math.hypot(sx, sy);
+      const s = Math.sqrt(sx * sx + sy * sy);
       if (s > .6) sx /= s, sy /= s; else sx = nx, sy = ny;
       this.both(cx, cy, cz, w, sx, sy, half, red, green, blue, alpha, false);
       this.nx = nx;

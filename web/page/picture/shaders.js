@@ -34,7 +34,7 @@ void main(){ vec2 u=t*(points-1.)/points+.5/points, at=t*metres; vec3 s=texture(
   c*=c; c*=1.+.11*rough*(1.-slope);
   if(tile>0.){ vec2 k=at/tile; c*=mod(floor(k.x)+floor(k.y),2.)<.5?1.:.8; vec2 g=abs(fract(k+.5)-.5)*tile; c*=.8+.2*smoothstep(.0,.05*tile,min(g.x,g.y)); }
   float d=max(dot(n,toSun),0.)*l.r;
-  vec3 lit=c*(vec3(.30,.38,.52)*(.3+.7*l.g)*(.72+.28*n.z)+sun*vec3(1.18,1.06,.88)*d);
+  vec3 lit=c*(vec3(.30,.38,.52)*(.3+.7*l.g)*(.72+.28*n.z)+vec3(1.18,1.06,.88)*d)*sun;
   vec2 e=min(at,metres-at); float rim=min(e.x,e.y);
   if(open>.5){ float w=.02*min(metres.x,metres.y); float k=smoothstep(w,w*.9,rim)*(.25+.75*step(.5,fract((at.x+at.y)/(2.*w)))); lit=mix(lit,vec3(.85,.33,.06)*(.35+.65*l.r),k*.8); }
   if(seam>.5) lit=mix(lit,vec3(.9),.35*smoothstep(.006,.003,rim/min(metres.x,metres.y))*step(.5,fract((at.x+at.y)*.5)));

@@ -44,6 +44,7 @@ export class Staging {
     this.heightAt = () => 0;
     this.seconds = 0;
     this.goal = GOALS.default;
+    this.leap = Infinity;
     /** @type {any} */
     this.lastFollowed = null;
   }
@@ -52,6 +53,8 @@ export class Staging {
   setRelief(relief) {
     this.relief = relief;
     this.heightAt = (x, y) => relief.heightAt(x, y) * relief.exaggeration;
+    /** Farther than this nobody goes between two points of a trail [m]. */
+    this.leap = relief.radius * .25;
     this.trails.clear();
     this.lastFollowed = null;
   }
@@ -104,7 +107,7 @@ export class Staging {
       const isGhost = !!(louse.isGhost || louse.outline), own = isYou || louse.id === followed;
       const colour = louseColour(palette, isYou ? 'you' : louse.colour ?? louse.id), c = rgb(colour);
       const half = size(at.x, at.y, at.z) * (isYou ? 1.12 : 1);
-      if (isDue && !isGhost) this.trails.add(louse.id, at.x, at.y, at.z, relief.radius * .25);
+      if (isDue && !isGhost) this.trails.add(louse.id, at.x, at.y, at.z, this.leap);
       const p = camera.project(at.x, at.y, at.z + half * .4), pixels = p ? half / camera.metresPerPixel(p.w) : 1;
       this.put(louse, at, half, c, isGhost, isYou, own, pixels);
       if (!p) continue;
@@ -137,7 +140,7 @@ export class Staging {
     }
     const d = this.data, k = 16 * this.instances++, zx = (louse.zx ?? 0) * E, zy = (louse.zy ?? 0) * E;
     let hx = louse.heading_x, hy = louse.heading_y;
-    const n = Math.hypot(hx, hy);
+    const n = Math.sqrt(hx * hx + hy * hy);
     if (n > 0) hx /= n, hy /= n; else hx = 1, hy = 0;
     if (isFlying) { // along its way, not along the ground
       const climb = clamp(louse.flight_vz * E / Math.max(.5, Math.hypot(louse.vx, louse.vy)), -1.5, 1.5);
@@ -151,7 +154,7 @@ export class Staging {
     const ground = isFlying ? this.heightAt(at.x, at.y) : at.z, high = at.z - ground, lift = half * .07;
     const fx = hx * half, fy = hy * half, rise = s => [s * fx, s * fy, s * (zx * fx + zy * fy)], side = s => [-s * fy, s * fx, s * (zy * fx - zx * fy)];
     const spread = 1 + Math.min(1.2, high / (8 * half)), o = [at.x + .16 * half, at.y - .13 * half, ground + lift + .16 * half * zx - .13 * half * zy];
-    if (!isGhost) this.decals.disc(o, rise(1.22 * spread), side(.9 * spread), 8, BLACK, isFlying ? .42 / spread : .6, 0);
+    if (!isGhost) this.decals.disc(o, rise(1.22 * spread), side(.9 * spread), this.instances > MANY ? 6 : 8, BLACK, isFlying ? .42 / spread : .6, 0);
     if (isFlying && high > half) {
       this.ribbons.cut();
       this.ribbons.add(at.x, at.y, ground, 1, c[0], c[1], c[2], .25);
@@ -178,7 +181,8 @@ export class Staging {
       ribbons.add(p[i], p[i + 1], p[i + 2] + lift, wide * (.3 + .7 * age), c[0], c[1], c[2], strength * age);
     }
     const last = 4 * ((trail.end - 1 + POINTS) % POINTS);
-    if (Math.hypot(at.x - p[last], at.y - p[last + 1]) > (this.relief?.radius ?? 0) * .25) return;
+    const dx = at.x - p[last], dy = at.y - p[last + 1], leap = this.leap;
+    if (dx * dx + dy * dy > leap * leap) return;
     ribbons.add(at.x, at.y, at.z + lift, wide, c[0], c[1], c[2], strength);
   }
 

@@ -46,11 +46,11 @@ export class Trails {
     if (!trail) this.trails.set(id, trail = new Trail());
     trail.seen = this.round;
     const p = trail.points, last = 4 * ((trail.end + POINTS - 1) % POINTS), at = 4 * trail.end;
-    const moved = trail.count ? Math.hypot(x - p[last], y - p[last + 1], z - p[last + 2]) : 0;
+    const dx = x - p[last], dy = y - p[last + 1], dz = z - p[last + 2];
     p[at] = x;
     p[at + 1] = y;
     p[at + 2] = z;
-    p[at + 3] = moved > leap ? 1 : 0;
+    p[at + 3] = trail.count && dx * dx + dy * dy + dz * dz > leap * leap ? 1 : 0;
     trail.end = (trail.end + 1) % POINTS;
     trail.count = Math.min(POINTS, trail.count + 1);
   }
