@@ -1,250 +1,46 @@
 // @ts-check
-// The page: a room that is watched or played, a recording, or two runs side by side; wired to the picture and the panels.
+// The page begins: with what its address asks for.
 import { Core } from './core/core.js';
-import { Room } from './live/room.js';
-import { sceneOf } from './live/scene.js';
-import { Teacher } from './live/own/teacher.js';
-import { CanvasInput } from './panels/canvas_input.js';
-import { ask } from './panels/dialogs.js';
-import { Drop, save } from './panels/drop.js';
-import { byId } from './panels/elements.js';
-import { Keys } from './panels/keys.js';
-import { Panels } from './panels/panels.js';
-import { keep, kept, onPalette, onSystemTheme, setTheme, storage, theme } from './panels/settings.js';
+import { CoreEnded } from './core/instance.js';
+import { kept } from './panels/settings.js';
 import { toast } from './panels/toasts.js';
-import { Touch } from './panels/touch.js';
-import { Picture } from './picture/picture.js';
-
-const HIDDEN_AFTER = 3000, PANELS_EVERY = 100, VIEWS = ['orbit', 'follow', 'map'];  // ms, ms
+import { Stage } from './stage.js';
 
 const params = new URLSearchParams(location.search);
-const hash = () => new URLSearchParams(location.hash.slice(1));
-const calm = matchMedia('(prefers-reduced-motion: reduce)');
+const loaded = () => Core.load(new URL('core.wasm', import.meta.url));
 
-class Page {
-  /** @type {Room|null} */ room = null;
-  /** @type {import('./live/player.js').Player|null} */ player = null;
-  /** @type {import('./lab/side_by_side.js').SideBySide|null} */ lab = null;
-  followed = 0;
-  /** @type {any} */ #ground = null;
-  #panelsAt = 0; #file = ''; #hiding = 0;
-
-  /** @param {any} core */
-  constructor(core) {
-    this.core = core;
-    this.picture = new Picture(byId('picture'), byId('labels'), { calm: calm.matches });
-    this.setTheme(params.get('theme') || kept('theme'));
-    this.teacher = new Teacher(!kept('lesson'), () => keep('lesson', 'had'));
-    this.panels = new Panels({ follow: (id) => this.follow(id), say: (text) => this.room?.say(text), choose: (room) => this.enter({ room }), seek: (tick) => this.player?.seek(tick) });
-    this.#bindHands();
-  }
-
-  /** What is shown. @returns {any} */
-  get source() { return this.lab ?? this.player ?? this.room; }
-  get isPlaying() { return this.source === this.room && !!this.room?.you; }
-
-  /** Into a room, as before but for what `change` says. */
-  enter(change = {}) {
-    const wish = /** @type {import('./live/door.js').Wish} */ ({ role: 'spectator', name: kept('name') || 'guest', room: params.get('room') ?? '', token: '', ...this.room?.door.wish, ...change });
-    const lines = this.room?.roster.lines ?? [];
-    this.room?.stop();
-    this.#show('live');
-    this.followed = 0;
-    this.room = new Room({ url: new URL('ws', location.href).href.replace(/^http/, 'ws'), core: this.core, wish, storage, onNotice: toast, onTokenWanted: (why) => this.#askToken(why) });
-    if (wish.room === params.get('room')) for (const line of lines) this.room.roster.say(line.from, line.text, line.id);
-    document.body.dataset.role = wish.role;
-    this.room.start();
-  }
-
-  /** Plays, or watches again. */
-  async join() {
-    if (this.source !== this.room || this.room?.door.wish.role === 'player') return this.enter({ role: 'spectator' });
-    const name = kept('name') || await ask({ title: 'What is your louse called?', label: 'Name' });
-    if (!name) return;
-    keep('name', name);
-    this.enter({ role: 'player', name });
-    this.view('follow');
-    byId('picture').focus();
-  }
-
-  follow(id) {
-    this.followed = id;
-    if (id && this.picture.camera.view === 'orbit') this.view('follow');
-    if (this.source === this.room && id !== this.room?.you) history.replaceState(null, '', id ? `#louse=${encodeURIComponent(this.room?.roster.nameOf(id) ?? id)}` : location.pathname + location.search);
-  }
-
-  view(name) { this.picture.camera.view = name; }
-
-  setTheme(name) {
-    if (name) setTheme(name);
-    this.picture.setTheme(theme());
-  }
-
-  /** A recording's bytes. @param {Blob} blob @param {string} name */
-  async open(blob, name) {
-    toast(`opening ${name}`);
-    const [{ Recording }, { Player }] = await Promise.all([import('./core/recording.js'), import('./live/player.js')]);
-    const recording = await Recording.open(this.core, blob).catch((error) => toast(`${name}: ${error.message}`, 'bad'));
-    if (!recording) return;
-    this.room?.stop();
-    this.room = null;
-    this.player?.close();
-    this.#show('recording');
-    this.#file = name;
-    this.followed = 0;
-    const player = this.player = new Player(recording, toast);
-    player.isPlaying = !calm.matches;
-    player.onSeek = () => this.picture.clearTrails();
-    this.panels.recording(player);
-    const at = hash().get('t');
-    if (at !== null && at !== '') player.seek(Number(at) || player.info.first);
-    if (player.info.is_cut_off) toast('this recording ends before its game did');
-  }
-
-  async compare() {
-    const [{ SideBySide }, { LabPanel }, { Curves }] = await Promise.all([import('./lab/side_by_side.js'), import('./panels/lab_panel.js'), import('./picture/curves.js')]);
-    this.#show('lab');
-    this.lab = new SideBySide(this.core);
-    const lab = this.lab, rub = () => { lab.rubs = !lab.rubs; lab.begin(); this.picture.clearTrails(); };
-    const begin = (isNext) => { lab.begin(isNext); this.picture.clearTrails(); };
-    this.panels.lab = new LabPanel(Curves, { again: () => begin(false), next: () => begin(true), pause: () => { lab.isPlaying = !lab.isPlaying; }, rub });
-  }
-
-  #show(kind) {
-    if (kind !== 'recording') { this.player?.close(); this.player = null; this.panels.recording(null); }
-    document.body.dataset.source = kind;
-    if (kind !== 'live') document.body.dataset.role = 'none';
-  }
-
-  async #askToken(why) {
-    const token = await ask({ title: 'A password, please', label: why, isSecret: true, most: 256 });
-    if (token) this.room?.enter(token); else this.room?.stop();
-  }
-
-  /** What a button or a key does. */
-  act(action) {
-    const { player, room, picture: { camera } } = this;
-    switch (action) {
-      case 'orbit': case 'follow': case 'map': return this.view(action);
-      case 'view': return this.view(VIEWS[(VIEWS.indexOf(camera.view) + 1) % VIEWS.length]);
-      case 'slope': this.picture.setShading(this.picture.shading === 'slope' ? 'height' : 'slope'); return;
-      case 'theme': return this.setTheme(theme() === 'dark' ? 'light' : 'dark');
-      case 'turn-left': return camera.turn(60, 0);
-      case 'turn-right': return camera.turn(-60, 0);
-      case 'nearer': return camera.zoom(1.25);
-      case 'farther': return camera.zoom(0.8);
-      case 'next': return this.#step(1);
-      case 'previous': return this.#step(-1);
-      case 'talk': return this.panels.chat.open();
-      case 'help': return this.panels.help(this.source);
-      case 'pad': document.body.toggleAttribute('data-pad'); return;
-      case 'pick': return this.drop?.pick();
-      case 'join': this.join(); return;
-      case 'again': return this.room ? this.room.start() : this.enter();
-      case 'respawn': return room?.send({ type: 'respawn' });
-      case 'cruise': return room?.own.steering.toggleCruise();
-      case 'ghosts': if (room) toast(room.own.ghosts.cycle()); return;
-      case 'skip': return room?.send({ type: 'skip' });
-    }
-    if (player) this.#actOn(player, action);
-  }
-
-  #actOn(player, action) {
-    const { first, last, hz } = player.info;
-    switch (action) {
-      case 'pause': return player.toggle();
-      case 'begin': return player.seek(first);
-      case 'end': return player.seek(last);
-      case 'back': return player.skip(-5);
-      case 'on': return player.skip(5);
-      case 'tick-back': return player.tickBy(-1);
-      case 'tick-on': return player.tickBy(1);
-      case 'slower': return player.faster(-1);
-      case 'faster': return player.faster(1);
-      case 'verify': player.verify().catch((error) => toast(error.message, 'bad')); return;
-      case 'save': return save(player.recording.blob, this.#file);
-      case 'link':
-        location.replace(`#t=${Math.floor(player.tick)}`);
-        navigator.clipboard?.writeText(location.href).then(() => toast(`copied: this moment, ${((player.tick - first) / hz).toFixed(1)} s`), () => toast('the address now names this moment'));
-    }
-  }
-
-  #step(by) {
-    const ids = this.source.lice.map(({ id }) => id).sort((a, b) => a - b);
-    if (!ids.length) return;
-    const k = ids.indexOf(this.followed);
-    this.follow(ids[(k < 0 ? (by > 0 ? 0 : ids.length - 1) : k + by + ids.length) % ids.length]);
-  }
-
-  #bindHands() {
-    const steering = () => (this.isPlaying ? this.room?.own.steering : null), seconds = () => performance.now() / 1000;
-    const hold = (control) => steering()?.hold(control, seconds()), release = (control) => steering()?.release(control);
-    new Keys({ isRecording: () => !!this.player, isPlaying: () => this.isPlaying, hold, release, releaseAll: () => steering()?.releaseAll(), act: (action) => this.act(action) });
-    new Touch({ stick: (vector) => steering()?.stick(vector), brake: (isHeld) => (isHeld ? hold('brake') : release('brake')) });
-    new CanvasInput({ turn: (dx, dy) => this.picture.camera.turn(dx, dy), zoom: (factor) => this.picture.camera.zoom(factor), click: (x, y) => { const id = this.picture.pick(x, y); if (id) this.follow(id); } });
-    this.drop = new Drop((file) => this.open(file, file.name), (text) => toast(text, 'bad'));
-    document.addEventListener('click', (event) => {
-      const button = /** @type {HTMLElement} */ (event.target).closest('[data-do]');
-      if (button instanceof HTMLElement) this.act(button.dataset.do);
-    });
-    addEventListener('keydown', (event) => { if (event.key === 'Escape' && !document.querySelector('dialog[open]')) this.teacher.dismiss(); });
-    onPalette((palette) => this.picture.setPalette(palette));
-    onSystemTheme(() => this.picture.setTheme(theme()));
-    document.addEventListener('visibilitychange', () => {
-      clearTimeout(this.#hiding);
-      if (document.hidden) this.#hiding = setTimeout(() => this.room?.hide(true), HIDDEN_AFTER); else this.room?.hide(false);
-    });
-    addEventListener('hashchange', () => { const at = hash().get('t'); if (this.player && at) this.player.seek(Number(at) || 0); });
-  }
-
-  frame(now) {
-    const { source, picture } = this, seconds = now / 1000;
-    if (this.isPlaying) this.room?.own.steering.lookAlong(this.picture.camera.azimuth);
-    source?.update(seconds);
-    if (source?.ground) {
-      if (source.ground !== this.#ground) this.#setGround(source.ground);
-      this.#chooseFollowed();
-      const facts = source.facts?.(this.followed || source.you || 0);
-      picture.draw(sceneOf(source, this.followed || source.you || 0, facts ? source.marks(facts) : null), now);
-      if (facts) this.panels.every(source, facts, seconds);
-    }
-    if (now - this.#panelsAt >= PANELS_EVERY) {
-      this.#panelsAt = now;
-      this.panels.update(this);
-    }
-    requestAnimationFrame((next) => this.frame(next));
-  }
-
-  /** Who an address names is followed once he is there. */
-  #chooseFollowed() {
-    const wanted = !this.followed && this.source === this.room ? hash().get('louse') : null;
-    if (wanted && !this.room?.you) this.followed = this.room?.roster.find(wanted) ?? 0;
-    if (this.followed && this.followed !== this.source.you && this.source.lice.length && !this.source.louse?.(this.followed) && this.isPlaying) this.followed = 0;
-  }
-
-  #setGround(ground) {
-    const { columns, rows } = this.picture.gridFor(ground.domain);
-    this.picture.setGround({ domain: ground.domain, wraps: ground.wraps, centre: ground.centre, edges: ground.edges, columns, rows, grid: ground.grid(columns, rows) });
-    this.picture.clearTrails();
-    this.#ground = ground;
-  }
+/** A recording of this server's, by its address. @param {Stage} stage @param {string} address */
+async function openAddress(stage, address) {
+  const url = new URL(address, location.href);
+  if (url.origin !== location.origin) throw new Error('?replay= takes recordings of this server alone');
+  const answer = await fetch(url);
+  if (!answer.ok) throw new Error(`${url.pathname}: ${answer.status} ${answer.statusText}`);
+  await stage.open(await answer.blob(), url.pathname.split('/').at(-1) ?? '');
 }
+
+/** @param {Stage} stage */
+async function begin(stage) {
+  const name = params.get('name') ?? kept('name'), replay = params.get('replay');
+  if (params.has('lab')) return stage.compare();
+  if (replay !== null) return openAddress(stage, replay);
+  if (!params.has('play') || !name) return void stage.enter();
+  stage.enter({ role: 'player', name });
+  stage.view('follow');
+}
+
+/** Words for who looks. @param {unknown} error */
+const tell = (error) => toast(error instanceof Error ? error.message : String(error), 'bad');
 
 try {
-  const page = new Page(await Core.load(new URL('core.wasm', import.meta.url)));
-  Object.assign(globalThis, { woodlouse: page });  // for who looks in from the console, and for tests
-  if (params.has('lab')) await page.compare();
-  else if (params.has('replay')) {
-    const url = new URL(params.get('replay') ?? '', location.href);
-    if (url.origin !== location.origin) throw new Error('?replay= takes recordings of this server alone');
-    const answer = await fetch(url);
-    if (!answer.ok) throw new Error(`${url.pathname}: ${answer.status} ${answer.statusText}`);
-    await page.open(await answer.blob(), url.pathname.split('/').at(-1) ?? '');
-  } else if (params.has('play') && (params.get('name') ?? kept('name'))) {
-    page.enter({ role: 'player', name: params.get('name') ?? kept('name') });
-    page.view('follow');
-  } else page.enter();
-  requestAnimationFrame((now) => page.frame(now));
-} catch (error) {
-  toast(error instanceof Error ? error.message : String(error), 'bad');
-}
+  const stage = new Stage(await loaded());
+  Object.assign(globalThis, { woodlouse: stage });  // for who looks in from the console, and for tests
+  requestAnimationFrame((now) => stage.frame(now));
+  await begin(stage).catch((error) => { tell(error); stage.enter(); });
+  let isMending = false;
+  addEventListener('error', async ({ error }) => {
+    if (!(error instanceof CoreEnded) || isMending) return;
+    isMending = true;  // an instance that has ended is of no use any more
+    stage.replaceCore(await loaded());
+    isMending = false;
+  });
+} catch (error) { tell(error); }

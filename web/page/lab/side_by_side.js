@@ -3,12 +3,13 @@
 // pushes; what differs are the equations alone.
 
 const HZ = 60, GRAVITY = 9.81, SAMPLES = 600, LONGEST = 90;  // ticks a second, m/s^2, of a curve, s
-const PAPER = 1, EXACT = 2;
-/** Places and velocities [m, m/s] to begin from; the first is the paper's own, on its 40 m pot. */
-const STARTS = [[16, 0, 0, 12], [12, 9, -4, 3], [-6, 15, 9, 0], [3, -17, 0, 2]];
+/** The lice's numbers, by which they have their colours: the paper's orange, the exact one blue. */
+const PAPER = 5, EXACT = 1;
+/** Places and velocities [m, m/s] to begin from; the first is that of the paper's figures (docs/document.md), 20 times as large. */
+const STARTS = [[16, 0, 0, 6.708203932499369], [9, 9, -4, 3], [-6, 13, 5, 0], [3, -15, 2, 2]];
 
 const terrain = { function: 'wavy_pot', grid: 10, scale: 20 };
-const physics = (rubs) => ({ gravity: GRAVITY, drag: rubs ? 0.2 : 0, friction: rubs ? 0.05 : 0, thrust_max: 4, edge_restitution: 0.5 });
+const physics = (rubs) => ({ gravity: GRAVITY, drag: rubs ? 0.2 : 0, friction: rubs ? 0.05 : 0, thrust_max: 4, edge_restitution: rubs ? 0.5 : 1 });
 /** The map hoffmann_2002, and the same by the exact equations. */
 const definitions = (rubs) => [
   { name: 'hoffmann_2002', terrain, surface: 'document_spline', physics: { ...physics(rubs), equations: 'as_printed', method: 'false_euler' } },
@@ -42,7 +43,7 @@ export class SideBySide {
     for (const { world } of this.#runs) world.close?.();
     this.#runs = definitions(this.rubs).map((definition, k) => {
       const ground = this.#core.openMap(JSON.stringify(definition), HZ), world = ground.world();
-      world.put({ ...louse, id: k + 1 });
+      world.put({ ...louse, id: k ? EXACT : PAPER });
       return { ground, world };
     });
     this.ground ??= this.#runs[1].ground;

@@ -52,16 +52,20 @@ function aimSpans(facts) {
   return [{ text: `${goal.what} ${compass(x, y)} ${Math.hypot(x, y).toFixed(0)} m${goal.hint}`, tone: 'goal' }];
 }
 
+/** @returns {Span} */
+function holderSpan({ game, id, isOwn, nameOf }) {
+  if (game.contested) return { text: 'contested: nobody holds it', tone: 'bad' };
+  if (game.holder !== 0 && game.holder === id) return { text: isOwn ? 'you hold it' : 'holds it', tone: 'good' };
+  return { text: game.holder ? `${nameOf(game.holder)} holds it` : 'free: be alone on it' };
+}
+
 /** @returns {Span[]} */
 function ownSpans(facts) {
   const { mode, rules, game, you, run, hz, tick, rank, lice } = facts;
   const ranked = rank > 0 ? [{ text: `#${rank}/${lice.length}` }] : [];
   if (mode === 'hill') {
     const held = you ? { text: `held ${scoreText(mode, you.score ?? 0, hz)}`, tone: 'strong' } : { text: 'out: back at a spawn soon', tone: 'bad' };
-    const who = game.contested ? { text: 'contested: nobody holds it', tone: 'bad' }
-      : game.holder === facts.id ? { text: facts.isOwn ? 'you hold it' : 'holds it', tone: 'good' }
-      : { text: game.holder ? `${facts.nameOf(game.holder)} holds it` : 'free: be alone on it' };
-    return [held, who, ...ranked];
+    return [held, holderSpan(facts), ...ranked];
   }
   if (!you) return [];
   if (mode === 'race') {
@@ -86,6 +90,7 @@ export function goalLines(facts) {
   if (game.phase === 'countdown') first.push({ text: `round ${game.round} begins in ${left}`, tone: 'goal' });
   else first.push({ text: `${left} left`, tone: 'strong' });
   if (mode === 'forage' && game.phase === 'play' && secondsUntil(facts, game.until ?? 0) <= HARVEST) first.push({ text: 'harvest \u00d72', tone: 'goal' });
+  if (mode === 'hill' && !facts.id) first.push(holderSpan(facts));
   if (mode === 'hill' && game.moves_at) first.push({ text: `moves in ${leftText(secondsUntil(facts, game.moves_at))}` });
   first.push(...aimSpans(facts));
   const own = facts.id ? ownSpans(facts) : [];
@@ -97,7 +102,7 @@ export function marksOf(facts) {
   const { mode, rules, game, you } = facts, marks = /** @type {any} */ ({ gates: [], crumbs: [], ring: null, ghosts: [], arrow: null });
   if (!game) return marks;
   if (mode === 'race') marks.gates = (rules?.gates ?? []).map((gate, k) => ({
-    a: gate.a, b: gate.b, air: !!gate.air, number: k, state: !you ? 'later' : (you.gate ?? 0) === k ? 'next' : you.lap_start && k < (you.gate || rules.gates.length) ? 'passed' : 'later',
+    a: gate.a, b: gate.b, air: !!gate.air, number: k || 'S', state: !you ? 'later' : (you.gate ?? 0) === k ? 'next' : you.lap_start && k < (you.gate || rules.gates.length) ? 'passed' : 'later',
   }));
   for (const [, x, y, value] of game.crumbs ?? []) if (value > 0) marks.crumbs.push({ x, y, value });
   const place = mode === 'hill' ? rules?.places?.[game.place] : null;

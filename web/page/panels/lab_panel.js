@@ -14,23 +14,27 @@ export class LabPanel {
     this.#apart = made('h2');
     this.#energies = made('h2');
     const distance = canvas('How far the two runs are apart, over time'), energy = canvas('The energy of both runs, over time');
-    this.rub = button('', hands.rub);
+    this.rub = button('Drag and friction', hands.rub);
+    this.law = made('p');
+    this.pause = button('Pause', hands.pause);
     const buttons = made('div', '', 'buttons');
-    buttons.append(button('Again', hands.again), button('Another start', hands.next), button('Pause', hands.pause));
+    buttons.append(this.rub, button('Again', hands.again), button('Another start', hands.next), this.pause);
     panel.append(made('h2', 'Side by side'),
       paragraph('Two lice set off from one place, equally fast, and nobody pushes. ', made('span', '2002', 'document'), ' rolls as a paper of 2002 computed it, ', made('span', 'exact', 'exact'),
         ' as this server does: the same hill, the paper\u2019s errors put right.'),
-      this.#apart, distance, this.#energies, energy, paragraph(this.rub), buttons, paragraph('The page runs the server\u2019s own C++ for both.'));
+      this.#apart, distance, this.#energies, energy, this.law, buttons, paragraph('The page runs the server\u2019s own C++ for both.'));
     panel.hidden = false;
     this.#curves = [new Curves(distance), new Curves(energy)];
   }
 
   /** @param {import('../lab/side_by_side.js').SideBySide} lab */
   update(lab) {
-    const percent = (part) => `${part < 0 ? '\u2212' : '+'}${(Math.abs(part) * 100).toFixed(Math.abs(part) < 0.001 ? 4 : 1)} %`;
+    const percent = (part) => `${part < -5e-7 ? '\u2212' : part > 5e-7 ? '+' : '\u00b1'}${(Math.abs(part) * 100).toFixed(Math.abs(part) < 0.001 ? 4 : 1)} %`;
     setText(this.#apart, `Apart: ${lab.apart.toFixed(lab.apart < 1 ? 3 : 1)} m after ${lab.seconds.toFixed(0)} s`);
     setText(this.#energies, `Energy: 2002 ${percent(lab.change('paper'))}, exact ${percent(lab.change('exact'))}`);
-    setText(this.rub, lab.rubs ? 'Drag and friction act: energy may only fall. Take them away' : 'Nothing rubs, so energy must stay as it was. Let it rub');
+    this.rub.setAttribute('aria-pressed', String(lab.rubs));
+    setText(this.pause, lab.isPlaying ? 'Pause' : 'Go on');
+    setText(this.law, lab.rubs ? 'Drag and friction act: energy may only fall.' : 'Nothing rubs and nobody pushes, so energy must stay as it was.');
     const { t, distance, paper, exact } = lab.series;
     this.#curves[0].draw([{ name: 'apart [m]', x: t, y: distance, tone: 'usual' }]);
     this.#curves[1].draw([{ name: '2002 [J/kg]', x: t, y: paper, tone: 'document' }, { name: 'exact', x: t, y: exact, tone: 'exact' }]);

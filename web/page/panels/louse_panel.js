@@ -2,7 +2,7 @@
 // The louse that is followed, in figures.
 import { byId, fillChildren, made, setHidden, setText } from './elements.js';
 
-const degrees = (radians) => `${(radians * 180 / Math.PI).toFixed(0)}\u00b0`;
+const degrees = (radians) => `${Math.round(radians * 180 / Math.PI) || 0}\u00b0`;  // no -0
 
 /** Where a louse heads and how it stands, as the paper turns it: yaw, pitch (uphill is negative), roll. [rad] */
 function attitude({ heading_x: hx, heading_y: hy, zx, zy }) {

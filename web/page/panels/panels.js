@@ -53,8 +53,8 @@ export class Panels {
     this.#insets(camera);
     if (room && source === room) this.#room(room, colourOf, isPlaying ? page.teacher.observe(room, performance.now() / 1000) : []);
     if (player) this.bar.update(player);
-    if (page.lab) return this.lab?.update(page.lab);
-    if (player) { this.chat.update(player, colourOf); setText(byId('proof'), ''); }
+    if (page.lab) { setText(byId('proof'), ''); this.top.line('a laboratory'); return this.lab?.update(page.lab); }
+    if (player) { this.chat.update(player, colourOf); setText(byId('proof'), ''); this.top.line(`${player.info.name}${player.info.mode === 'roam' ? '' : `/${player.info.mode}`}, a recording`); }
     const facts = this.#facts;
     if (!facts || !source?.ground) return;
     const followed = page.followed || source.you || facts.rows[0]?.id || 0, nameOf = (id) => source.nameOf(id);
@@ -85,8 +85,8 @@ export class Panels {
     const over = byId('over').getBoundingClientRect(), isNarrow = over.width <= 760;
     const box = (id) => byId(id).getBoundingClientRect(), tall = (id) => box(id).height;
     const wide = (id) => box(id).width + 12;
-    camera.insets = isNarrow ? { left: 0, right: 0, top: Math.max(tall('top') + 8, box('hud').bottom), bottom: over.height - box('bar').top + tall('chat') }
-      : { left: wide('lab'), right: Math.max(wide('scores'), wide('louse')), top: tall('top') + 20, bottom: over.height - Math.min(box('bar').top, box('recording').height ? box('recording').top : Infinity) };
+    camera.insets = isNarrow ? { left: 0, right: 0, top: Math.max(box('top').bottom, box('goal').bottom, box('lesson').bottom) + 4, bottom: over.height - Math.min(...['bar', 'lab', 'recording', 'chat'].filter(tall).map((id) => box(id).top)) }
+      : { left: wide('lab'), right: Math.max(wide('scores'), wide('louse')), top: tall('top') + 20, bottom: over.height - Math.min(...['bar', 'recording'].filter(tall).map((id) => box(id).top)) };
   }
 
   #count(source) {

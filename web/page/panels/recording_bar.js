@@ -48,8 +48,10 @@ export class RecordingBar {
     setText(byId('speed'), `${player.speed < 1 ? `1/${1 / player.speed}` : player.speed}\u00d7`);
     setText(byId('time'), `${timeText((tick - first) / hz)} / ${timeText((last - first) / hz)} \u00b7 tick ${tick}`);
     const pause = byId('recording').querySelector('[data-do=pause]');
-    setText(pause, player.isPlaying ? '\u23f8\ufe0e' : '\u25b6\ufe0e');
-    const { text, tone } = player.proof;
+    setText(pause, player.isPlaying ? '\u275a\u275a' : '\u25b6');
+    const { text, tone } = player.proof, wrong = byId('wrong');
+    setHidden(wrong, !player.difference);
+    if (player.difference) wrong.style.left = `${(player.difference.tick - first) / Math.max(1, last - first) * 100}%`;
     setText(byId('verdict'), text);
     setClass(byId('verdict'), `figure ${tone}`);
   }

@@ -1,6 +1,6 @@
 // @ts-check
 // The table of scores: who is there, best first, each row a button that follows its louse.
-import { byId, fillChildren, made, setClass, setText } from './elements.js';
+import { byId, fillChildren, made, setClass, setHidden, setText } from './elements.js';
 
 const MOST = 40;
 
@@ -32,8 +32,9 @@ export class Scores {
       setText(place, rank ? String(rank) : '');
       button.dataset.id = id;
       dot.style.background = colourOf(id);
-      setText(name, id === you ? `${nameOf(id)} (you)` : nameOf(id));
+      setText(name, id === you ? 'you' : nameOf(id));
       setText(what.firstChild, measure);
+      setHidden(what.lastChild, share === 0);
       what.lastChild.style.width = `${share * 100}%`;
     });
   }
