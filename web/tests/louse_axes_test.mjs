@@ -1,8 +1,8 @@
 // A louse lies on the ground as the document turns it: yaw about z, then pitch about the turned y, then roll about x.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { attitudeOf, bodyAxes } from '../page/picture/attitude.js';
-import { louseMesh } from '../page/picture/louse_mesh.js';
+import { attitudeOf, bodyAxes } from '../page/picture/louse.js';
+import { louseMesh } from '../page/picture/louse.js';
 import { sequence } from './sequence.mjs';
 
 /** The columns of Rz(yaw) Ry(pitch) Rx(roll) that are forward and up. */

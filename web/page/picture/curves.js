@@ -61,6 +61,11 @@ export class Curves {
       // its name above its end, below the one before
       last = Math.max(last + 13, Math.min(bottom - 6, Math.max(top + 6, Y(y[end]) - 9)));
       context.textAlign = X(x[end]) > (left + right) / 2 ? 'right' : 'left';
+      context.setLineDash([]);
+      context.lineWidth = 4;
+      context.lineJoin = 'round';
+      context.strokeStyle = theme === 'dark' ? '#12151fe0' : '#ffffffe8';
+      context.strokeText(name, X(x[end]), last);
       context.fillText(name, X(x[end]), last);
     }
   }

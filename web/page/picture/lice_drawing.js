@@ -2,7 +2,7 @@
 // Lice: one mesh for those near, plainer ones for those far off, all of one kind in a call.
 import { SUN } from './bake.js';
 import { DEPTHS, layOut, makeBuffer, use } from './gl.js';
-import { louseMesh } from './louse_mesh.js';
+import { louseMesh } from './louse.js';
 
 /** Numbers an instance: x, y, z, half length; forward, phase of the walk; up, 1 a ghost; colour, unused. */
 export const INSTANCE = 16;

@@ -1,11 +1,10 @@
 // @ts-check
 // Turns a scene into what is drawn of it: instances of lice, triangles, ribbons, names.
-import { bodyAxes } from './attitude.js';
+import { bodyAxes } from './louse.js';
 import { Batch } from './batch.js';
 import { GOALS, OTHERS, louseColour, rgb } from './colours.js';
 import { POSTS, centreOf, drawCrumbs, drawGates, drawRing, drawSun, middleOf } from './marks.js';
-import { Ribbons } from './ribbon.js';
-import { POINTS, Trails } from './trails.js';
+import { POINTS, Ribbons, Trails } from './trails.js';
 import { clamp } from './vectors.js';
 
 /**
@@ -173,17 +172,19 @@ export class Staging {
   trail(louse, at, c, own, ratio) {
     const trail = this.trails.trails.get(louse.id), { ribbons } = this;
     if (!trail || trail.count < 2) return;
-    const p = trail.points, strength = own ? .95 : .62, wide = (own ? 2 : 1.35) * ratio, lift = .05;
+    // pale colours are lost on a bright ground
+    const isLight = this.look?.theme === 'light', [red, green, blue] = isLight ? c.map(v => v * .62) : c;
+    const p = trail.points, strength = own || isLight ? .95 : .62, wide = (own ? 2 : 1.35) * ratio, lift = .05;
     ribbons.cut();
     for (let k = 0; k < trail.count; k++) {
       const i = 4 * ((trail.end - trail.count + k + POINTS) % POINTS), age = k / trail.count;
       if (p[i + 3] && k) ribbons.cut();
-      ribbons.add(p[i], p[i + 1], p[i + 2] + lift, wide * (.3 + .7 * age), c[0], c[1], c[2], strength * age);
+      ribbons.add(p[i], p[i + 1], p[i + 2] + lift, wide * (.3 + .7 * age), red, green, blue, strength * age);
     }
     const last = 4 * ((trail.end - 1 + POINTS) % POINTS);
     const dx = at.x - p[last], dy = at.y - p[last + 1], leap = this.leap;
     if (dx * dx + dy * dy > leap * leap) return;
-    ribbons.add(at.x, at.y, at.z + lift, wide, c[0], c[1], c[2], strength);
+    ribbons.add(at.x, at.y, at.z + lift, wide, red, green, blue, strength);
   }
 
   /** @private @param {import('./marks.js').Gate[]} gates @param {import('./marks.js').Board} board */
