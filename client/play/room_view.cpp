@@ -101,7 +101,7 @@ void RoomView::take(const protocol::Welcome& welcome, core::Time now) {
   word_.expect(welcome.state_hz);
   view_ = ViewState(welcome.tick_hz, welcome.fields, game != nullptr ? std::optional(*game) : std::nullopt);
   pilot_.reset();
-  rate_time_.reset();
+  rate_.begin(welcome.tick_hz, welcome.state_hz);
   if (welcome.stream == protocol::Stream::kInputs) return stream_.begin(welcome.tick_hz, welcome.state_hz);
   if (map_ && map_->hash == welcome.map_hash) {
     begin_piloting();
@@ -145,7 +145,7 @@ void RoomView::take(const protocol::Frame& frame, core::Time now) {
   verifier_.take(frame);
   goes_on(frame.tick, now);
   clock_->observe(frame.tick, now);
-  measure_rate(frame.tick, now);
+  rate_.observe(frame.tick, now);
   switch (view_->merge(frame)) {
     case ViewState::Merge::kMissingBase:
       if (resync_asked_ && now - *resync_asked_ < kResyncEvery) return;
@@ -181,7 +181,7 @@ bool RoomView::follow(std::string_view line, core::Time now) {
   if (stream_.is_on_time()) {
     goes_on(match->tick(), now);
     clock_->observe(match->tick(), now);
-    measure_rate(match->tick(), now);
+    rate_.observe(match->tick(), now);
   }
   if (auto picture = stream_.picture()) view_->show(std::move(*picture));
   return true;
@@ -191,22 +191,8 @@ bool RoomView::follow(std::string_view line, core::Time now) {
 void RoomView::goes_on(std::uint64_t tick, core::Time now) {
   if (!word_.shown(tick, now)) return;
   clock_.emplace(welcome_->tick_hz);
-  rate_time_.reset();
+  rate_.begin_anew();
   if (pilot_) pilot_->begin_anew();
-}
-
-void RoomView::measure_rate(std::uint64_t tick, core::Time now) {
-  if (!rate_time_ || tick < rate_tick_) {
-    rate_time_ = now;
-    rate_tick_ = tick;
-    return;
-  }
-  const double seconds = std::chrono::duration<double>(now - *rate_time_).count();
-  if (seconds < 2.0) return;
-  const double measured = static_cast<double>(tick - rate_tick_) / seconds;
-  if (measured < 1.1 * tick_hz_) measured_tick_hz_ = measured;  // more: what had waited for us came at once
-  rate_time_ = now;
-  rate_tick_ = tick;
 }
 
 void RoomView::take(const protocol::Event& event, core::Time now) {

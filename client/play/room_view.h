@@ -14,6 +14,7 @@
 
 #include "client/net/server_clock.h"
 #include "client/net/server_word.h"
+#include "client/net/tick_rate.h"
 #include "client/play/keyframe_verifier.h"
 #include "client/play/modes/own_game.h"
 #include "client/play/pilot.h"
@@ -89,7 +90,7 @@ class RoomView {
   /// The smallest of the last kRoundTrips: the others waited for something besides the network.
   [[nodiscard]] std::optional<double> rtt_seconds() const;
   /// The server's tick rate as its frames show it [Hz]; 0 before it can be known.
-  [[nodiscard]] double measured_tick_hz() const { return measured_tick_hz_; }
+  [[nodiscard]] double measured_tick_hz() const { return rate_.hz(); }
   [[nodiscard]] const std::string& notice_line() const { return notice_; }
   /// What came of the keys' hashes, over all sessions; nothing verified unless asked for (make_join).
   [[nodiscard]] const KeyVerifier& verifier() const { return verifier_; }
@@ -104,7 +105,6 @@ class RoomView {
   void take(const protocol::Pong& pong, core::Time now);
   void take(const protocol::Rooms& rooms);
   void goes_on(std::uint64_t tick, core::Time now);
-  void measure_rate(std::uint64_t tick, core::Time now);
   void begin_piloting();
   void draw_lice(core::Time now);
 
@@ -132,9 +132,7 @@ class RoomView {
   std::optional<core::Time> pinged_;
   std::optional<core::Time> counted_;
   std::optional<core::Time> resync_asked_;
-  std::uint64_t rate_tick_ = 0;  ///< where the measured rate's window begins
-  std::optional<core::Time> rate_time_;
-  double measured_tick_hz_ = 0.0;
+  TickRate rate_;
   unsigned bells_ = 0;
   std::string notice_;
   core::Time notice_until_{};

@@ -119,7 +119,7 @@ std::vector<ScoreRow> rows_of_table(const Sight& sight) {
 std::vector<std::string> rules_in_words(state::Mode mode, const map::Modes& modes) {
   if (mode == state::Mode::kRace && modes.race)
     return {"race: drive through the gates in turn, S first,",
-            formatted("%u laps; arrows show the way. The best run wins.", modes.race->laps)};
+            formatted("%u laps, from gate to gate. The best run wins.", modes.race->laps)};
   if (mode == state::Mode::kForage && modes.forage)
     return {"forage: roll over crumbs; * is worth 3. One within",
             "4 s of another counts twice, the next three times."};

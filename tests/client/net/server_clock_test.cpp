@@ -1,4 +1,5 @@
 #include "client/net/server_clock.h"
+#include "client/net/tick_rate.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -59,4 +60,28 @@ TEST_CASE("a tick lasts what the rate says however seldom the clock is asked") {
   clock.observe(1000, at(0.0));
   REQUIRE(clock.tick(at(0.0)) == Approx(1000.0));
   REQUIRE(clock.tick(at(2.5)) == Approx(1300.0));
+}
+
+TEST_CASE("the server's rate is measured while frames come, and not by what waited for a stopped client") {
+  TickRate rate;
+  rate.begin(60, 20.0);
+  std::uint64_t tick = 0;
+  double now = 0.0;
+  const auto frames = [&](int count, double apart) {
+    for (int i = 0; i < count; ++i) rate.observe(tick += 3, at(now += apart));
+  };
+  frames(30, 0.05);
+  CHECK(rate.hz() == 0.0);  // too short
+  frames(60, 0.05);
+  CHECK(rate.hz() == Approx(60.0).margin(0.5));
+  now += 6.0;           // stopped, and continued:
+  frames(120, 0.0001);  // all that had come meanwhile
+  frames(100, 0.05);
+  CHECK(rate.hz() == Approx(60.0).margin(0.5));
+  frames(100, 0.1);  // a server that is late
+  CHECK(rate.hz() == Approx(30.0).margin(0.5));
+  rate.begin_anew();
+  now += 6.0;
+  frames(10, 0.05);
+  CHECK(rate.hz() == Approx(30.0).margin(0.5));
 }
