@@ -51,24 +51,11 @@ export class Batch {
     }
   }
 
-  /** The same as a ring: from `inner` of the radius to all of it.
-   * @param {number[]} o @param {number[]} u @param {number[]} v @param {number} inner @param {number} corners @param {Light} colour @param {number} inside its alpha there @param {number} outside */
-  ring(o, u, v, inner, corners, colour, inside, outside) {
-    const at = (a, r) => {
-      const c = Math.cos(a) * r, s = Math.sin(a) * r;
-      return [o[0] + u[0] * c + v[0] * s, o[1] + u[1] * c + v[1] * s, o[2] + u[2] * c + v[2] * s];
-    };
-    for (let k = 0; k < corners; k++) {
-      const a = k / corners * 2 * Math.PI, b = (k + 1) / corners * 2 * Math.PI;
-      this.quad(at(a, inner), at(b, inner), at(b, 1), at(a, 1), colour, inside, outside);
-    }
-  }
-
   /** A circle on the ground, as a band; dash: every second so many of its pieces is left out, 0: none is.
    * @param {HeightAt} heightAt @param {number} x @param {number} y @param {number} radius @param {number} width @param {number} lift above the ground
    * @param {Light} colour @param {number} alpha @param {number} dash */
   circle(heightAt, x, y, radius, width, lift, colour, alpha, dash) {
-    const pieces = 72;
+    const pieces = 60;
     const at = (k, r) => {
       const a = k / pieces * 2 * Math.PI, px = x + Math.cos(a) * r, py = y + Math.sin(a) * r;
       return [px, py, heightAt(px, py) + lift];

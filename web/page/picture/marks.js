@@ -89,7 +89,7 @@ export function drawCrumbs({ solid, decals, heightAt, size, seconds, isDark }, c
     const up = half * (rich ? 1.9 + .25 * Math.sin(seconds * 2.2 + x) : 1);
     decals.disc([x, y, ground + half * .12], [half * 1.9, 0, 0], [0, half * 1.9, 0], 10, rich ? GOLD : DUSK, rich ? .75 : isDark ? .5 : .4, 0);
     solid.stone(x, y, ground + up, half, rich ? seconds * 1.6 + y : x * 7, rich ? GOLD : CRUMB);
-    if (rich) decals.ring([x, y, ground + half * .15], [half * 2.4, 0, 0], [0, half * 2.4, 0], .86, 20, GOLD, .9, .9);
+    if (rich) decals.circle(heightAt, x, y, half * 2.2, half * .14, half * .1, GOLD, .9, 0);
   }
 }
 

@@ -150,7 +150,7 @@ export class Staging {
     d[k + 11] = isGhost ? 1 : 0;
     d[k + 12] = c[0], d[k + 13] = c[1], d[k + 14] = c[2], d[k + 15] = isYou ? 0 : Math.floor((louse.colour ?? louse.id) / OTHERS) % 4 || 0;
     // on the ground below it
-    const ground = isFlying ? this.heightAt(at.x, at.y) : at.z, high = at.z - ground, lift = half * .07;
+    const ground = isFlying ? this.heightAt(at.x, at.y) : at.z, high = Math.max(0, at.z - ground), lift = half * .07;
     const fx = hx * half, fy = hy * half, rise = s => [s * fx, s * fy, s * (zx * fx + zy * fy)], side = s => [-s * fy, s * fx, s * (zy * fx - zx * fy)];
     const spread = 1 + Math.min(1.2, high / (8 * half)), o = [at.x + .16 * half, at.y - .13 * half, ground + lift + .16 * half * zx - .13 * half * zy];
     if (!isGhost) this.decals.disc(o, rise(1.22 * spread), side(.9 * spread), this.instances > MANY ? 6 : 8, BLACK, isFlying ? .42 / spread : .6, 0);
@@ -160,12 +160,11 @@ export class Staging {
       this.ribbons.add(at.x, at.y, at.z, 1, c[0], c[1], c[2], .8);
     }
     if (!own) return;
-    const r = isYou ? 1.85 + .08 * Math.sin(this.seconds * 4) : 1.8, flat = [at.x, at.y, ground + lift * 1.3];
-    const wide = clamp(3 / pixels, .05, .3), ring = (radius, width, colour, inside, outside) =>
-      this.decals.ring(flat, rise(radius + width), side(radius + width), radius / (radius + width), 40, colour, inside, outside);
-    ring(r + wide, wide * 1.6, BLACK, .55, 0);
-    ring(r, wide, isYou ? c : WHITE, 1, 1);
-    if (isYou) ring(r - wide * .7, wide * .7, WHITE, 1, 1);
+    const r = (isYou ? 1.85 + .08 * Math.sin(this.seconds * 4) : 1.8) * half, wide = clamp(1.6 / pixels, .03, .2) * half;
+    const ring = (radius, width, colour, alpha) => this.decals.circle(this.heightAt, at.x, at.y, radius, width, lift, colour, alpha, 0);
+    ring(r, wide * 2.6, BLACK, .4);
+    ring(r, wide, isYou ? c : WHITE, 1);
+    if (isYou) ring(r - wide * 1.8, wide * .8, WHITE, 1);
   }
 
   /** @private @param {Louse} louse @param {{x: number, y: number, z: number}} at @param {[number, number, number]} c @param {boolean} own @param {number} ratio pixels a CSS pixel */
