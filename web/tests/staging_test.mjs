@@ -102,3 +102,25 @@ test('what flies is drawn at its height, with its shadow on the ground', () => {
   assert.ok(lowest < 2.5);
   assert.ok(staging.ribbons.count >= 4, 'a stalk between them');
 });
+
+test('over an edge that wraps all goes on: the camera, others, trails, gates', () => {
+  const relief = new Relief(groundOf([-20, -20, 20, 20], 41, 41, (x, y) => Math.cos(Math.PI * x / 20) + Math.cos(Math.PI * y / 20), { wraps: [true, true] }));
+  const camera = new Camera(false), staging = new Staging(), look = { camera, palette: 'default', theme: 'dark', calm: false };
+  camera.setStage(relief.stage(-5));
+  camera.view = 'follow';
+  staging.setRelief(relief);
+  let last = null, lastCount = 0;
+  for (let k = 0; k < 400; k++) {
+    let x = -18 + k * .1;  // once round, past the seam
+    if (x >= 20) x -= 40;
+    const scene = { lice: [louse(1, x, 3), louse(2, x + 3 >= 20 ? x - 37 : x + 3, 3)], follow: 1, marks: { gates: [{ a: [-19, 2], b: [-19, -2], number: 1, state: 'next' }, { a: [0, 2], b: [0, -2], number: 2, state: 'later' }] } };
+    camera.update(800, 600, 33 * k, staging.find(scene, 1));
+    staging.stage(scene, look, 33 * k, 800, 600);
+    check(staging);
+    assert.ok(Math.abs(staging.data[16] - staging.data[0] - 3) < 1e-5, `the other is 3 m ahead, at ${k}: ${staging.data[16] - staging.data[0]}`);
+    const [me] = staging.shown;
+    if (last && k > 60) assert.ok(Math.hypot(me.x - last.x, me.y - last.y) < 4, `frame ${k}: ${me.x - last.x} ${me.y - last.y}`);
+    if (k > 200) assert.ok(staging.ribbons.count > 20 && Math.abs(staging.ribbons.count - lastCount) < 30, 'trails are not cut');
+    last = me, lastCount = staging.ribbons.count;
+  }
+});

@@ -7,7 +7,7 @@ import { clamp, lookAt, mix, orthographic, perspective, times } from './vectors.
 
 /** @typedef {'orbit' | 'follow' | 'map'} View */
 /** What the camera must know of the ground. @typedef {{centre: import('./vectors.js').Vector, radius: number, corners: import('./vectors.js').Vector[],
- *   isPot: boolean, heightAt: (x: number, y: number) => number, size: number}} Stage */
+ *   isPot: boolean, heightAt: (x: number, y: number) => number, size: number, nearest: (a: number[], b: number[]) => number[]}} Stage */
 /** @typedef {{x: number, y: number, z: number}} Place */
 /** What is seen: the middle, angles, how far off [m], how far moved aside in the picture, of half of it.
  * @typedef {Place & {yaw: number, pitch: number, distance: number, sx: number, sy: number}} Shot */
@@ -45,6 +45,8 @@ export class Camera {
     /** What fit() found last. @type {{key: string, far: number, sx: number, sy: number} | undefined} */
     this.fitted = undefined;
     this.matrix = lookAt([0, 0, 1], [0, 0, 0], [0, 1, 0]);
+    /** About which a map that wraps is shown. */
+    this.middle = [0, 0];
     /** @type {import('./vectors.js').Vector} */
     this.eye = [0, 0, 1];
   }
@@ -100,6 +102,8 @@ export class Camera {
       const t = Math.min(1, (this.zooms[view] - 1.15) * 2);
       wanted.x = mix(wanted.x, followed.x, t), wanted.y = mix(wanted.y, followed.y, t), wanted.z = mix(wanted.z, followed.z, t);
     }
+    this.middle = target ? [target.x, target.y] : stage.centre.slice(0, 2);
+    if (this.now) [this.now.x, this.now.y] = stage.nearest(this.middle, [this.now.x, this.now.y]);
     const dt = Math.min(.1, Math.max(0, (now - this.last) / 1000));
     this.last = now;
     const far = this.now && Math.hypot(wanted.x - this.now.x, wanted.y - this.now.y) > stage.radius * .4 && target;

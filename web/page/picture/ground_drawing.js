@@ -44,16 +44,10 @@ export class GroundDrawing {
     const Z = (i, j) => grid[3 * ((mr ? loop(j, rows) : j) * columns + (mc ? loop(i, columns) : i))];
     for (let j = 0, k = 0; j < high; j++)
       for (let i = 0; i < wide; i++) places[k++] = X(i - mc), places[k++] = Y(j - mr), places[k++] = Z(i - mc, j - mr);
-    const triangles = new Uint32Array(6 * (wide - 1) * (high - 1));
-    // in stripes of a few columns: corners are found again before they are forgotten
-    for (let stripe = 0, n = 0; stripe + 1 < wide; stripe += 6)
-      for (let j = 0; j + 1 < high; j++)
-        for (let i = stripe; i < Math.min(stripe + 6, wide - 1); i++) {
-          const k = j * wide + i;
-          triangles.set([k, k + 1, k + wide, k + 1, k + wide + 1, k + wide], n);
-          n += 6;
-        }
+    const triangles = trianglesOf(wide, 0, 0, wide, high, 1);
     this.top = this.mesh(places, [[0, 3]], triangles);
+    // about a louse that is followed such a map is shown in whole copies, where a processor draws coarser ones
+    this.copy = mc || mr ? this.mesh(places, [[0, 3]], trianglesOf(wide, mc, mr, columns, rows, this.isSoftware ? 2 : 1)) : null;
     // the soil under the edges; none where the map goes on
     this.thick = .12 * relief.radius / relief.exaggeration;
     const b = this.bottom = relief.lowest - .07 * range - .045 * relief.radius / relief.exaggeration;
@@ -141,12 +135,20 @@ export class GroundDrawing {
     gl.disable(gl.BLEND);
     gl.enable(gl.DEPTH_TEST);
     gl.depthMask(true);
-    use(gl, programs.ground, {
-      ...common, domain: relief.ground.domain, painted: PAINTED, ink: look.ink, interval: slope ? 0 : relief.interval,
-      margin: Math.max(.0, ...(this.margin ?? [])),
-    });
-    gl.bindVertexArray(top.array);
-    gl.drawElements(gl.TRIANGLES, top.count, gl.UNSIGNED_INT, 0);
+    const { domain, wraps = [] } = relief.ground, { middle } = camera, copies = this.copy && camera.view === 'follow' ? [-1, 0, 1] : [0];
+    const { array, count } = copies.length > 1 && this.copy || top;
+    gl.bindVertexArray(array);
+    for (const i of wraps[0] ? copies : [0])
+      for (const j of wraps[1] ? copies : [0]) {
+        const offset = [i * relief.width, j * relief.depth];
+        // half a map each way, no more: nothing is shown twice
+        if (copies.length > 1 && [0, 1].some(k => Math.abs((domain[k] + domain[k + 2]) / 2 + offset[k] - middle[k]) >= domain[k + 2] - domain[k])) continue;
+        use(gl, programs.ground, {
+          ...common, domain, offset, middle, painted: PAINTED, ink: look.ink, interval: slope ? 0 : relief.interval,
+          fade: !this.copy ? [0, 0] : copies.length > 1 ? [.36, .5] : [.5, .5 + MARGIN],
+        });
+        gl.drawElements(gl.TRIANGLES, count, gl.UNSIGNED_INT, 0);
+      }
     this.drawSides(look, common);
     use(gl, programs.sky, common);
     gl.bindVertexArray(null);
@@ -164,4 +166,18 @@ export class GroundDrawing {
     gl.bindVertexArray(soil.array);
     gl.drawArrays(gl.TRIANGLES, 0, soil.count);
   }
+}
+
+/** Triangles of a part of a grid that is `wide` points wide: columns x rows points from (i0, j0) on, every `step`-th.
+ * @param {number} wide @param {number} i0 @param {number} j0 @param {number} columns @param {number} rows @param {number} step */
+function trianglesOf(wide, i0, j0, columns, rows, step) {
+  const list = [], last = [i0 + columns - 1, j0 + rows - 1];
+  // in stripes of a few columns: corners are found again before they are forgotten
+  for (let stripe = i0; stripe < last[0]; stripe += 6 * step)
+    for (let j = j0; j < last[1]; j += step)
+      for (let i = stripe; i < Math.min(stripe + 6 * step, last[0]); i += step) {
+        const a = j * wide + i, right = Math.min(i + step, last[0]), up = Math.min(j + step, last[1]) * wide;
+        list.push(a, j * wide + right, up + i, j * wide + right, up + right, up + i);
+      }
+  return new Uint32Array(list);
 }

@@ -110,7 +110,7 @@ export class Relief {
     corners.push([domain[0] + top % columns / (columns - 1) * this.width, domain[1] + Math.floor(top / columns) / (rows - 1) * this.depth, grid[3 * top] * E]);
     return {
       centre: /** @type {import('./vectors.js').Vector} */ ([(domain[0] + domain[2]) / 2, (domain[1] + domain[3]) / 2, (this.lowest + (this.highest - this.lowest) * .35) * E]),
-      radius: this.radius, corners, isPot: this.potness > .2, heightAt, size: this.radius * .02,
+      radius: this.radius, corners, isPot: this.potness > .2, heightAt, size: this.radius * .02, nearest: (a, b) => this.nearest(a, b),
     };
   }
 }

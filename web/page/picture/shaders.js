@@ -37,17 +37,17 @@ void main(){ vec2 u=t*(points-1.)/points+.5/points, at=t*metres; vec3 s=texture(
   vec3 lit=c*(vec3(.30,.38,.52)*(.3+.7*l.g)*(.72+.28*n.z)+vec3(1.18,1.06,.88)*d)*sun;
   vec2 e=min(at,metres-at); float rim=min(e.x,e.y);
   if(open>.5){ float w=.02*min(metres.x,metres.y); float k=smoothstep(w,w*.9,rim)*(.25+.75*step(.5,fract((at.x+at.y)/(2.*w)))); lit=mix(lit,vec3(.85,.33,.06)*(.35+.65*l.r),k*.8); }
-  if(seam>.5) lit=mix(lit,vec3(.9),.35*smoothstep(.006,.003,rim/min(metres.x,metres.y))*step(.5,fract((at.x+at.y)*.5)));
+  if(seam>.5) lit=mix(lit,vec3(.9),.3*smoothstep(.004,.002,rim/min(metres.x,metres.y))*step(.5,fract((at.x+at.y)*.5)));
   lit=min(lit,.66+.34*(1.-exp(-max(lit-.66,0.)/.34)));
   o=vec4(sqrt(lit),1); }`],
 
-  ground: [HEAD + `layout(location=0) in vec3 p; uniform mat4 M; uniform vec4 domain; uniform float exaggeration; out vec2 t; out float z,w;
-void main(){ t=(p.xy-domain.xy)/(domain.zw-domain.xy); z=p.z; gl_Position=M*vec4(p.xy,p.z*exaggeration,1); w=gl_Position.w; }`,
-  HEAD + SKY + `in vec2 t; in float z,w; out vec4 o; uniform sampler2D painted; uniform vec2 size; uniform float interval,ink,far,margin;
+  ground: [HEAD + `layout(location=0) in vec3 p; uniform mat4 M; uniform vec4 domain; uniform vec2 offset,middle; uniform float exaggeration; out vec2 t,b; out float z,w;
+void main(){ vec2 size=domain.zw-domain.xy; t=(p.xy-domain.xy)/size; z=p.z; b=(p.xy+offset-middle)/size; gl_Position=M*vec4(p.xy+offset,p.z*exaggeration,1); w=gl_Position.w; }`,
+  HEAD + SKY + `in vec2 t,b; in float z,w; out vec4 o; uniform sampler2D painted; uniform vec2 size; uniform vec2 fade; uniform float interval,ink,far;
 float line(float k,float f,float wide){ return clamp((1.2*wide-abs(fract(k)-.5)/f)/wide,0.,1.)*clamp((.4-f)*4.,0.,1.); }
 void main(){ vec3 c=texture(painted,t).rgb;
   if(interval>0.){ float k=z/interval+.07, f=max(fwidth(k),1e-6); c*=mix(1.,ink,max(line(k,f,.8)*.5,line(k*.2+.4,f*.2,1.2))); }
-  if(margin>0.){ vec2 b=abs(t-.5)-.5; c=mix(c,sky(gl_FragCoord.xy/size),min(1.,smoothstep(0.,margin,max(b.x,b.y))*1.2)); }
+  if(fade.y>0.){ float k=smoothstep(fade.x,fade.y,max(abs(b.x),abs(b.y))); if(k>.995) discard; c=mix(c,sky(gl_FragCoord.xy/size),k); }
   o=vec4(mix(c,skyGlow,clamp((w/far-1.)*.5,0.,.5)),1); }`],
 
   // p.w: how deep below the surface; the soil in layers

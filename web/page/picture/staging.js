@@ -44,6 +44,7 @@ export class Staging {
     this.seconds = 0;
     this.goal = GOALS.default;
     this.leap = Infinity;
+    this.wraps = false;
     /** @type {any} */
     this.lastFollowed = null;
   }
@@ -55,6 +56,9 @@ export class Staging {
     /** Farther than this nobody goes between two points of a trail [m]. */
     this.leap = relief.radius * .25;
     this.trails.clear();
+    const { wraps = [] } = relief.ground;
+    this.wraps = !!(wraps[0] || wraps[1]);
+    this.trails.around = [wraps[0] ? relief.width : 0, wraps[1] ? relief.depth : 0];
     this.lastFollowed = null;
   }
 
@@ -63,6 +67,13 @@ export class Staging {
     const E = this.relief ? this.relief.exaggeration : 1;
     const z = louse.phase === FLYING ? louse.flight_z : louse.z ?? this.relief?.heightAt(louse.x, louse.y) ?? 0;
     return { x: louse.x, y: louse.y, z: z * E };
+  }
+
+  /** A place, on a map that wraps the nearest of those that it is. @template {{x: number, y: number}} T @param {T} place @returns {T} */
+  near(place) {
+    if (!this.wraps || !this.relief || !this.look) return place;
+    const [x, y] = this.relief.nearest(this.look.camera.middle, [place.x, place.y]);
+    return { ...place, x, y };
   }
 
   /** Where the louse to follow is, or was last. @param {Scene} scene @param {any} id */
@@ -97,12 +108,19 @@ export class Staging {
       size: (x, y) => size(x, y, this.heightAt(x, y)), louse: index => rgb(louseColour(palette, index)), goal: rgb(GOALS[palette]), nearest: (a, b) => relief.nearest(a, b),
     };
     this.goal = GOALS[palette];
-    if (marks.ring) drawRing(board, marks.ring);
-    if (marks.gates) drawGates(board, marks.gates), this.nameGates(marks.gates, board);
-    if (marks.crumbs) drawCrumbs(board, marks.crumbs);
+    if (marks.ring) drawRing(board, { ...this.near(marks.ring), next: marks.ring.next && this.near(marks.ring.next) });
+    if (marks.gates) {
+      const gates = !this.wraps ? marks.gates : marks.gates.map(gate => {
+        const [x, y] = middleOf(gate), at = this.near({ x, y }), move = p => [p[0] + at.x - x, p[1] + at.y - y];
+        return { ...gate, a: move(gate.a), b: move(gate.b) };
+      });
+      drawGates(board, gates);
+      this.nameGates(gates, board);
+    }
+    if (marks.crumbs) drawCrumbs(board, marks.crumbs.map(crumb => this.near(crumb)));
     const lice = marks.ghosts?.length ? scene.lice.concat(marks.ghosts.map((g, k) => ({ ...g, id: `ghost ${k}`, isGhost: true, name: g.name ?? GHOSTS[g.kind] ?? 'ghost' }))) : scene.lice;
     for (const louse of lice) {
-      const at = this.placeOf(louse), isYou = louse.isYou ?? (louse.id === scene.you && !louse.isGhost);
+      const at = this.near(this.placeOf(louse)), isYou = louse.isYou ?? (louse.id === scene.you && !louse.isGhost);
       const isGhost = !!(louse.isGhost || louse.outline), own = isYou || louse.id === followed;
       const colour = louseColour(palette, isYou ? 'you' : louse.colour ?? louse.id), c = rgb(colour);
       const half = size(at.x, at.y, at.z) * (isYou ? 1.12 : 1);
@@ -118,7 +136,7 @@ export class Staging {
       if (isYou) this.pointAt(at, colour, camera, false);
     }
     if (isDue) this.trails.sweep();
-    if (marks.arrow) this.pointAt({ ...marks.arrow, z: this.heightAt(marks.arrow.x, marks.arrow.y) }, GOALS[palette], camera, true);
+    if (marks.arrow) this.pointAt({ ...this.near(marks.arrow), z: this.heightAt(marks.arrow.x, marks.arrow.y) }, GOALS[palette], camera, true);
     const centre = relief.ground.centre;
     if (centre) {
       const m = camera.matrix, [x, y] = centreOf(centre), n = Math.hypot(m[0], m[4], m[8]), u = Math.hypot(m[1], m[5], m[9]);
@@ -174,15 +192,17 @@ export class Staging {
     // pale colours are lost on a bright ground
     const isLight = this.look?.theme === 'light', [red, green, blue] = isLight ? c.map(v => v * .62) : c;
     const p = trail.points, strength = own || isLight ? .95 : .62, wide = (own ? 2 : 1.35) * ratio, lift = .05;
+    const leap = this.leap;
+    let x = 0, y = 0;
     ribbons.cut();
     for (let k = 0; k < trail.count; k++) {
-      const i = 4 * ((trail.end - trail.count + k + POINTS) % POINTS), age = k / trail.count;
-      if (p[i + 3] && k) ribbons.cut();
-      ribbons.add(p[i], p[i + 1], p[i + 2] + lift, wide * (.3 + .7 * age), red, green, blue, strength * age);
+      const i = 4 * ((trail.end - trail.count + k + POINTS) % POINTS), age = k / trail.count, lastX = x, lastY = y;
+      x = p[i], y = p[i + 1];
+      if (this.wraps) ({ x, y } = this.near({ x, y }));
+      if (p[i + 3] || Math.abs(x - lastX) > leap || Math.abs(y - lastY) > leap) ribbons.cut();
+      ribbons.add(x, y, p[i + 2] + lift, wide * (.3 + .7 * age), red, green, blue, strength * age);
     }
-    const last = 4 * ((trail.end - 1 + POINTS) % POINTS);
-    const dx = at.x - p[last], dy = at.y - p[last + 1], leap = this.leap;
-    if (dx * dx + dy * dy > leap * leap) return;
+    if (Math.abs(at.x - x) > leap || Math.abs(at.y - y) > leap) return;
     ribbons.add(at.x, at.y, at.z + lift, wide, red, green, blue, strength);
   }
 

@@ -17,12 +17,17 @@ class Trail {
   }
 }
 
+/** A way, or a shorter one round the map. @param {number} way @param {number} around 0: there is none */
+const shortest = (way, around) => around ? way - Math.round(way / around) * around : way;
+
 export class Trails {
   constructor() {
     /** @type {Map<any, Trail>} */
     this.trails = new Map();
     this.last = -Infinity;
     this.round = 0;
+    /** The map's sizes where it wraps, else 0 [m]. */
+    this.around = [0, 0];
   }
 
   clear() {
@@ -48,7 +53,7 @@ export class Trails {
     if (!trail) this.trails.set(id, trail = new Trail());
     trail.seen = this.round;
     const p = trail.points, last = 4 * ((trail.end + POINTS - 1) % POINTS), at = 4 * trail.end;
-    const dx = x - p[last], dy = y - p[last + 1], dz = z - p[last + 2];
+    const dx = shortest(x - p[last], this.around[0]), dy = shortest(y - p[last + 1], this.around[1]), dz = z - p[last + 2];
     p[at] = x;
     p[at + 1] = y;
     p[at + 2] = z;
