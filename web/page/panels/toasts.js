@@ -8,7 +8,7 @@ const MOST = 3, LEAST = 3500, A_LETTER = 55;  // ms
 export function toast(text, tone = '') {
   const list = byId('toasts');
   if ([...list.children].some((item) => item.textContent === text)) return;
-  const item = made('li', text, tone);
+  const item = made('p', text, tone);
   list.append(item);
   while (list.children.length > MOST) list.firstElementChild.remove();
   setTimeout(() => item.remove(), LEAST + A_LETTER * text.length);

@@ -1,0 +1,173 @@
+// The page in a browser: watched, played, left alone, attacked.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { browsed, faults, known, Served, shown, SlowLine, until } from './served.mjs';
+
+let served, context, page, hidden, hiddenSince;
+
+before(async () => {
+  served = await Served.start('--map', 'hills', 'crater_loop', '--mode', 'all', '--bots', '4', '--bots-alone', 'play', '--seed', '5');
+  context = await browsed();
+  page = context.pages()[0];
+  hidden = await context.newPage();  // nobody looks at it for the minute that the other tests take
+  await shown(hidden, `${served.web}?room=hills`);
+  await hide(hidden, true);
+  hiddenSince = Date.now();
+  await page.bringToFront();
+});
+after(async () => {
+  await context?.close();
+  await served?.stop();
+});
+
+/** As when another tab is looked at (a browser without a screen hides none): nothing is drawn, and the page is told. */
+const hide = (which, isHidden) => which.evaluate((value) => {
+  window.animate ??= window.requestAnimationFrame;
+  window.requestAnimationFrame = value ? (then) => { window.waiting = then; return 0; } : window.animate;
+  if (!value && window.waiting) window.animate(window.waiting);
+  Object.defineProperty(document, 'hidden', { configurable: true, get: () => value });
+  document.dispatchEvent(new Event('visibilitychange'));
+}, isHidden);
+
+const counts = (which) => known(which, () => {
+  const { exact, corrected } = window.woodlouse.room.own.pilot.prediction;
+  return { exact, corrected };
+});
+
+/** Presses keys as a hand does, until so many inputs were answered, and for `seconds` at least. */
+async function drive(which, seconds, answers) {
+  const keys = ['w', 'a', 'ArrowUp', 'd', ' ', 's', 'ArrowLeft', 'w'], begun = Date.now();
+  for (let k = 0; ; k++) {
+    const key = keys[k % keys.length];
+    await which.keyboard.down(key);
+    await which.waitForTimeout(150 + (k * 137) % 500);
+    await which.keyboard.up(key);
+    const { exact, corrected } = await counts(which), passed = (Date.now() - begun) / 1000;
+    if (passed > seconds && exact + corrected >= answers) return { exact, corrected };
+    assert.ok(passed < 60, `${exact + corrected} answers in a minute`);
+  }
+}
+
+test('a room moves, and each of its ticks is proven', async () => {
+  await shown(page, `${served.web}?room=hills`);
+  await until(page, () => window.woodlouse.room.stream?.proven > 60);
+  assert.match(await page.textContent('#proof'), /^state ok \d+$/);
+  assert.equal(await page.locator('#scores-table tbody tr').count(), 4);
+  await known(page, () => { window.first = window.woodlouse.room.lice.map(({ x, y }) => [x, y]).join(); });
+  await until(page, () => window.woodlouse.room.lice.map(({ x, y }) => [x, y]).join() !== window.first);
+});
+
+test('twenty navigations in a row over one profile all arrive', async () => {
+  for (let k = 0; k < 20; k++) {
+    const answer = await page.goto(`${served.web}?room=hills&k=${k}`, { waitUntil: 'commit' });
+    assert.equal(answer.status(), 200, `navigation ${k}`);
+    if (k % 5 === 0) await page.waitForTimeout(2500);  // a spare connection that says nothing lies about by now
+  }
+  await until(page, () => window.woodlouse?.room?.lice.length > 0);
+});
+
+test('ten seconds of play need no correction', async () => {
+  await shown(page, `${served.web}?room=hills&play`);
+  await until(page, () => window.woodlouse.room.own.pilot?.louse);
+  await page.click('#picture', { position: { x: 500, y: 300 } });
+  const { exact, corrected } = await drive(page, 10, 15);
+  assert.equal(corrected, 0);
+  await until(page, () => /predicted (\d+)\/\1$/.test(document.querySelector('#proof').textContent));
+  assert.ok(exact >= 15);
+});
+
+test('at 150 ms with 40 ms of jitter every ack is what the page already had', async () => {
+  const line = await SlowLine.to(Number(served.port), 75, 40);
+  try {
+    await shown(page, `${line.web}?room=hills&play`, 'ann', 60000);
+    await until(page, () => window.woodlouse.room.own.pilot?.louse);
+    const { corrected } = await drive(page, 12, 20);
+    assert.equal(corrected, 0);
+    assert.ok(await known(page, () => window.woodlouse.room.trip) > 0.15);
+  } finally {
+    line.stop();
+  }
+});
+
+test('a player who looks away for a while keeps the louse', async () => {
+  await shown(page, `${served.web}?room=hills&play`);
+  const you = await known(page, () => window.woodlouse.room.you);
+  await known(page, () => window.woodlouse.room.hide(true));
+  await until(page, () => window.woodlouse.room.welcome?.state_hz === 1);
+  await known(page, () => window.woodlouse.room.hide(false));
+  await until(page, () => window.woodlouse.room.welcome?.state_hz === 20);
+  assert.equal(await known(page, () => window.woodlouse.room.you), you);
+});
+
+test('a server that restarts is waited for', async () => {
+  await shown(page, `${served.web}?room=hills`);
+  const back = served.restart(2500);
+  await page.waitForSelector('#lost:not([hidden])');
+  assert.match(await page.textContent('#lost p'), /Trying again/);
+  await back;
+  await until(page, () => window.woodlouse.room.welcome && window.woodlouse.room.lice.length === 4);
+  await page.waitForSelector('#lost', { state: 'hidden' });
+  await page.reload();
+  await until(page, () => window.woodlouse?.room?.lice.length > 0);
+});
+
+test('a context that is lost is drawn again once it is restored', async () => {
+  await shown(page, `${served.web}?room=hills`);
+  await page.waitForTimeout(500);
+  const pixels = () => page.screenshot({ clip: { x: 300, y: 250, width: 400, height: 300 } }).then((image) => image.length);
+  const whole = await pixels();
+  await known(page, () => {
+    window.lost = document.querySelector('#picture').getContext('webgl2').getExtension('WEBGL_lose_context');
+    window.lost.loseContext();
+  });
+  await page.waitForTimeout(500);
+  await known(page, () => window.lost.restoreContext());
+  await page.waitForTimeout(1500);
+  assert.ok(await pixels() > whole / 2, 'the ground is there again');
+});
+
+test('a race is told in words, with a ghost to race where there is a record', async () => {
+  await shown(page, `${served.web}?room=crater_loop/race&play`);
+  await until(page, () => /lap 1\/3/.test(document.querySelector('#goal').textContent));
+  assert.match(await page.textContent('#goal'), /gate S/);
+  await page.keyboard.press('t');
+  await page.keyboard.type('<b>hello</b>');
+  await page.keyboard.press('Enter');
+  await until(page, () => document.querySelector('#said').textContent.includes('<b>hello</b>'));
+  await page.keyboard.press('r');
+  await until(page, () => document.querySelector('#said').textContent.includes('starts again'));
+});
+
+test('fingers push and brake on a phone', async () => {
+  const phone = await browsed({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
+  try {
+    const touched = phone.pages()[0];
+    await shown(touched, `${served.web}?room=hills&play`);
+    await until(touched, () => window.woodlouse.room.own.pilot?.louse);
+    const stick = await touched.locator('#stick').boundingBox();
+    const finger = await phone.newCDPSession(touched);
+    const at = { x: stick.x + stick.width / 2, y: stick.y + 10 };
+    await finger.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [at] });
+    await until(touched, () => window.woodlouse.room.own.steering.isPushing(performance.now() / 1000));
+    await finger.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+    await until(touched, () => !window.woodlouse.room.own.steering.isPushing(performance.now() / 1000));
+    const brake = await touched.locator('#brake').boundingBox();
+    await finger.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [{ x: brake.x + 20, y: brake.y + 20 }] });
+    await until(touched, () => window.woodlouse.room.own.steering.isBraking(performance.now() / 1000));
+    await finger.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
+    assert.ok((await counts(touched)).exact > 0);
+  } finally {
+    await phone.close();
+  }
+});
+
+test('a tab that was hidden for a minute goes on as if it had not been', async () => {
+  await hidden.waitForTimeout(Math.max(0, hiddenSince + 60000 - Date.now()));
+  assert.equal(await known(hidden, () => window.woodlouse.room.welcome.state_hz), 1);
+  await hide(hidden, false);
+  await hidden.bringToFront();
+  await until(hidden, () => window.woodlouse.room.welcome?.state_hz === 20 && window.woodlouse.room.lice.length === 4);
+  await until(hidden, () => /^state ok \d+$/.test(document.querySelector('#proof').textContent));
+});
+
+test('nothing went wrong, and the policy refused nothing', () => assert.deepEqual(faults, []));
