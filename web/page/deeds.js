@@ -2,7 +2,7 @@
 // What buttons and keys do: each by the name that stands in a button's data-do.
 import { save } from './panels/drop.js';
 import { theme } from './panels/settings.js';
-import { toast } from './panels/toasts.js';
+import { toast } from './panels/elements.js';
 
 const VIEWS = ['orbit', 'follow', 'map'];
 

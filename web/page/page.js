@@ -3,7 +3,7 @@
 import { Core } from './core/core.js';
 import { CoreEnded } from './core/instance.js';
 import { kept } from './panels/settings.js';
-import { toast } from './panels/toasts.js';
+import { toast } from './panels/elements.js';
 import { Stage } from './stage.js';
 
 const params = new URLSearchParams(location.search);

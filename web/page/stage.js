@@ -2,17 +2,17 @@
 // What is shown: a room that is watched or played, a recording, or two runs side by side; wired to the picture and the panels.
 import { act } from './deeds.js';
 import { Room } from './live/room.js';
-import { sceneOf } from './live/scene.js';
-import { Teacher } from './live/own/teacher.js';
-import { CanvasInput } from './panels/canvas_input.js';
+import { sceneOf } from './live/sight.js';
+import { Teacher } from './live/own/lesson.js';
+import { CanvasInput } from './panels/pointers.js';
 import { ask } from './panels/dialogs.js';
 import { Drop } from './panels/drop.js';
 import { byId } from './panels/elements.js';
 import { Keys } from './panels/keys.js';
 import { Panels } from './panels/panels.js';
 import { keep, kept, onPalette, onSystemTheme, setTheme, storage, theme } from './panels/settings.js';
-import { toast } from './panels/toasts.js';
-import { Touch } from './panels/touch.js';
+import { toast } from './panels/elements.js';
+import { Touch } from './panels/pointers.js';
 import { Picture } from './picture/picture.js';
 
 const HIDDEN_AFTER = 3000, PANELS_EVERY = 100;  // ms
@@ -185,7 +185,7 @@ export class Stage {
 
   #setGround(ground) {
     const { columns, rows } = this.picture.gridFor(ground.domain);
-    this.picture.setGround({ domain: ground.domain, wraps: ground.wraps, centre: ground.centre, edges: ground.edges, columns, rows, grid: ground.grid(columns, rows) });
+    this.picture.setGround({ domain: ground.domain, wraps: ground.wraps, centre: ground.centre, edges: this.source.mode === 'hill' && this.source.welcome?.rules?.edge === 'fall' ? 'open' : ground.edges, columns, rows, grid: ground.grid(columns, rows) });
     this.picture.clearTrails();
     this.#ground = ground;
   }

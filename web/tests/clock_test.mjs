@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { ServerClock } from '../page/live/clock.js';
+import { ServerClock } from '../page/live/timeline.js';
 import { Pace, ServerWord } from '../page/live/word.js';
 
 /** Numbers from 0 to 1, the same each time. */

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { between } from '../page/live/between.js';
+import { between } from '../page/live/ways.js';
 import { applied, COLUMNS, Frames } from '../page/live/frames.js';
 import { Ways } from '../page/live/ways.js';
 

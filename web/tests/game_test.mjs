@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import { aim, goalLines, marksOf, podium, scoreRows } from '../page/live/goal.js';
 import { Lesson } from '../page/live/own/lesson.js';
-import { OwnRun } from '../page/live/own/own_run.js';
+import { OwnRun } from '../page/live/own/own_game.js';
 import { Ways } from '../page/live/ways.js';
 import { compass, farewell, medalOf, medalToWin, scoreText, signedText, spanText, told } from '../page/live/words.js';
 

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { ServerClock } from '../page/live/clock.js';
-import { GhostRun, isDrive } from '../page/live/own/drive.js';
+import { ServerClock } from '../page/live/timeline.js';
+import { GhostRun, isDrive } from '../page/live/own/ghosts.js';
 import { Lead, Pilot } from '../page/live/own/pilot.js';
 import { Steering } from '../page/live/own/steering.js';
 import { Ways } from '../page/live/ways.js';

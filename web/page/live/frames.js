@@ -3,7 +3,7 @@
 //
 // A delta is cumulative against its key: any may be lost, and one whose key is not here can't be used: then the server
 // is to be asked for another key.
-import { between } from './between.js';
+import { between } from './ways.js';
 
 /** The columns that the page asks for; the terminal client's, so that both share what the room encodes. */
 export const COLUMNS = ['id', 'x', 'y', 'vx', 'vy', 'heading_x', 'heading_y', 'distance', 'flight_z'];

@@ -7,7 +7,7 @@ const HARVEST = 30, TOLD_BEFORE = 15;  // s
 /**
  * What is known. `you`: the louse whose goal it is, or null where there is none or it is out; `id`: its number; isOwn: it is yours.
  * @typedef {{mode: string, rules: any, game: any, tick: number, hz: number, lice: any[], ways: import('./ways.js').Ways, you: any, id: number, isOwn: boolean,
- *   run: import('./own/own_run.js').OwnRun|null, nameOf: (id: number) => string, rank: number}} Facts
+ *   run: import('./own/own_game.js').OwnRun|null, nameOf: (id: number) => string, rank: number}} Facts
  * @typedef {{text: string, tone?: string}} Span a piece of a line
  */
 
@@ -109,7 +109,7 @@ export function marksOf(facts) {
   if (place) {
     const state = game.contested ? 'contested' : !game.holder ? 'free' : game.holder === facts.id && facts.isOwn ? 'yours' : 'held';
     const next = game.moves_at && rules.places.length > 1 && secondsUntil(facts, game.moves_at) <= TOLD_BEFORE ? rules.places[(game.place + 1) % rules.places.length] : null;
-    marks.ring = { x: place.at[0], y: place.at[1], radius: place.radius ?? 3, state, holder: game.holder,
+    marks.ring = { x: place.at[0], y: place.at[1], radius: place.radius ?? 3, state, colour: state === 'yours' ? 'you' : game.holder,
                    next: next && { x: next.at[0], y: next.at[1], radius: next.radius ?? 3 } };
   }
   const goal = aim(facts);

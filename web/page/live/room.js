@@ -2,10 +2,9 @@
 // Everything the page knows of the room it is in: what the server said, merged and timed; your louse, and what is to be
 // drawn now. No DOM.
 import { Door } from './door.js';
-import { Grounds } from './grounds.js';
 import { Link } from './link.js';
 import { OwnGame } from './own/own_game.js';
-import { Pings } from './pings.js';
+import { Pings } from './word.js';
 import { Roster } from './roster.js';
 import { factsOf, marksIn } from './sight.js';
 import { Stream } from './stream.js';
@@ -20,13 +19,12 @@ const NOTHING = { tick_hz: 60, state_hz: 10, fields: [], quantum: [] };
 const seconds = () => performance.now() / 1000;
 
 export class Room {
-  #core; #link; #grounds; #time = new Timeline(NOTHING, 0); #pings = new Pings(); #countedAt = -Infinity; #was = false;
+  #core; #link; /* maps that were sent, by hash and rate */ #grounds = new Map(); #time = new Timeline(NOTHING, 0); #pings = new Pings(); #countedAt = -Infinity; #was = false;
 
   /** @param {{url: string, core: any, wish: import('./door.js').Wish, storage: Storage|null, onNotice: (text: string, tone?: string) => void,
    *   onTokenWanted: (why: string) => void, Socket?: any}} options onTokenWanted: ask a person, then enter(token) */
   constructor({ url, core, wish, storage, onNotice, onTokenWanted, Socket }) {
     this.#core = core;
-    this.#grounds = new Grounds(core);
     this.door = new Door(wish, core.behavior);
     this.onNotice = onNotice;
     this.onTokenWanted = onTokenWanted;
@@ -171,14 +169,17 @@ export class Room {
       this.stream ??= new Stream(this.#core);
       return this.stream.begin(welcome.tick_hz, welcome.state_hz);
     }
-    const known = this.#grounds.of(welcome);
+    const known = this.#grounds.get(this.#mapKey);
     if (known) this.#begin(known); else this.send({ type: 'get_map' });
   }
+
+  get #mapKey() { return `${this.welcome.map.hash} ${this.hz}`; }
 
   #map(line) {
     if (!this.welcome) return;
     let ground;
-    try { ground = this.#grounds.open(line, this.welcome); } catch (error) { return this.onNotice(`the server's map can't be read: ${/** @type {Error} */ (error).message}`, 'bad'); }
+    try { ground = this.#core.openMapLine(line, this.hz); } catch (error) { return this.onNotice(`the server's map can't be read: ${/** @type {Error} */ (error).message}`, 'bad'); }
+    this.#grounds.set(this.#mapKey, ground);
     if (ground.isExact && ground.hash !== this.welcome.map.hash) this.onNotice('the map is another one here than on the server: nothing is predicted', 'bad');
     if (ground.isExact || this.door.wantsHeights) return this.#begin(ground);
     this.door.wantsHeights = true;  // the server knows how high the lice are

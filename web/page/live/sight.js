@@ -1,5 +1,5 @@
 // @ts-check
-// What there is to see of a room: what the rules show and want, the table, what is proven.
+// What there is to see of a room: what the rules show and want, the table, what is proven, and the scene for the picture.
 import { marksOf, scoreRows } from './goal.js';
 
 /** For goal.js: of the louse `id`, yours or one that is watched; 0: nobody's. @param {import('./room.js').Room} room */
@@ -27,4 +27,25 @@ export function proofOf(room) {
   if (room.welcome?.stream === 'inputs') return { text: `state ok ${room.stream?.proven ?? 0}`, tone: 'ok' };
   const { exact = 0, corrected = 0 } = room.own.pilot?.prediction ?? {};
   return exact + corrected ? { text: `predicted ${exact}/${exact + corrected}`, tone: corrected ? '' : 'ok' } : { text: '', tone: '' };
+}
+
+/** The colours of ghosts, by kind; their outlines and names tell them from lice. */
+const GHOSTS = { record: 2, author: 4, own: 'you' };
+
+/** A louse with the ground under it and what it is called. */
+function placed(louse, ground) {
+  const sample = ground.sample(louse.x, louse.y);  // of a big map the server knows how high they are
+  return !ground.isExact && louse.z !== undefined ? { ...louse, zx: sample.zx, zy: sample.zy } : { ...louse, z: sample.z, zx: sample.zx, zy: sample.zy };
+}
+
+/**
+ * @param {any} source a room, a player or the lab
+ * @param {number} followed the louse that is followed, or 0
+ * @param {any} marks what the rules show
+ */
+export function sceneOf(source, followed, marks) {
+  const { ground, you = 0 } = source;
+  const lice = source.lice.map((louse) => ({ ...placed(louse, ground), name: source.nameOf(louse.id), colour: louse.id, isYou: louse.id === you && you !== 0 }));
+  const ghosts = (marks?.ghosts ?? []).map((ghost) => ({ ...placed(ghost, ground), colour: GHOSTS[ghost.kind] }));
+  return { lice, you, follow: followed, marks: { ...marks, ghosts } };
 }

@@ -1,6 +1,6 @@
 // @ts-check
-// Whether the server still speaks, whether its game goes on, and whether the page keeps up with it. Pure: time is an
-// argument, in seconds.
+// Whether the server still speaks, whether its game goes on, and whether the page keeps up with it; and the page's own signs of
+// life, whose answers tell round trips. Pure: time is an argument, in seconds.
 
 /** Without a word for so long, what is shown is no longer known. [s] */
 export const SILENCE = 1.5;
@@ -62,4 +62,31 @@ export class Pace {
     const since = this.#since ??= now;
     return now - since >= FOR;
   }
+}
+
+const EVERY = 1, WHEN_LATE = 0.3, FIRST = 6, FIRST_EVERY = 0.06, KEPT = 8;
+
+export class Pings {
+  #sent = 0; #at = -Infinity; #trips = [];
+
+  /** The ping to send now, or null. isLate: what should have come has not. */
+  due(now, isLate) {
+    const every = this.#sent < FIRST ? FIRST_EVERY : isLate ? WHEN_LATE : EVERY;
+    if (now - this.#at < every) return null;
+    this.#at = now;
+    this.#sent++;
+    return { type: 'ping', t: Math.round(now * 1e6) };
+  }
+
+  /** A pong came. @returns {number|null} the trip [s]; null: no answer to a ping of this page */
+  answered(pong, now) {
+    const trip = now - pong.t / 1e6;
+    if (!(trip >= 0 && trip < 60)) return null;
+    this.#trips.push(trip);
+    if (this.#trips.length > KEPT) this.#trips.shift();
+    return trip;
+  }
+
+  /** The shortest of the last ones [s]: the others waited for something besides the network. Null: there are none. */
+  get trip() { return this.#trips.length ? Math.min(...this.#trips) : null; }
 }

@@ -33,3 +33,15 @@ export function fillChildren(parent, values, make, fill) {
 export function fillSpans(line, spans) {
   fillChildren(line, spans, () => made('span'), (span, { text, tone = '' }) => { setText(span, text); setClass(span, tone); });
 }
+
+const MOST = 3, LEAST = 3500, A_LETTER = 55;  // ms
+
+/** @param {string} text @param {string} [tone] */
+export function toast(text, tone = '') {
+  const list = byId('toasts');
+  if ([...list.children].some((item) => item.textContent === text)) return;
+  const item = made('p', text, tone);
+  list.append(item);
+  while (list.children.length > MOST) list.firstElementChild.remove();
+  setTimeout(() => item.remove(), LEAST + A_LETTER * text.length);
+}

@@ -51,7 +51,7 @@ export class Panels {
     for (const button of document.querySelectorAll('[data-do=join]')) setText(button, source !== room ? 'Live' : room?.door.wish.role === 'player' ? 'Watch' : 'Play');
     this.#line(room);
     this.#insets(camera);
-    if (room && source === room) this.#room(room, colourOf, isPlaying ? page.teacher.observe(room, performance.now() / 1000) : []);
+    if (room && source === room) this.#room(room, picture, colourOf, isPlaying ? page.teacher.observe(room, performance.now() / 1000) : []);
     if (player) this.bar.update(player);
     if (page.lab) { setText(byId('proof'), ''); this.top.line('a laboratory'); return this.lab?.update(page.lab); }
     if (player) { this.chat.update(player, colourOf); setText(byId('proof'), ''); this.top.line(`${player.info.name}${player.info.mode === 'roam' ? '' : `/${player.info.mode}`}, a recording`); }
@@ -63,12 +63,13 @@ export class Panels {
     this.louse.update(louse && { ...louse, ...source.ground.sample(louse.x, louse.y) }, followed === source.you ? `${nameOf(followed)} (you)` : nameOf(followed));
   }
 
-  #room(room, colourOf, lesson) {
+  #room(room, picture, colourOf, lesson) {
     this.hud.lesson(lesson);
     this.chat.update(room.roster, colourOf);
     this.top.rooms(room.rooms.length ? room.rooms.map(({ name }) => name) : room.door.rooms, room.rooms, room.welcome?.room ?? room.door.wish.room);
     this.top.proof(proofOf(room));
-    this.top.line(room.trip === null ? '' : `${(room.trip * 1000).toFixed(0)} ms`);
+    const high = picture.exaggeration === 1 ? '' : `heights \u00d7${picture.exaggeration.toFixed(1)}`;
+    this.top.line([room.trip === null ? '' : `${(room.trip * 1000).toFixed(0)} ms`, high].filter(Boolean).join(', '));
     setHidden(document.querySelector('[data-do=skip]'), !room.door.has('rotation') || room.welcome?.room !== 'rotation');
   }
 

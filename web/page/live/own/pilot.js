@@ -2,7 +2,7 @@
 // Your own louse: what you ask of it (steering), where it is before the server says so (prediction), and how far ahead
 // of the server it lives. Pure: time is an argument, in seconds.
 import { Prediction } from './prediction.js';
-import { DriveLog } from './drive.js';
+import { DriveLog } from './ghosts.js';
 
 const SAFETY = 0.012, FIRST_SAFETY = 0.05, MOST = 1;      // s
 const ACKS = 40, RISE = 0.25, SINK = 0.02;                // s a second
