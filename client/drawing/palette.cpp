@@ -144,6 +144,20 @@ Rgb louse_color(std::uint32_t id, Owner owner, const Look& look) {
 
 Rgb goal_color(const Look& look) { return kLice[static_cast<std::size_t>(look.palette)].goal; }
 
+Rgb pale_color(PaleMark mark, const Look& look) {
+  constexpr std::array<Rgb, 4> kUsual = {
+      {{176, 184, 206}, {255, 250, 225}, {240, 242, 250}, {214, 222, 255}}};
+  switch (look.palette) {  // the others have lice that are pale, too
+    case Palette::kDeutan:
+      return {255, 255, 255};
+    case Palette::kTritan:
+      return {198, 198, 198};
+    case Palette::kDefault:
+      break;
+  }
+  return kUsual[static_cast<std::size_t>(mark)];
+}
+
 Rgb set_off(Rgb pale, Rgb ground) {
   constexpr double kBright = 120.0;  // of 255
   return 0.299 * ground.r + 0.587 * ground.g + 0.114 * ground.b < kBright ? pale : kMarkShade;

@@ -42,6 +42,10 @@ Rgb louse_color(std::uint32_t id, Owner owner, const Look& look);
 Rgb goal_color(const Look& look);
 inline constexpr Rgb kMarkShade{10, 10, 16};
 
+/// What is there and not wanted now: pale, 8 or more from every louse and from what is wanted.
+enum class PaleMark : std::uint8_t { kGate, kCrumb, kRing, kGhost };
+Rgb pale_color(PaleMark mark, const Look& look);
+
 /// Of a pale mark and kMarkShade the one that is seen on this ground.
 Rgb set_off(Rgb pale, Rgb ground);
 

@@ -54,7 +54,8 @@ void Game::on_input(const TerminalInput& input) {
 bool Game::comes_late_to_begin(const Key& key) {
   if (!settings_.begun_by_itself || key.action == KeyAction::kRelease) return false;
   settings_.begun_by_itself = false;
-  if (bindings_.keys().find(key) != Control::kCruise || steady_clock::now() - begun_ > kStillReading)
+  if (session_.room().pilot() == nullptr || bindings_.keys().find(key) != Control::kCruise ||
+      steady_clock::now() - begun_ > kStillReading)
     return false;
   session_.room().notice("you play already: once more, and it cruises", steady_clock::now());
   return true;

@@ -15,10 +15,6 @@
 namespace woodlouse::client {
 namespace {
 
-constexpr Rgb kOtherGate{176, 184, 206};
-constexpr Rgb kCrumb{255, 250, 225};
-constexpr Rgb kFreeRing{240, 242, 250};
-constexpr Rgb kGhost{214, 222, 255};
 constexpr double kPost = 1.2;  ///< height of a gate's posts [m]
 constexpr double kGhostStrength = 0.4;
 
@@ -33,8 +29,9 @@ Ink goal_ink(const Look& look, char32_t glyph) {
   return {goal_color(look), glyph, 1.0, kBold, false, kMarkShade};
 }
 
-Ink pale_ink(Rgb color, char32_t glyph, double strength, Attributes attributes = kPlain) {
-  return {color, glyph, strength, attributes, true};
+Ink pale_ink(PaleMark mark, const Look& look, char32_t glyph, double strength,
+             Attributes attributes = kPlain) {
+  return {pale_color(mark, look), glyph, strength, attributes, true};
 }
 
 /// A post stands up where height is seen, at least three dots; from above it is a spot. Its foot is dark.
@@ -56,8 +53,10 @@ void draw_post(core::Vec2 foot, const Ink& ink, GroundCanvas& canvas) {
 }
 
 void draw_gate(const GateMark& gate, GroundCanvas& canvas) {
-  const Ink line = gate.is_next ? goal_ink(canvas.look(), U':') : pale_ink(kOtherGate, U'.', 0.5);
-  const Ink post = gate.is_next ? goal_ink(canvas.look(), U'#') : pale_ink(kOtherGate, U'+', 0.75, kBold);
+  const Ink line =
+      gate.is_next ? goal_ink(canvas.look(), U':') : pale_ink(PaleMark::kGate, canvas.look(), U'.', 0.5);
+  const Ink post = gate.is_next ? goal_ink(canvas.look(), U'#')
+                                : pale_ink(PaleMark::kGate, canvas.look(), U'+', 0.75, kBold);
   canvas.line(gate.a, gate.b, line, canvas.has_pixels() ? 2 : 1);
   draw_post(gate.a, post, canvas);
   draw_post(gate.b, post, canvas);
@@ -68,7 +67,8 @@ void draw_crumb(const CrumbMark& crumb, GroundCanvas& canvas) {
   const auto at = canvas.spot(crumb.position);
   if (!at || at->is_hidden) return;
   const bool is_dear = crumb.value > 1;
-  const Ink ink = is_dear ? goal_ink(canvas.look(), U'*') : Ink{kCrumb, U'o', 1.0, kBold};
+  const Ink ink = is_dear ? goal_ink(canvas.look(), U'*')
+                          : Ink{pale_color(PaleMark::kCrumb, canvas.look()), U'o', 1.0, kBold};
   const int x = whole(at->x);
   const int y = whole(at->y);
   canvas.dot(x, y, ink);
@@ -90,11 +90,11 @@ std::pair<Ink, int> line_of(const RingMark& ring, const Badges& badges, const Lo
     case RingMark::State::kContested:
       return {goal_ink(look, U'x'), 2};
     case RingMark::State::kComing:
-      return {pale_ink(kFreeRing, U'.', 0.4), 1};
+      return {pale_ink(PaleMark::kRing, look, U'.', 0.4), 1};
     case RingMark::State::kFree:
       break;
   }
-  return {pale_ink(kFreeRing, U'o', 1.0, kBold), 0};
+  return {pale_ink(PaleMark::kRing, look, U'o', 1.0, kBold), 0};
 }
 
 void draw_ring(const RingMark& ring, const Badges& badges, GroundCanvas& canvas) {
@@ -122,13 +122,14 @@ void draw_ghost(const GhostMark& ghost, GroundCanvas& canvas) {
   for (std::size_t k = ghost.trail.size() % 2; k < ghost.trail.size(); k += 2) {  // a dotted way
     const auto at = canvas.spot(ghost.trail[k]);
     if (at && !at->is_hidden && canvas.has_pixels())
-      canvas.dot(whole(at->x), whole(at->y), pale_ink(kGhost, U'.', kGhostStrength));
+      canvas.dot(whole(at->x), whole(at->y), pale_ink(PaleMark::kGhost, canvas.look(), U'.', kGhostStrength));
   }
   if (!canvas.has_pixels()) {
     const auto at = canvas.spot(ghost.position);
     if (!at) return;
-    canvas.dot(whole(at->x), whole(at->y), pale_ink(kGhost, U'(', kGhostStrength));
-    canvas.dot(whole(at->x) + 1, whole(at->y), pale_ink(kGhost, U')', kGhostStrength));
+    canvas.dot(whole(at->x), whole(at->y), pale_ink(PaleMark::kGhost, canvas.look(), U'(', kGhostStrength));
+    canvas.dot(whole(at->x) + 1, whole(at->y),
+               pale_ink(PaleMark::kGhost, canvas.look(), U')', kGhostStrength));
     return;
   }
   // As long as the lice of this picture.
@@ -136,9 +137,10 @@ void draw_ghost(const GhostMark& ghost, GroundCanvas& canvas) {
       (canvas.has_height() ? std::clamp(canvas.viewport().size.columns / 32.0, 2.2, 5.0) : 2.6) *
       metres_per_dot(ghost.position, canvas);
   const double across = canvas.has_height() ? 0.75 * half : half;
-  canvas.ellipse(ghost.position, ghost.heading, half, across, pale_ink(kGhost, U'(', kGhostStrength), 0);
+  canvas.ellipse(ghost.position, ghost.heading, half, across,
+                 pale_ink(PaleMark::kGhost, canvas.look(), U'(', kGhostStrength), 0);
   canvas.line(ghost.position + (0.6 * half) * ghost.heading, ghost.position + half * ghost.heading,
-              pale_ink(kGhost, U'(', 2.0 * kGhostStrength), 0);
+              pale_ink(PaleMark::kGhost, canvas.look(), U'(', 2.0 * kGhostStrength), 0);
 }
 
 /// Writes near a cell: in it, above, below.
@@ -164,7 +166,8 @@ void label_gate(const GateMark& gate, GroundCanvas& canvas) {
   const int row = whole(at->y) / canvas.dots_per_row() - (canvas.has_height()   ? 2
                                                           : canvas.has_pixels() ? 1
                                                                                 : 0);
-  write_near(column, row, text, gate.is_next ? goal_color(canvas.look()) : kOtherGate,
+  write_near(column, row, text,
+             gate.is_next ? goal_color(canvas.look()) : pale_color(PaleMark::kGate, canvas.look()),
              gate.is_next ? kBold : kPlain, canvas);
   if (!gate.is_next) return;
   // Which way it is driven through: over the line, well off the posts.
@@ -195,7 +198,7 @@ void label_ghost(const GhostMark& ghost, GroundCanvas& canvas) {
   for (const auto& [x, y] : {std::pair{left, row + off}, std::pair{left, row - off},
                              std::pair{column + beside, row}, std::pair{column - beside - length, row}})
     if (canvas.is_free(x - 1, y, 1) && canvas.is_free(x + length, y, 1) &&
-        canvas.write(x, y, name, scaled(kGhost, 0.75), kPlain))
+        canvas.write(x, y, name, scaled(pale_color(PaleMark::kGhost, canvas.look()), 0.75), kPlain))
       return;
 }
 

@@ -130,9 +130,10 @@ TEST_CASE("yours differs from every ground, and lice from each other, for the ey
 TEST_CASE(
     "marks of the modes differ from the ground, and what is wanted from lice, for the eyes of each palette") {
   constexpr double kTold = 8.0;
-  constexpr Rgb kPale{200, 210, 235};  // between the gates' and the ghosts'
-  constexpr double kWeakest = 0.4;     // of what a ghost and a ring that comes are laid on with
-  std::cout << "palette  colours    goal:ground  goal:lice  pale marks:ground\n";
+  constexpr std::array kMarks = {PaleMark::kGate, PaleMark::kCrumb, PaleMark::kRing, PaleMark::kGhost};
+  constexpr double kWeakest = 0.4,
+                   kWeakestGate = 0.5;  // of what ghosts and a ring that comes are laid on with
+  std::cout << "palette  colours    goal:ground  goal:lice  pale marks:ground  pale marks:lice, goal\n";
   constexpr std::array<const char*, 3> kNames = {"default", "deutan ", "tritan "};
   for (const ColorMode mode : {ColorMode::kTruecolor, ColorMode::k256}) {
     const std::vector<Rgb> ground = grounds(mode);
@@ -144,21 +145,31 @@ TEST_CASE(
       for (const Rgb color : ground) {
         const Triple below = seen(color, palette);
         goal_ground = std::min(goal_ground, std::max(difference(goal, below), difference(shade, below)));
-        const Rgb laid_on = as_shown(mix(color, set_off(kPale, color), kWeakest), mode);
-        pale_ground = std::min(pale_ground, difference(seen(laid_on, palette), below));
+        for (const PaleMark mark : kMarks) {
+          const double strength = mark == PaleMark::kGate ? kWeakestGate : kWeakest;
+          const Rgb laid_on = as_shown(mix(color, set_off(pale_color(mark, look), color), strength), mode);
+          pale_ground = std::min(pale_ground, difference(seen(laid_on, palette), below));
+        }
       }
+      std::vector<Triple> lice{seen(as_shown(louse_color(0, Owner::kYou, look), mode), palette)};
       for (std::uint32_t id = 0; id < kBadgeColors; ++id)
-        goal_lice = std::min(
-            goal_lice, difference(goal, seen(as_shown(louse_color(id, Owner::kOther, look), mode), palette)));
-      goal_lice = std::min(
-          goal_lice, difference(goal, seen(as_shown(louse_color(0, Owner::kYou, look), mode), palette)));
+        lice.push_back(seen(as_shown(louse_color(id, Owner::kOther, look), mode), palette));
+      for (const Triple& louse : lice) goal_lice = std::min(goal_lice, difference(goal, louse));
+      lice.push_back(goal);
+      double pale_lice = 1e9;
+      for (const PaleMark mark : kMarks)
+        for (const Triple& louse : lice)
+          pale_lice =
+              std::min(pale_lice, difference(seen(as_shown(pale_color(mark, look), mode), palette), louse));
       std::cout << kNames[static_cast<std::size_t>(palette)]
                 << (mode == ColorMode::k256 ? "  256       " : "  truecolor ") << ' '
                 << std::round(10 * goal_ground) / 10 << "         " << std::round(10 * goal_lice) / 10
-                << "       " << std::round(10 * pale_ground) / 10 << '\n';
+                << "       " << std::round(10 * pale_ground) / 10 << "               "
+                << std::round(10 * pale_lice) / 10 << '\n';
       CHECK(goal_ground >= kTold);
       CHECK(goal_lice >= kTold);
       CHECK(pale_ground >= kTold);
+      CHECK(pale_lice >= kTold);
     }
   }
 }
