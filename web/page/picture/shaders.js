@@ -17,10 +17,10 @@ const WHOLE = HEAD + `out vec2 t; void main(){ vec2 p=vec2(gl_VertexID&1,gl_Vert
 
 /** @type {Record<string, [string, string]>} */
 export const SHADERS = {
-  // on 16 x 10 tiles, between whose corners colours go over into one another; a grain hides the steps of 8 bits
+  // on 16 x 10 tiles, between whose corners colours go over into one another; a raster hides the steps of 8 bits
   sky: [HEAD + SKY + `out vec3 c; void main(){ int k=gl_VertexID%6, n=gl_VertexID/6; vec2 p=(vec2(n%16,n/16)+vec2(k==1||k>2&&k<5?1:0,k==2||k>3?1:0))/vec2(16,10);
 c=sky(p); gl_Position=vec4(p*2.-1.,.999999,1); }`,
-  HEAD + 'in vec3 c; out vec4 o; void main(){ o=vec4(c+(fract(52.98*fract(dot(gl_FragCoord.xy,vec2(.06711,.00584))))-.5)/170.,1); }'],
+  HEAD + 'in vec3 c; out vec4 o; void main(){ ivec2 p=ivec2(gl_FragCoord.xy); int k=p.x^p.y; o=vec4(c+(float((k&1)*8+(p.y&1)*4+(k&2)+(p.y&2)/2)/16.-.47)/255.,1); }'],
 
   // shape: z from 0 to 1, zx, zy; light: of sun and sky; ramps: height, below it slope
   paint: [WHOLE, HEAD + `in vec2 t; out vec4 o; uniform sampler2D shape,light,ramps;
