@@ -1,0 +1,175 @@
+#!/usr/bin/env node
+// What the page costs a browser, beside its budgets: bytes, the first picture, frames and script of 200 lice, acks over a line of
+// 150 ms, a recording verified, memory after 500 seeks.
+//
+//   bench/page_cost.mjs BIN [--idle SECONDS]
+//
+// BIN is a tree's folder of programs, built with its page. Chromium draws by software (SwiftShader). --idle: how long 100 lice are watched
+// for the memory of a long stay (600; 3600 is the hour of the budget). Needs chromium, and `npm install` in web/tests/browser.
+import { spawn } from 'node:child_process';
+import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import os from 'node:os';
+import path from 'node:path';
+import { gzipSync } from 'node:zlib';
+
+const programs = path.resolve(process.argv[2] ?? 'build/release/bin');
+process.env.WOODLOUSE_BIN = programs;
+const at = process.argv.indexOf('--idle');
+const IDLE_S = at > 0 ? Number(process.argv[at + 1]) : 600;
+const FIRST_PICTURES = 7, FRAMES_S = 10, PLAY_S = 20, VERIFIED = 7, SEEKS = 500;
+const { browsed, Served, shown, SlowLine, until } = await import('../web/tests/browser/served.mjs');
+
+const median = (values) => values.toSorted((a, b) => a - b)[values.length >> 1];
+const spread = (values, digits = 0) => `${median(values).toFixed(digits)} (${Math.min(...values).toFixed(digits)} to ${Math.max(...values).toFixed(digits)})`;
+const say = (what, is, goal) => console.log(`${what.padEnd(72)} ${is}${goal ? `   goal ${goal}` : ''}`);
+const CROWD = ['--map', 'volcano', '--bots', '200', '--bots-alone', 'play', '--seed', '5'];
+
+/** Milliseconds from the navigation to the first frame that was drawn with lice in it; caches as a first visitor has them: empty. */
+async function firstPicture(served) {
+  const context = await browsed(), page = context.pages()[0];
+  await page.addInitScript(() => {
+    const look = () => {
+      const source = window.woodlouse?.source;
+      if (source?.ground && source.lice.length > 0) requestAnimationFrame(() => { window.firstPicture = performance.now(); });
+      else requestAnimationFrame(look);
+    };
+    requestAnimationFrame(look);
+  });
+  await page.goto(served.web);
+  await until(page, () => window.firstPicture > 0, 60000);
+  const took = await page.evaluate(() => window.firstPicture);
+  await context.close();
+  return took;
+}
+
+/** Two programs that do nothing but take a core each. */
+function load() {
+  const busy = Array.from({ length: os.cpus().length }, () => spawn(process.execPath, ['-e', 'for (;;);'], { stdio: 'ignore' }));
+  return () => busy.forEach((one) => one.kill('SIGKILL'));
+}
+
+async function bytes(served) {
+  const index = await (await fetch(served.web)).text();
+  const asked = new Set(['', ...[...index.matchAll(/(?:href|src)="([^"]+)"/g)].map(([, name]) => name)]);
+  const context = await browsed(), page = context.pages()[0];
+  await shown(page, served.web);
+  const first = await page.evaluate(() => performance.getEntriesByType('resource').map(({ name, encodedBodySize }) => [name, encodedBodySize]));
+  await context.close();
+  const document = gzipSync(index, { level: 9 }).length;
+  const core = first.filter(([name]) => name.endsWith('.wasm')), rest = first.filter(([name]) => /\.(js|css|svg)$/.test(name));
+  const sum = (files) => files.reduce((total, [, size]) => total + size, 0);
+  say('the page without its core, as sent for the first picture [KB]', `${((sum(rest) + document) / 1e3).toFixed(1)} in ${rest.length + 1} files (of ${asked.size} named by the first)`, '35');
+  say('core.wasm, as sent [KB]', (sum(core) / 1e3).toFixed(1), '320');
+}
+
+async function frames(served) {
+  const context = await browsed(), page = context.pages()[0];
+  await shown(page, served.web);
+  await page.waitForTimeout(8000);  // until the resolution has settled, and light and shadow are baked
+  const measured = await page.evaluate((seconds) => new Promise((resolve) => {
+    const { woodlouse } = window, own = woodlouse.frame.bind(woodlouse), scripts = [], begun = performance.now();
+    woodlouse.frame = (now) => {
+      const from = performance.now();
+      own(now);
+      scripts.push(performance.now() - from);
+      if (from - begun > seconds * 1000) resolve({ scripts, fps: scripts.length / (from - begun) * 1000, scale: woodlouse.picture.resolution.scale, lice: woodlouse.source.lice.length });
+    };
+  }), FRAMES_S);
+  await context.close();
+  say(`${measured.lice} lice, 1280x800, software GL: frames a second`, `${measured.fps.toFixed(1)} at ${measured.scale} of the resolution`, '20, not below 0.6');
+  say('  own script a frame, median [ms]', median(measured.scripts).toFixed(2), '3');
+}
+
+async function acks() {
+  const served = await Served.start('--map', 'hills', '--bots', '4', '--bots-alone', 'play', '--seed', '5');
+  const line = await SlowLine.to(Number(served.port), 75, 40), context = await browsed(), page = context.pages()[0];
+  for (const [what, address] of [['localhost', served.web], ['150 ms and 40 ms of jitter', line.web]]) {
+    await shown(page, `${address}?play`);
+    await until(page, () => window.woodlouse.room.own.pilot?.louse);
+    const keys = ['w', 'a', 'd', ' ', 's'];
+    for (const begun = Date.now(), k = { k: 0 }; Date.now() - begun < PLAY_S * 1000; k.k++) {
+      await page.keyboard.down(keys[k.k % keys.length]);
+      await page.waitForTimeout(150 + (k.k * 137) % 500);
+      await page.keyboard.up(keys[k.k % keys.length]);
+    }
+    const { exact, corrected } = await page.evaluate(() => ({ exact: window.woodlouse.room.own.pilot.prediction.exact, corrected: window.woodlouse.room.own.pilot.prediction.corrected }));
+    say(`acks whose state the page already had, ${what}`, `${exact} of ${exact + corrected}`, 'all');
+  }
+  await context.close();
+  line.stop();
+  await served.stop();
+}
+
+/** A recording of `ticks` steps of `lice` house bots, which stay awake. */
+async function recorded(lice, ticks, folder) {
+  const file = path.join(folder, `${lice}.ndjson.zst`);
+  const server = spawn(path.join(programs, 'woodlouse-server'), ['--map', 'volcano', '--bots', String(lice), '--bots-alone', 'play', '--seed', '5', '--ticks', String(ticks), '--record', file, '--listen', '127.0.0.1:0'], { stdio: 'ignore' });
+  await new Promise((resolve) => server.once('exit', resolve));
+  return file;
+}
+
+async function recordings(served) {
+  const folder = mkdtempSync(path.join(os.tmpdir(), 'woodlouse-'));
+  const file = await recorded(200, 1800, folder);
+  const context = await browsed(), page = context.pages()[0];
+  await shown(page, served.web);
+  const held = readFileSync(file).toString('base64');
+  await page.evaluate((text) => { const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0)); window.woodlouse.open(new Blob([bytes]), 'crowd.ndjson.zst'); }, held);
+  await until(page, () => window.woodlouse.player?.ground);
+  const times = [];
+  for (let k = 0; k < VERIFIED; k++) {
+    const [took, ok] = await page.evaluate(async () => {
+      const { player } = window.woodlouse, begun = performance.now();
+      player.isPlaying = false;
+      await player.verify();
+      return [performance.now() - begun, player.verdict.ok];
+    });
+    if (ok !== 1) throw new Error('a good recording was not verified');
+    times.push(took);
+  }
+  say('a recording of 200 lice and 1800 ticks verified [ms]', spread(times), '165');
+  const session = await context.newCDPSession(page);
+  const heap = async () => { await session.send('HeapProfiler.collectGarbage'); return (await session.send('Runtime.getHeapUsage')).usedSize / 1e6; };
+  const before = await heap(), seeks = [];
+  for (let k = 0; k < SEEKS; k++) {
+    seeks.push(await page.evaluate(async (tick) => {
+      const { player } = window.woodlouse, begun = performance.now();
+      player.seek(tick);
+      while (!(Math.abs((player.shown ?? player.tick) - tick) < 1)) await new Promise((resolve) => setTimeout(resolve, 1));
+      return performance.now() - begun;
+    }, (k * 977) % 1800));
+  }
+  await page.waitForTimeout(1000);
+  say(`JS heap before and after ${SEEKS} seeks [MB]`, `${before.toFixed(1)}, ${(await heap()).toFixed(1)}`, 'flat, 45');
+  await context.close();
+  rmSync(folder, { recursive: true, force: true });
+}
+
+async function longStay() {
+  const served = await Served.start('--map', 'volcano', '--bots', '100', '--bots-alone', 'play', '--seed', '5');
+  const context = await browsed(), page = context.pages()[0];
+  await shown(page, served.web);
+  const session = await context.newCDPSession(page), heaps = [];
+  for (let k = 0; k <= 6; k++) {
+    await page.waitForTimeout(k === 0 ? 10000 : IDLE_S * 1000 / 6);
+    await session.send('HeapProfiler.collectGarbage');
+    heaps.push((await session.send('Runtime.getHeapUsage')).usedSize / 1e6);
+  }
+  say(`JS heap while 100 lice are watched for ${IDLE_S} s, after a collection [MB]`, heaps.map((heap) => heap.toFixed(1)).join(' '), 'flat, 45');
+  await context.close();
+  await served.stop();
+}
+
+const served = await Served.start(...CROWD);
+await bytes(served);
+for (const isLoaded of [false, true]) {
+  const rest = isLoaded ? load() : () => {}, took = [];
+  for (let k = 0; k < FIRST_PICTURES; k++) took.push(await firstPicture(served));
+  rest();
+  say(`first picture, 200 lice, nothing kept from before, ${isLoaded ? 'both cores taken' : 'idle'} [ms]`, spread(took), isLoaded ? '1000' : '500');
+}
+await frames(served);
+await acks();
+await recordings(served);
+await served.stop();
+await longStay();
