@@ -13,7 +13,7 @@ import { clamp, lookAt, mix, orthographic, perspective, times } from './vectors.
  * @typedef {Place & {yaw: number, pitch: number, distance: number, sx: number, sy: number}} Shot */
 
 const ANGLE = .66;  // of the whole height, radians
-const POT = .98, HILL = .63, FOLLOW = .7;  // pitches, radians: 56, 36 and 40 degrees
+const POT = .98, HILL = .63, FOLLOW = .7;  // pitches, radians: 56 degrees into pots, 36 at hills, 40 behind a louse
 const FLATTEST = .14, STEEPEST = 1.5;
 const FULL = .93;  // how much of the free picture the map fills
 const STANDS = .5;  // no louse that is followed comes farther from the middle, of half the free picture
@@ -57,6 +57,7 @@ export class Camera {
     this.now = null;
     this.fitted = undefined;
     this.pitch.orbit = stage.isPot ? POT : HILL;
+    this.pitch.follow = stage.isPot ? POT : FOLLOW;
     this.zooms = { orbit: 1, follow: 1, map: 1 };
   }
 

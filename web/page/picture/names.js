@@ -148,6 +148,9 @@ export function placeLabels(wanted, free, most) {
     }
     return false;
   };
+  const take = (x, y, w, h) => {
+    for (let r = Math.floor(y / 32); r <= Math.floor((y + h) / 32); r++) (rows[r] ??= []).push(x, y, x + w, y + h);
+  };
   wanted.sort((a, b) => b.rank - a.rank);
   for (const label of wanted) {
     if (placed.size >= most) break;
@@ -159,7 +162,9 @@ export function placeLabels(wanted, free, most) {
     if (!place) continue;
     const [x, y] = place;
     placed.set(label.key, { x, y });
-    for (let r = Math.floor(y / 32); r <= Math.floor((y + h) / 32); r++) (rows[r] ??= []).push(x, y, x + w, y + h);
+    take(x, y, w, h);
+    // nothing is written over who must be seen
+    if (label.rank === Infinity) take(label.x - reach * .7, label.y - reach * .7, reach * 1.4, reach * 1.4);
   }
   return placed;
 }
