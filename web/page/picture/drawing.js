@@ -26,6 +26,8 @@ export class Drawing {
     this.relief = null;
     /** @type {Uint8Array | null} */
     this.light = null;
+    /** Whether the ground is painted as it stays: no more light is to come. */
+    this.isFine = false;
     /** What never moves: the block's shadow, what lies on the ground, walls. */
     this.scenery = { floor: new Batch(), border: new Batch(), walls: new Batch() };
     this.version = 0;
@@ -69,14 +71,16 @@ export class Drawing {
   /** @param {import('./relief.js').Relief} relief */
   setRelief(relief) {
     this.relief = relief;
+    this.isFine = relief.isFlat;
     this.light = null;
     this.upload();
   }
 
-  /** @param {Uint8Array} light as bake() gives it */
+  /** @param {Uint8Array | null} light as bake() gives it; null: none will come */
   setLight(light) {
     this.light = light;
-    if (!this.isLost) this.ground?.setLight(light);
+    this.isFine = true;
+    if (!this.isLost && light) this.ground?.setLight(light);
     this.isPainted = false;
   }
 
@@ -94,7 +98,7 @@ export class Drawing {
   /** Draws. @param {Look} look @param {import('./staging.js').Staging} staging @param {number} width pixels @param {number} height @param {number} now ms */
   draw(look, staging, width, height, now) {
     if (!this.isPainted) {
-      this.ground?.paint(look.theme, look.shading === 'slope');
+      this.ground?.paint(look.theme, look.shading === 'slope', this.isFine);
       this.isPainted = true;
       this.version++;
     }

@@ -87,8 +87,8 @@ export class GroundDrawing {
       : fillTexture(gl, this.textures.light, LIGHT.unit, 1, 1, kind, new Uint8Array([255, 255]));
   }
 
-  /** Paints light and colours. @param {import('./colours.js').ThemeName} theme @param {boolean} slope */
-  paint(theme, slope) {
+  /** Paints light and colours. @param {import('./colours.js').ThemeName} theme @param {boolean} slope @param {boolean} fine else at once, and coarse: for a first picture */
+  paint(theme, slope, fine) {
     const { gl } = this, relief = /** @type {import('./relief.js').Relief} */ (this.relief), { columns, rows, edges, wraps = [] } = relief.ground;
     const look = THEMES[theme], ramps = new Uint8Array(2 * 256 * 4);
     for (let k = 0; k < 256; k++) {
@@ -99,7 +99,7 @@ export class GroundDrawing {
       ramps.set(along(look.slope, k / 255).map(v => 255 * v), 4 * (256 + k));
     }
     this.textures.ramps = fillTexture(gl, this.textures.ramps, RAMPS.unit, 256, 2, [gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE], ramps);
-    const longest = this.isSoftware ? 1024 : 2048, most = Math.max(relief.width, relief.depth);
+    const longest = !fine ? 384 : this.isSoftware ? 1024 : 2048, most = Math.max(relief.width, relief.depth);
     const w = Math.max(64, Math.round(longest * relief.width / most)), h = Math.max(64, Math.round(longest * relief.depth / most));
     this.textures.painted = fillTexture(gl, this.textures.painted, PAINTED.unit, w, h, [gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE], null);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.frame);

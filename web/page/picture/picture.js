@@ -64,6 +64,7 @@ export class Picture {
     worker.onmessage = ({ data }) => {
       if (data.number === this.number) this.drawing.setLight(data.light);
     };
+    worker.onerror = () => this.drawing.setLight(null);
     const { domain, columns, rows, grid, wraps } = ground;
     worker.postMessage({ number, ground: { domain, columns, rows, grid, wraps }, exaggeration: relief.exaggeration });
   }

@@ -25,10 +25,10 @@ c=sky(p); gl_Position=vec4(p*2.-1.,.999999,1); }`,
   // shape: z from 0 to 1, zx, zy; light: of sun and sky; ramps: height, below it slope
   paint: [WHOLE, HEAD + `in vec2 t; out vec4 o; uniform sampler2D shape,light,ramps;
 uniform vec3 toSun; uniform vec2 points,metres; uniform float exaggeration,steep,slope,tile,open,sun,seam;
-float rand(vec2 p){ return fract(sin(dot(p,vec2(127.1,311.7)))*43758.5453); }
+float rand(vec2 p){ vec3 q=fract(p.xyx*.1031); q+=dot(q,q.yzx+33.33); return fract((q.x+q.y)*q.z); }
 float noise(vec2 p){ vec2 i=floor(p),f=p-i; f=f*f*(3.-2.*f); return mix(mix(rand(i),rand(i+vec2(1,0)),f.x),mix(rand(i+vec2(0,1)),rand(i+1.),f.x),f.y); }
 void main(){ vec2 u=t*(points-1.)/points+.5/points, at=t*metres; vec3 s=texture(shape,u).rgb; vec2 l=texture(light,u).rg;
-  float grade=length(s.yz), rough=noise(at*1.3)*.5+noise(at*4.1)*.3+noise(at*11.)*.2-.5;
+  float grade=length(s.yz), rough=noise(at*1.3)*.6+noise(at*5.3)*.4-.5;
   vec3 n=normalize(vec3(-s.yz*exaggeration+(1.-slope)*.10*vec2(noise(at*2.7)-.5,noise(at*2.7+50.)-.5),1));
   vec3 c=slope>.5?texture(ramps,vec2(clamp(grade/(steep*1.25),0.,1.),.75)).rgb:texture(ramps,vec2(s.x,.25)).rgb;
   c*=c; c*=1.+.11*rough*(1.-slope);
