@@ -62,7 +62,7 @@ export function bake({ domain, columns, rows, grid, wraps = [] }, exaggeration) 
 }
 
 // in a worker of its own this module answers with what it bakes; in the page it only says where the sun is
-if (typeof document === 'undefined' && typeof self !== 'undefined' && typeof importScripts === 'function')
+if (typeof document === 'undefined' && 'importScripts' in globalThis)
   self.onmessage = ({ data }) => {
     const light = bake(data.ground, data.exaggeration);
     self.postMessage({ number: data.number, light }, { transfer: [light.buffer] });
