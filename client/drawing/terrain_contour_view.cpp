@@ -33,7 +33,10 @@ class Ground {
 
   [[nodiscard]] bool holds(double column, double row) const {
     const core::Vec2 p = camera_.world(column, row);
-    return relief_.terrain().domain().contains(p.x, p.y);
+    const terrain::Rectangle& d = relief_.terrain().domain();
+    const double rounding = 1e-9 * camera_.row;  // as MapCamera::cells_of has it
+    return p.x >= d.x_min - rounding && p.x <= d.x_max + rounding && p.y >= d.y_min - rounding &&
+           p.y <= d.y_max + rounding;
   }
   /// Half columns, quarter rows.
   [[nodiscard]] double height(int column2, int row4) const {

@@ -31,12 +31,14 @@ std::vector<Cell> top_layer(const Relief& relief, const MapCamera& camera, Size 
                             Paint paint) {
   const double pixel = camera.column;  // a pixel is square: half a row high
   const double interval = relief.contour_interval(2.5 * pixel);
+  // Walls are drawn around the same: a middle that is on the edge but for rounding is ground.
+  const CellRange ground = camera.cells_of(relief.terrain().domain(), 2.0);
   std::vector<Color> pixels;
   pixels.reserve(static_cast<std::size_t>(size.columns * size.rows * 2));
   for (int y = 0; y < 2 * size.rows; ++y) {
     for (int x = 0; x < size.columns; ++x) {
       const core::Vec2 p = camera.world(x + 0.5, (y + 0.5) / 2.0);
-      if (!relief.terrain().domain().contains(p.x, p.y)) {
+      if (!ground.holds({x, y})) {
         pixels.push_back(sky_color(1.0, mode));
         continue;
       }

@@ -1,4 +1,5 @@
 // What a flat map shows: no contours of rounding, but tiles, walls, and what pulls; and bodies that fly.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <memory>
 #include <set>
@@ -7,10 +8,12 @@
 #include "client/drawing/compose.h"
 #include "client/drawing/landmarks.h"
 #include "client/drawing/layout.h"
+#include "client/drawing/palette.h"
 #include "client/drawing/terrain_contour_view.h"
 #include "client/drawing/terrain_top_view.h"
 #include "client/ground/follow_camera.h"
 #include "shared/terrain/terrain.h"
+#include "tests/client/drawing/shipped_maps.h"
 
 using namespace woodlouse;
 using namespace woodlouse::client;
@@ -116,4 +119,32 @@ TEST_CASE("the trail of a flight is drawn where it was flown") {
   CHECK(drawn(scene) == rolled);
   for (std::size_t i = 5; i < 15; ++i) scene.lice[0].trail_flights[i] = 4.0;
   CHECK_FALSE(drawn(scene) == rolled);
+}
+
+TEST_CASE("between a map and its walls there is no gap, on every map, at every size") {
+  for (const auto& map : woodlouse::client::testing::shipped_maps()) {
+    const Relief relief(map->terrain);
+    const terrain::Rectangle& domain = map->terrain->domain();
+    for (const int columns : {36, 47, 87})
+      for (const int rows : {17, 19, 21, 34}) {
+        const Size size{columns, rows};
+        const MapCamera camera = camera_for(domain, size, kPixelMargin);
+        const CellRange ground = camera.cells_of(domain, 2.0);
+        const auto cells = top_layer(relief, camera, size, ColorMode::kTruecolor, Paint::kElevation);
+        int gaps = 0;
+        for (int y = std::max(0, ground.first.row); y <= std::min(2 * rows - 1, ground.last.row); ++y)
+          for (int x = std::max(0, ground.first.column); x <= std::min(columns - 1, ground.last.column);
+               ++x) {
+            const Style& style = cells[static_cast<std::size_t>(y / 2) * static_cast<std::size_t>(columns) +
+                                       static_cast<std::size_t>(x)]
+                                     .style;
+            gaps +=
+                (y % 2 == 0 ? style.foreground : style.background) == sky_color(1.0, ColorMode::kTruecolor)
+                    ? 1
+                    : 0;
+          }
+        INFO(map->definition.name << " " << columns << "x" << rows);
+        CHECK(gaps == 0);
+      }
+  }
 }
