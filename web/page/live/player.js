@@ -2,7 +2,7 @@
 // A recording that plays: where it stands, how fast, what is shown and what is proven. The worker behind `recording`
 // re-runs it; here is its clock.
 import { Frames } from './frames.js';
-import { scoreRows, marksOf } from './goal.js';
+import { marksOf } from './goal.js';
 import { Ways } from './ways.js';
 
 export const SPEEDS = [0.125, 0.25, 0.5, 1, 2, 4, 8, 16];
@@ -22,6 +22,7 @@ export class Player {
   /** Told when it stands somewhere else. */ onSeek = () => {};
   /** Where it stands, in ticks and parts of one. */ tick; isPlaying = true; speed = 1;
   /** @type {any[]} */ lice = [];
+  /** The table of scores, as it was made last. @type {ReturnType<import('./goal.js').scoreRows>} */ rows = [];
   /** The first tick that differs, and how; null. @type {{tick: number, what: string}|null} */ difference = null;
   /** Of a whole verification: {ok, text}. @type {any} */ verdict = null;
   /** What was said, the newest last. @type {any[]} */ lines = []; said = 0;
@@ -99,10 +100,8 @@ export class Player {
 
   facts(id) {
     const { mode } = this.info;
-    const facts = { mode, rules: mode === 'roam' ? null : this.ground.definition[mode], game: mode === 'roam' ? null : this.game, tick: this.tick, hz: this.hz, lice: this.lice, ways: this.ways,
-                    you: this.louse(id), id, isOwn: false, run: null, nameOf: (of) => this.nameOf(of), rank: 0 };
-    const rows = scoreRows(facts);
-    return { ...facts, rank: rows.find((row) => row.id === id)?.rank ?? 0, rows };
+    return { mode, rules: mode === 'roam' ? null : this.ground.definition[mode], game: mode === 'roam' ? null : this.game, tick: this.tick, hz: this.hz, lice: this.lice, ways: this.ways,
+                    you: this.louse(id), id, isOwn: false, run: null, nameOf: (of) => this.nameOf(of), rank: this.rows.find((row) => row.id === id)?.rank ?? 0 };
   }
   marks(facts) { return marksOf(facts); }
   close() { this.recording.close(); }

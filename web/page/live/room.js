@@ -35,9 +35,9 @@ export class Room {
     /** The `welcome` of the game that is on; null while there is none. @type {any} */ this.welcome = null;
     /** The map's ground (core.js), or null. @type {any} */ this.ground = null;
     /** As of the last update. @type {any[]} */ this.lice = [];
+    /** The table of scores, as it was made last. @type {ReturnType<import('./goal.js').scoreRows>} */ this.rows = [];
     /** The rooms with their counts. @type {any[]} */ this.rooms = [];
-    /** Why the line is down, and when it is tried again [s, of performance.now()]; null while it is up.
-     * @type {{reason: string, code: string, again: number|null}|null} */ this.lost = null;
+    /** Why the line is down, and when it is tried again [s, of performance.now()]; null while it is up. @type {{reason: string, code: string, again: number|null}|null} */ this.lost = null;
     this.#link = new Link({
       url, Socket, joinOf: (hello) => this.door.joinOf(hello), on: (message, line) => this.#on(message, line, seconds()),
       onRecorded: (line) => this.#follow(line, seconds()), onBatch: () => this.#afterBatch(seconds()), onLost: (closing, again) => this.#onLost(closing, again),
@@ -146,7 +146,7 @@ export class Room {
     if (next === 'again') return this.#link.joinAgain();
     if (next === 'token') {
       this.#link.hold();
-      return this.onTokenWanted(error.text);
+      return this.onTokenWanted(this.door.wish.token ? 'That is no password of this server.' : 'Who comes in here has a password.');
     }
     this.onNotice(error.text, 'bad');
     if (next === 'over') this.#link.giveUp({ code: error.code, reason: error.text });

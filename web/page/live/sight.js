@@ -1,17 +1,14 @@
 // @ts-check
 // What there is to see of a room: what the rules show and want, the table, what is proven, and the scene for the picture.
-import { marksOf, scoreRows } from './goal.js';
+import { marksOf } from './goal.js';
 
 /** For goal.js: of the louse `id`, yours or one that is watched; 0: nobody's. @param {import('./room.js').Room} room */
 export function factsOf(room, id) {
   const isOwn = id !== 0 && id === room.you;
-  const facts = {
+  return {
     mode: room.mode, rules: room.welcome?.rules ?? null, game: room.mode === 'roam' ? null : room.game, tick: room.tick, hz: room.hz, lice: room.lice, ways: room.ways,
-    you: room.louse(id), id, isOwn, run: isOwn ? room.own.run : null, nameOf: (of) => room.roster.nameOf(of), rank: 0,
+    you: room.louse(id), id, isOwn, run: isOwn ? room.own.run : null, nameOf: (of) => room.roster.nameOf(of), rank: room.rows.find((row) => row.id === id)?.rank ?? 0,
   };
-  const rows = scoreRows(facts);
-  facts.rank = rows.find((row) => row.id === id)?.rank ?? 0;
-  return { ...facts, rows };
 }
 
 /** What the picture shows on the ground. @param {import('./room.js').Room} room @param {ReturnType<typeof factsOf>} facts */

@@ -1,6 +1,6 @@
 // @ts-check
 // All panels together, told what there is: some things with each frame, the rest ten times a second.
-import { goalLines, podium } from '../live/goal.js';
+import { goalLines, podium, scoreRows } from '../live/goal.js';
 import { proofOf } from '../live/sight.js';
 import { rulesInWords } from '../live/words.js';
 import { Chat } from './chat.js';
@@ -57,8 +57,9 @@ export class Panels {
     if (player) { this.chat.update(player, colourOf); setText(byId('proof'), ''); this.top.line(`${player.info.name}${player.info.mode === 'roam' ? '' : `/${player.info.mode}`}, a recording`); }
     const facts = this.#facts;
     if (!facts || !source?.ground) return;
-    const followed = page.followed || source.you || facts.rows[0]?.id || 0, nameOf = (id) => source.nameOf(id);
-    this.scores.update({ rows: facts.rows, you: source.you ?? 0, followed: page.followed || source.you || 0, nameOf, colourOf, count: this.#count(source) });
+    source.rows = scoreRows(facts);
+    const followed = page.followed || source.you || source.rows[0]?.id || 0, nameOf = (id) => source.nameOf(id);
+    this.scores.update({ rows: source.rows, you: source.you ?? 0, followed: page.followed || source.you || 0, nameOf, colourOf, count: this.#count(source) });
     const louse = source.louse(followed);
     this.louse.update(louse && { ...louse, ...source.ground.sample(louse.x, louse.y) }, followed === source.you ? `${nameOf(followed)} (you)` : nameOf(followed));
   }

@@ -54,6 +54,7 @@ export class Prediction {
 
   /** The server's answer: where its state is another than ours, it is the new base. */
   acknowledge(ack) {
+    if (ack.you && ack.you.tick > this.tick) this.advance(ack.you.tick);  // pictures are rarer than acks: what would it have been?
     this.#pending = this.#pending.filter((input) => input.seq > ack.seq);
     if (!ack.you) return;
     const stated = louseOf(ack.you), believed = this.#history.get(ack.you.tick);
