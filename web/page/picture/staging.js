@@ -132,7 +132,7 @@ export class Staging {
       this.pixels[this.instances - 1] = pixels;
       const rank = isYou ? Infinity : own ? 1e6 : isGhost ? 1e3 : 1 / p.w;
       this.names.push({ key: louse.id, text: isYou ? 'you' : String(louse.name ?? '#' + louse.id), colour, badge: isYou, x: p.x, y: p.y, reach: pixels * (own ? 1.35 : .8) + 3, rank });
-      if (scene.trails !== false && !isGhost) this.trail(louse, at, c, own, ratio);
+      if (scene.trails !== false && !isGhost) this.trail(louse, at, c, own, ratio, lice.length > MANY);
       if (isYou) this.pointAt(at, colour, camera, false);
     }
     if (isDue) this.trails.sweep();
@@ -185,8 +185,9 @@ export class Staging {
     if (isYou) ring(r - wide * 1.8, wide * .8, WHITE, 1);
   }
 
-  /** @private @param {Louse} louse @param {{x: number, y: number, z: number}} at @param {[number, number, number]} c @param {boolean} own @param {number} ratio pixels a CSS pixel */
-  trail(louse, at, c, own, ratio) {
+  /** @private @param {Louse} louse @param {{x: number, y: number, z: number}} at @param {[number, number, number]} c @param {boolean} own @param {number} ratio pixels a CSS pixel
+   * @param {boolean} isOneOfMany every second point will do */
+  trail(louse, at, c, own, ratio, isOneOfMany) {
     const trail = this.trails.trails.get(louse.id), { ribbons } = this;
     if (!trail || trail.count < 2) return;
     // pale colours are lost on a bright ground
@@ -196,7 +197,8 @@ export class Staging {
     let x = 0, y = 0;
     ribbons.cut();
     for (let k = 0; k < trail.count; k++) {
-      const i = 4 * ((trail.end - trail.count + k + POINTS) % POINTS), age = k / trail.count, lastX = x, lastY = y;
+      const point = (trail.end - trail.count + k + POINTS) % POINTS, i = 4 * point, age = k / trail.count, lastX = x, lastY = y;
+      if (isOneOfMany && !own && point % 2) continue;
       x = p[i], y = p[i + 1];
       if (this.wraps) ({ x, y } = this.near({ x, y }));
       if (p[i + 3] || Math.abs(x - lastX) > leap || Math.abs(y - lastY) > leap) ribbons.cut();
