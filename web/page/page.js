@@ -3,7 +3,7 @@
 import { Core } from './core/core.js';
 import { CoreEnded } from './core/instance.js';
 import { kept } from './panels/settings.js';
-import { toast } from './panels/elements.js';
+import { byId, setHidden, setText, toast } from './panels/elements.js';
 import { Stage } from './stage.js';
 
 const params = new URLSearchParams(location.search);
@@ -28,14 +28,14 @@ async function begin(stage) {
   stage.view('follow');
 }
 
-/** Words for who looks. @param {unknown} error */
-const tell = (error) => toast(error instanceof Error ? error.message : String(error), 'bad');
+/** @param {unknown} error */
+const wordsOf = (error) => (error instanceof Error ? error.message : String(error));
 
 try {
   const stage = new Stage(await loaded());
   Object.assign(globalThis, { woodlouse: stage });  // for who looks in from the console, and for tests
   requestAnimationFrame((now) => stage.frame(now));
-  await begin(stage).catch((error) => { tell(error); stage.enter(); });
+  await begin(stage).catch((error) => { toast(wordsOf(error), 'bad'); stage.enter(); });
   let isMending = false;
   addEventListener('error', async ({ error }) => {
     if (!(error instanceof CoreEnded) || isMending) return;
@@ -43,4 +43,8 @@ try {
     stage.replaceCore(await loaded());
     isMending = false;
   });
-} catch (error) { tell(error); }
+} catch (error) {  // without WebGL or WebAssembly there is nothing to show
+  setText(byId('lost').firstElementChild, wordsOf(error));
+  setHidden(byId('lost').lastElementChild, true);
+  setHidden(byId('lost'), false);
+}

@@ -10,7 +10,7 @@ import { Drop } from './panels/drop.js';
 import { byId } from './panels/elements.js';
 import { Keys } from './panels/keys.js';
 import { Panels } from './panels/panels.js';
-import { keep, kept, onPalette, onSystemTheme, setTheme, storage, theme } from './panels/settings.js';
+import { keep, kept, onName, onPalette, shortName, onSystemTheme, setTheme, storage, theme } from './panels/settings.js';
 import { toast } from './panels/elements.js';
 import { Touch } from './panels/pointers.js';
 import { Picture } from './picture/picture.js';
@@ -67,7 +67,7 @@ export class Stage {
   /** Plays, or watches again. */
   async join() {
     if (this.source !== this.room || this.room?.door.wish.role === 'player') return this.enter({ role: 'spectator' });
-    const name = kept('name') || await ask({ title: 'What is your louse called?', label: 'Name' });
+    const name = shortName(kept('name') || await ask({ title: 'What is your louse called?', label: 'Name' }) || '');
     if (!name) return;
     keep('name', name);
     this.enter({ role: 'player', name });
@@ -149,6 +149,7 @@ export class Stage {
       if (button instanceof HTMLElement) act(this, button.dataset.do);
     });
     addEventListener('keydown', (event) => { if (event.key === 'Escape' && !document.querySelector('dialog[open]')) this.teacher.dismiss(); });
+    onName();
     onPalette((palette) => this.picture.setPalette(palette));
     onSystemTheme(() => this.picture.setTheme(theme()));
     document.addEventListener('visibilitychange', () => {

@@ -97,6 +97,8 @@ test('what is no message of the protocol ends the line with words, a newer type 
     wire().say(HELLO, WELCOME, line.startsWith('{"type"') ? line : JSON.stringify({ type: 'hello' }));
     assert.match(lost[0].reason, /no woodlouse server/);
   }
+  for (const wrong of [{ tick_hz: 1e9 }, { state_hz: 0 }, { rules: { gates: [1] } }, { rules: { places: [{ at: [1, null] }] } }, { players: [{ id: 1, name: 2, role: 'bot' }] }])
+    assert.throws(() => decoded(JSON.stringify({ ...WELCOME, ...wrong })), /other fields/, JSON.stringify(wrong));
   assert.equal(decoded('{"type":"fireworks"}'), null);
   assert.throws(() => decoded('nonsense'), /no JSON/);
   assert.throws(() => decoded('{"type":"__proto__"}') ?? assert.fail('null'));

@@ -17,17 +17,21 @@ const game = objectOf({
   'crumbs?': listOf((v) => Array.isArray(v) && v.length === 4 && v.every(number)),
   'place?': whole, 'holder?': whole, 'contested?': flag, 'moves_at?': whole,
 });
+const rules = objectOf({
+  'gates?': listOf(objectOf({ a: pair, b: pair })), 'places?': listOf(objectOf({ at: pair, 'radius?': number })), 'laps?': whole, 'hold_s?': number, 'author_ms?': whole,
+});
+const rate = (v) => whole(v) && v >= 1 && v <= 1000;
 const run = { board: text, name: text, time: whole, splits: listOf(whole) };
 const said = { code: text, text };
 
 const SHAPES = {
   hello: { protocol: whole, behavior: whole, rooms: listOf(text), features: listOf(text), limits: objectOf({}) },
   welcome: {
-    id: whole, 'name?': text, 'resume_token?': text, 'resumed?': flag, room: text, mode: text, tick: whole, tick_hz: (v) => whole(v) && v > 0,
-    state_hz: (v) => whole(v) && v > 0, fields: listOf(text), quantum: listOf(number), format: text, 'stream?': text,
+    id: whole, 'name?': text, 'resume_token?': text, 'resumed?': flag, room: text, mode: text, tick: whole, tick_hz: rate, state_hz: rate,
+    fields: listOf(text), quantum: listOf(number), format: text, 'stream?': text,
     map: objectOf({ name: text, hash: text, extent: (v) => Array.isArray(v) && v.length === 4 && v.every(number) }),
     physics: objectOf({ gravity: number, thrust_max: number, edges: text }),
-    players: listOf(objectOf({ id: whole, name: text, role: text })), 'spectators?': whole, 'rules?': objectOf({}),
+    players: listOf(objectOf({ id: whole, name: text, role: text })), 'spectators?': whole, 'rules?': rules,
   },
   key: { tick: whole, louse: rows, hash: text, 'game?': game },
   delta: { tick: whole, base: whole, louse: rows, 'gone?': listOf(whole), 'game?': game },

@@ -2,6 +2,7 @@
 // What opens over the page: the help, and a question that wants one line.
 import { byId, made } from './elements.js';
 import { KEYS } from './keys.js';
+import { kept } from './settings.js';
 
 /** @param {string} rules what is played */
 export function showHelp(rules) {
@@ -12,6 +13,7 @@ export function showHelp(rules) {
     term.append(made('kbd', keys));
     list.append(term, made('dd', what));
   }
+  byId('name').value = kept('name');
   byId('help').showModal();
 }
 

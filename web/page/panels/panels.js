@@ -48,7 +48,9 @@ export class Panels {
     setPressed('slope', picture.shading === 'slope');
     setPressed('cruise', !!room?.own.steering.isCruising);
     setPressed('pad', document.body.hasAttribute('data-pad'));
-    for (const button of document.querySelectorAll('[data-do=join]')) setText(button, source !== room ? 'Live' : room?.door.wish.role === 'player' ? 'Watch' : 'Play');
+    const join = document.querySelector('[data-do=join]');
+    setText(join, source !== room ? 'Live' : room?.door.wish.role === 'player' ? 'Watch' : 'Play');
+    join?.classList.toggle('go', join.textContent !== 'Watch');
     this.#line(room);
     this.#insets(camera);
     if (room && source === room) this.#room(room, picture, colourOf, isPlaying ? page.teacher.observe(room, performance.now() / 1000) : []);

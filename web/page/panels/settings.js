@@ -24,6 +24,20 @@ export function setTheme(name) {
 /** @param {() => void} then */
 export function onSystemTheme(then) { prefersLight.addEventListener('change', then); }
 
+/** As much of a name as the wire takes: 24 bytes. @param {string} name */
+export function shortName(name) {
+  const letters = [...name.trim()], bytes = new TextEncoder();
+  while (bytes.encode(letters.join('')).length > 24) letters.pop();
+  return letters.join('');
+}
+
+/** What one's louse is called can be said anew. */
+export function onName() {
+  const input = byId('name');
+  input.value = kept('name');
+  input.onchange = () => keep('name', input.value = shortName(input.value));
+}
+
 /** Tells which palette is chosen, now and whenever another one is. @param {(palette: any) => void} then */
 export function onPalette(then) {
   const select = byId('palette');

@@ -126,6 +126,14 @@ test('a context that is lost is drawn again once it is restored', async () => {
   assert.ok(await pixels() > whole / 2, 'the ground is there again');
 });
 
+test('a core that came to its end is replaced, and the room goes on', async () => {
+  await shown(page, `${served.web}?room=hills&play`);
+  await known(page, () => { try { window.woodlouse.core.instance.call('world_step', 99, 1); } catch { /* no such world: a fault of the caller's, which ends it */ } });
+  await until(page, () => !window.woodlouse.core.instance.isEnded && window.woodlouse.room.lice.length > 0 && window.woodlouse.room.own.pilot?.louse);
+  assert.ok(faults.length > 0 && faults.every((fault) => fault.includes('the core has ended')), faults.join('; '));
+  faults.length = 0;
+});
+
 test('a race is told in words, with a ghost to race where there is a record', async () => {
   await shown(page, `${served.web}?room=crater_loop/race&play`);
   await until(page, () => /lap 1\/3/.test(document.querySelector('#goal').textContent));
