@@ -104,18 +104,8 @@ export function louseMesh(detail) {
 }
 
 /**
- * The document's Euler angles of a louse that goes along the unit vector (hx, hy) over the map, where the ground
- * has the gradient (zx, zy): yaw counter-clockwise from +x, pitch about the turned y axis (uphill is negative),
- * roll about the forward axis; radians.
- * @param {number} hx @param {number} hy @param {number} zx @param {number} zy
- */
-export function attitudeOf(hx, hy, zx, zy) {
-  const pitch = Math.atan(-zx * hx - zy * hy);
-  return { yaw: Math.atan2(hy, hx), pitch, roll: Math.atan((zy * hx - zx * hy) * Math.cos(pitch)) };
-}
-
-/**
- * The axes of a body so turned, without an angle: into out[at..at+2] forward, along the ground, and into
+ * The axes of a body on ground with the gradient (zx, zy) that goes along the unit vector (hx, hy) over the map: those of the
+ * document's yaw, pitch and roll, without an angle: into out[at..at+2] forward, along the ground, and into
  * out[at+4..at+6] up, the ground's normal.
  * @param {number} hx @param {number} hy @param {number} zx @param {number} zy
  * @param {Float32Array | number[]} out @param {number} at

@@ -19,12 +19,6 @@ export const unit = a => {
 export const clamp = (v, least, most) => Math.max(least, Math.min(most, v));
 /** From a to b at t, 0 to 1. @param {number} a @param {number} b @param {number} t */
 export const mix = (a, b, t) => a + (b - a) * t;
-/** 0 below a, 1 above b, smooth between. @param {number} a @param {number} b @param {number} v */
-export const smooth = (a, b, v) => {
-  const t = clamp((v - a) / (b - a), 0, 1);
-  return t * t * (3 - 2 * t);
-};
-
 /** World to eye: from `eye` towards `target`, x to the right. @param {Vector} eye @param {Vector} target @param {Vector} up */
 export function lookAt(eye, target, up) {
   const z = unit(minus(eye, target)), x = unit(cross(up, z)), y = cross(z, x);
