@@ -114,7 +114,7 @@ export function drawRing(board, ring) {
   };
   for (let k = 0; k < pieces; k++) air.quad(at(k, 0), at(k + 1, 0), at(k + 1, high), at(k, high), colour, state === 'free' ? .15 : .32, 0);
   if (next) {
-    decals.circle(heightAt, next.x, next.y, next.radius, width * 1.2, lift, isDark ? DUSK : WHITE, .4, 0);
+    decals.circle(heightAt, next.x, next.y, next.radius, width * 1.3, lift, DUSK, .6, 0);
     decals.circle(heightAt, next.x, next.y, next.radius, width * .8, lift * 1.2, board.goal, .55 + .35 * Math.sin(seconds * 5), 3);
   }
 }
@@ -162,7 +162,11 @@ export function buildScenery({ floor, border, walls }, relief, bottom, theme) {
     for (let i = 0; i < 4; i++)
       floor.quad([...at(i, near), bottom], [...at(i + 1, near), bottom], [...at(i + 1, far), bottom], [...at(i, far), bottom], [0, 0, 0], dark(k), dark(k + 1));
   }
-  if (relief.isFlat && (ground.edges ?? 'walls') === 'walls' && !ground.wraps?.[0]) drawWalls(walls, ground.domain, heightAt, r * .035, theme === 'dark');
+  if (relief.isFlat && (ground.edges ?? 'walls') === 'walls' && !ground.wraps?.[0]) {
+    drawWalls(walls, ground.domain, heightAt, r * .035, theme === 'dark');
+    const corners = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];  // from above a wall is a line
+    corners.forEach((corner, k) => border.band(heightAt, corner, corners[(k + 1) % 4], r * .006, r * 1e-4, theme === 'dark' ? WHITE : DUSK, .55, 0));
+  }
   if (ground.centre) drawWell(border, ...centreOf(ground.centre), r, heightAt);
 }
 

@@ -70,7 +70,7 @@ void main(){ vec3 q=p.xyz; part=p.w; along=q.x; c=colour.rgb; ghost=up.w; coat=c
   mat3 R=mat3(forward.xyz,cross(up.xyz,forward.xyz),up.xyz); W=place.xyz+R*(q*place.w); N=R*n; gl_Position=M*vec4(W,1); }`,
   HEAD + HIDE + `in vec3 N,W,c; in float along,part,ghost,coat; out vec4 o; uniform vec3 toSun,eye; uniform float plain;
 void main(){ if(isHidden()) discard; vec3 n=normalize(N), v=normalize(eye-W); float facing=max(dot(n,v),0.);
-  if(ghost>.5){ float a=.24+.7*pow(1.-facing,1.5); o=vec4(mix(c,vec3(1),.3)*a,a); return; }
+  if(ghost>.5){ float a=.24+.7*pow(1.-facing,1.5); o=vec4((c*.75+.25*step(.5,max(c.r,max(c.g,c.b))))*a,a); return; }
   vec3 k=c*c, head=vec3(mod(coat,2.)>.5?.006:.92); if(coat>1.5&&part<.5&&abs(along+.25)<.2) k=vec3(.006);
   if(part<.5){ float seg=fract((along+1.)*3.5); k=mix(k*.30,k,clamp(seg*7.,0.,1.)*clamp((1.-seg)*11.,0.,1.)); if(plain>.5) k=mix(k,head,clamp((along-.62)*14.,0.,1.)); }
   else if(part<2.5) k=k*.16+.01;

@@ -166,7 +166,8 @@ export class Staging {
     d[k] = at.x, d[k + 1] = at.y, d[k + 2] = at.z + (isFlying ? half * .2 : 0), d[k + 3] = half;
     d[k + 7] = louse.distance / half * 4;
     d[k + 11] = isGhost ? 1 : 0;
-    d[k + 12] = c[0], d[k + 13] = c[1], d[k + 14] = c[2], d[k + 15] = isYou ? 0 : Math.floor((louse.colour ?? louse.id) / OTHERS) % 4 || 0;
+    const ink = isGhost && this.look?.theme === 'light' ? .4 : 1;  // outlines are dark on what is bright
+    d[k + 12] = c[0] * ink, d[k + 13] = c[1] * ink, d[k + 14] = c[2] * ink, d[k + 15] = isYou ? 0 : Math.floor((louse.colour ?? louse.id) / OTHERS) % 4 || 0;
     // on the ground below it
     const ground = isFlying ? this.heightAt(at.x, at.y) : at.z, high = Math.max(0, at.z - ground), lift = half * .07;
     const fx = hx * half, fy = hy * half, rise = s => [s * fx, s * fy, s * (zx * fx + zy * fy)], side = s => [-s * fy, s * fx, s * (zy * fx - zx * fy)];
