@@ -4,7 +4,7 @@
     tests/siege/played.py build/release/bin [--seconds 300] [--keep FOLDER] [--look ascii|colour] [MODE ...]
 
 A server of its own records; house bots play along. The client runs in a terminal of 80x24 (pyte), following its louse. What
-is pressed is decided from the screen alone: the goal's line ("gate 3 NE 27 m"), the speed, who holds the place. Each frame,
+is pressed is decided from the screen alone: the goal's line ("gate 3: NE 27 m"), the speed, who holds the place. Each frame,
 told from the next as the client writes them, is looked at: a whole one (title, frame of the panel, key line),
 with the louse in the picture, with the goal's line where there are rules. Then the recording is verified. Prints a table;
 exit status 1 where a frame or a recording was wrong, or nothing was achieved. Debian's own Python: pyte is a package of it.
@@ -86,7 +86,7 @@ class Player:
 
     def note(self, lines):
         """Counts what was achieved."""
-        goal = re.search(r"  (gate \w+|crumb|\* worth 3|place) (?:N|S|E|W)", lines[1])
+        goal = re.search(r"  (gate \w+:|crumb|\* worth 3|place) (?:N|S|E|W)", lines[1])
         if goal and goal.group(1) != self.goal:
             self.gates += self.goal.startswith("gate") and goal.group(1).startswith("gate")
             self.goal = goal.group(1)

@@ -149,7 +149,7 @@ void add_next(const GoalFacts& facts, GoalLine& line) {
   line.push_back({formatted("  moves in %lds", seconds), seconds <= 5 ? Tone::kGoal : Tone::kDim});
 }
 
-/// "gate 3 NE 27 m": what is aimed at, and from where.
+/// "gate 3: NE 27 m": what is aimed at, and from where.
 void add_aim(const GoalFacts& facts, GoalLine& line) {
   const Ruling& ruling = facts.sight.ruling;
   const auto place = goal_of(facts);
@@ -160,7 +160,8 @@ void add_aim(const GoalFacts& facts, GoalLine& line) {
     case state::Mode::kRace: {
       const map::RaceMode& race = *facts.sight.map->definition.modes.race;
       const std::size_t gate = std::min<std::size_t>(facts.you->standing.gate, race.gates.size() - 1);
-      what = gate == 0 ? "gate S" : "gate " + std::to_string(gate);
+      what =
+          (gate == 0 ? "gate S" : "gate " + std::to_string(gate)) + ":";  // "gate S S" would be read as one
       is_flown = race.gates[gate].in_air;
       break;
     }

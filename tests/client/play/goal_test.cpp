@@ -117,7 +117,7 @@ TEST_CASE("a race's lines say the way to the next gate, the clock and the medal 
   you.standing.lap_start = 5400 * 65536LL;
   const Sight sight = room.sight();
   const std::string text = text_of(goal_lines({sight, 2, &you, true, nullptr, 2}));
-  CHECK(text.find("race  1:40 left  gate 3 W ") != std::string::npos);
+  CHECK(text.find("race  1:40 left  gate 3: W ") != std::string::npos);
   CHECK(text.find(" from ") == std::string::npos);
   const std::string watched = text_of(goal_lines({sight, 2, &you, false, nullptr, 2}));
   CHECK(watched.find(" m from louse2\nlouse2: lap 2/3") != std::string::npos);

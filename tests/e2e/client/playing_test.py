@@ -208,12 +208,12 @@ class Playing(InATerminal):
         self.terminal.shows(r"Any key starts")
         self.terminal.keys("Space")
         self.terminal.shows(r"lap 1/3 starts at S")
-        screen = self.terminal.shows(r"gate S NE \d+ m").string
+        screen = self.terminal.shows(r"gate S: NE \d+ m").string
         self.assertRegex(screen, r"\[S\]")
         self.assertRegex(screen, r"\(3\)")
         self.terminal.keys("Space")  # it faces the gate, wherever it rolls
         self.terminal.shows(r"lap 1/3 0:0\d\.\d\d\d")
-        self.terminal.shows(r"gate 1 \w+ \d+ m")
+        self.terminal.shows(r"gate 1: \w+ \d+ m")
 
 
 if __name__ == "__main__":
