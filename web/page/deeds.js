@@ -1,6 +1,6 @@
 // @ts-check
 // What buttons and keys do: each by the name that stands in a button's data-do.
-import { save } from './panels/drop.js';
+import { save } from './panels/dialogs.js';
 import { theme } from './panels/settings.js';
 import { toast } from './panels/elements.js';
 

@@ -2,17 +2,14 @@
 // What is shown: a room that is watched or played, a recording, or two runs side by side; wired to the picture and the panels.
 import { act } from './deeds.js';
 import { Room } from './live/room.js';
-import { sceneOf } from './live/sight.js';
+import { sceneOf } from './live/goal.js';
 import { Teacher } from './live/own/lesson.js';
-import { CanvasInput } from './panels/pointers.js';
-import { ask } from './panels/dialogs.js';
-import { Drop } from './panels/drop.js';
-import { byId } from './panels/elements.js';
+import { CanvasInput, Touch } from './panels/pointers.js';
+import { ask, Drop } from './panels/dialogs.js';
+import { byId, toast } from './panels/elements.js';
 import { Keys } from './panels/keys.js';
 import { Panels } from './panels/panels.js';
-import { keep, kept, onName, onPalette, shortName, onSystemTheme, setTheme, storage, theme } from './panels/settings.js';
-import { toast } from './panels/elements.js';
-import { Touch } from './panels/pointers.js';
+import { keep, kept, onName, onPalette, onSystemTheme, setTheme, shortName, storage, theme } from './panels/settings.js';
 import { Picture } from './picture/picture.js';
 
 const HIDDEN_AFTER = 3000, PANELS_EVERY = 100;  // ms
@@ -53,7 +50,7 @@ export class Stage {
 
   /** Into a room, as before but for what `change` says. */
   enter(change = {}) {
-    const wish = /** @type {import('./live/door.js').Wish} */ ({ role: 'spectator', name: kept('name') || 'guest', room: params.get('room') ?? '', token: '', ...this.room?.door.wish, ...change });
+    const wish = /** @type {import('./live/link.js').Wish} */ ({ role: 'spectator', name: kept('name') || 'guest', room: params.get('room') ?? '', token: '', ...this.room?.door.wish, ...change });
     const lines = this.room?.roster.lines ?? [];
     this.room?.stop();
     this.#show('live');

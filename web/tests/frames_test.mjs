@@ -1,8 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { between } from '../page/live/ways.js';
+import { between, Ways } from '../page/live/ways.js';
 import { applied, COLUMNS, Frames } from '../page/live/frames.js';
-import { Ways } from '../page/live/ways.js';
 
 const louse = (more) => ({ id: 1, phase: 0, x: 0, y: 0, vx: 0, vy: 0, heading_x: 1, heading_y: 0, distance: 0, flight_z: 0, ...more });
 const row = (id, x, vx = 0) => [id, x * 1024, 0, vx * 1024, 0, 1024, 0, 0, 0];

@@ -1,7 +1,6 @@
 import assert from 'node:assert/strict';
 import test, { afterEach } from 'node:test';
-import { Door } from '../page/live/door.js';
-import { Link, waitBefore } from '../page/live/link.js';
+import { Door, Link, waitBefore } from '../page/live/link.js';
 import { decoded, isRecorded } from '../page/live/messages.js';
 
 const HELLO = { type: 'hello', protocol: 1, behavior: 10, server: 's', session: '1', rooms: ['hills', 'volcano'], features: ['rules', 'inputs'], limits: {} };

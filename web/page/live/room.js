@@ -1,12 +1,11 @@
 // @ts-check
 // Everything the page knows of the room it is in: what the server said, merged and timed; your louse, and what is to be
 // drawn now. No DOM.
-import { Door } from './door.js';
-import { Link } from './link.js';
+import { Door, Link } from './link.js';
 import { OwnGame } from './own/own_game.js';
 import { Pings } from './word.js';
 import { Roster } from './roster.js';
-import { factsOf, marksIn } from './sight.js';
+import { factsOf, marksIn } from './goal.js';
 import { Stream } from './stream.js';
 import { Timeline } from './timeline.js';
 import { Ways } from './ways.js';
@@ -21,7 +20,7 @@ const seconds = () => performance.now() / 1000;
 export class Room {
   #core; #link; /* maps that were sent, by hash and rate */ #grounds = new Map(); #time = new Timeline(NOTHING, 0); #pings = new Pings(); #countedAt = -Infinity; #was = false;
 
-  /** @param {{url: string, core: any, wish: import('./door.js').Wish, storage: Storage|null, onNotice: (text: string, tone?: string) => void,
+  /** @param {{url: string, core: any, wish: import('./link.js').Wish, storage: Storage|null, onNotice: (text: string, tone?: string) => void,
    *   onTokenWanted: (why: string) => void, Socket?: any}} options onTokenWanted: ask a person, then enter(token) */
   constructor({ url, core, wish, storage, onNotice, onTokenWanted, Socket }) {
     this.#core = core;

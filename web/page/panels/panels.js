@@ -1,16 +1,14 @@
 // @ts-check
 // All panels together, told what there is: some things with each frame, the rest ten times a second.
-import { goalLines, podium, scoreRows } from '../live/goal.js';
-import { proofOf } from '../live/sight.js';
+import { goalLines, podium, proofOf, scoreRows } from '../live/goal.js';
 import { rulesInWords } from '../live/words.js';
 import { Chat } from './chat.js';
 import { showHelp } from './dialogs.js';
 import { byId, setHidden, setPressed, setText } from './elements.js';
-import { Hud } from './hud.js';
+import { Hud, TopBar } from './hud.js';
 import { LousePanel } from './louse_panel.js';
 import { RecordingBar } from './recording_bar.js';
 import { Scores } from './scores.js';
-import { TopBar } from './top_bar.js';
 
 const plural = (count, one, many) => `${count} ${count === 1 ? one : many}`;
 
