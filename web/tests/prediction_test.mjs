@@ -1,12 +1,11 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { ServerClock } from '../page/live/timeline.js';
+import { busy, HZ, play } from './line.mjs';
 import { GhostRun, isDrive } from '../page/live/own/ghosts.js';
 import { Lead, Pilot } from '../page/live/own/pilot.js';
 import { Steering } from '../page/live/own/steering.js';
 import { Ways } from '../page/live/ways.js';
-
-const HZ = 60;
 
 /** Level ground without friction, by the interface of the core's World: enough to see who is told what, and when. */
 class LevelWorld {
@@ -29,70 +28,15 @@ class LevelWorld {
 }
 const BEGIN = { id: 7, phase: 0, x: 1, y: 2, vx: 0, vy: 0, heading_x: 1, heading_y: 0, tx: 0, ty: 0, flight_z: 0, flight_vz: 0, distance: 0, thrust_kind: 0, ticks_left: 0 };
 
-/** A server's room and a line to it: messages arrive in order, late by `delay` and up to `jitter` more, each way [s]. */
-function play({ delay, jitter, seconds, seed = 1, hands, frameHz = 20 }) {
-  let state = seed;
-  const chance = () => (state = (state * 1103515245 + 12345) % 2147483648) / 2147483648;
-  const world = new LevelWorld(), steering = new Steering(HZ), clock = new ServerClock(HZ);
-  world.put(BEGIN);
-  const pilot = new Pilot({ hz: HZ, id: 7, steering, ways: new Ways(), world: new LevelWorld() });
-  const up = [], down = [], waiting = [], acks = [];
-  const send = (line, message, now) => line.push({ at: Math.max(line.at(-1)?.at ?? 0, now + delay + jitter * chance()), message });
-  let tick = 1000, late = 0;
-  for (let ms = 0; ms < seconds * 1000; ms++) {
-    const now = ms / 1000;
-    while (up[0]?.at <= now) {
-      const { message } = up.shift();
-      if (message.type === 'ping') send(down, { ...message, type: 'pong' }, now);
-      else waiting.push({ ...message, came: now });
-    }
-    while ((tick - 1000 + 1) / HZ <= now) {
-      const begins = (tick - 1000 + 1) / HZ;
-      for (const input of waiting.filter(({ tick: asked }) => asked <= tick)) {
-        const [x, y] = Array.isArray(input.thrust) ? input.thrust : [input.thrust, 0];
-        world.thrust(7, Array.isArray(input.thrust) ? 2 : 1, x, y, input.ticks ?? 4294967295);
-        acks.push({ type: 'ack', seq: input.seq, tick, margin_us: (begins - input.came) * 1e6, late: input.tick < tick, dropped: false });
-      }
-      waiting.splice(0, waiting.length, ...waiting.filter(({ tick: asked }) => asked > tick));
-      world.step(1);
-      tick++;
-      const [louse] = world.lice();
-      for (const ack of acks.splice(0)) {
-        late += ack.late;
-        send(down, { ...ack, you: { ...louse, tick, heading: [louse.heading_x, louse.heading_y], thrust: [louse.tx, louse.ty], thrust_ticks: louse.ticks_left } }, now);
-      }
-      if (tick % (HZ / frameHz) === 0) send(down, { type: 'frame', tick }, now);
-    }
-    while (down[0]?.at <= now) {
-      const { message } = down.shift();
-      if (message.type === 'pong') pilot.lead.trip(now - message.t);
-      if (message.type === 'frame') clock.observe(message.tick, now);
-      if (message.type === 'ack') pilot.acknowledge(message);
-    }
-    if (ms % 16) continue;
-    if (ms < 100 || ms % 1008 === 0) send(up, { type: 'ping', t: now }, now);
-    hands(steering, now);
-    const input = pilot.update(now, clock);
-    if (input) send(up, input, now);
-  }
-  return { pilot, late, exact: pilot.prediction.exact, corrected: pilot.prediction.corrected };
-}
-
-/** A hand that presses and lets go all the time. */
-function busy(steering, now) {
-  const controls = ['up', 'left', 'down', 'right', 'brake'], k = Math.floor(now * 5);
-  if (k % 2) steering.releaseAll(); else steering.hold(controls[(k / 2) % 5], now);
-}
-
 test('every ack is what the page already had, to the bit, on a short line', () => {
-  const { exact, corrected, late } = play({ delay: 0.002, jitter: 0.003, seconds: 20, hands: busy });
+  const { exact, corrected, late } = play({ openWorld: () => new LevelWorld(), begin: BEGIN, delay: 0.002, jitter: 0.003, seconds: 20, hands: busy });
   assert.ok(exact > 80, `${exact} acks`);
   assert.deepEqual([corrected, late], [0, 0]);
 });
 
 test('every ack is what the page already had, to the bit, at 150 ms with 40 ms of jitter', () => {
   for (const seed of [1, 2, 3, 4, 5]) {
-    const { exact, corrected, late } = play({ delay: 0.075, jitter: 0.04, seconds: 30, seed, hands: busy });
+    const { exact, corrected, late } = play({ openWorld: () => new LevelWorld(), begin: BEGIN, delay: 0.075, jitter: 0.04, seconds: 30, seed, hands: busy });
     assert.ok(exact > 100, `${exact} acks`);
     assert.deepEqual([seed, corrected, late], [seed, 0, 0]);
   }
