@@ -253,12 +253,13 @@ void draw_pointer(const LouseMark& you, core::Vec2 target, GroundCanvas& canvas)
 
 void draw_marks(const Scene& scene, const Badges& badges, GroundCanvas& canvas) {
   for (const RingMark& ring : scene.course.rings) draw_ring(ring, badges, canvas);
+  for (const GhostMark& ghost : scene.course.ghosts)
+    draw_ghost(ghost, canvas);  // they wait where the gate is
   for (const GateMark& gate : scene.course.gates)
     if (!gate.is_next) draw_gate(gate, canvas);
   for (const GateMark& gate : scene.course.gates)
     if (gate.is_next) draw_gate(gate, canvas);
   for (const CrumbMark& crumb : scene.course.crumbs) draw_crumb(crumb, canvas);
-  for (const GhostMark& ghost : scene.course.ghosts) draw_ghost(ghost, canvas);
 }
 
 void draw_mark_labels(const Scene& scene, const Badges& badges, GroundCanvas& canvas) {

@@ -146,6 +146,34 @@ TEST_CASE("whoever holds the place, yours is the only @ in a picture of characte
     }
 }
 
+TEST_CASE("a ghost that waits in a gate does not hide its posts") {
+  for (const Look look : {kCourseInAscii, kCourseInHalves}) {
+    Scene scene = a_race();
+    scene.look = look;
+    const auto posts = [&] {
+      CellBuffer cells({80, 24});
+      Composer().draw(scene, cells);
+      const Viewport map = layout_for(cells.size(), look).map;
+      const Color goal = Color::of(goal_color(look));
+      int count = 0;
+      for (int y = 1; y < 1 + map.size.rows; ++y)
+        for (int x = 0; x < map.size.columns; ++x) {
+          const Cell& cell = cells.at(x, y);
+          count += look == kCourseInAscii ? cell.glyph == U'#'
+                                          : (cell.style.foreground == goal) + (cell.style.background == goal);
+        }
+      return count;
+    };
+    scene.labels = false;
+    scene.course.target.reset();
+    const int before = posts();
+    for (const double y : {-9.0, -8.0, -6.0, -3.0})
+      scene.course.ghosts.push_back({"x", {6.0, y}, {0.0, 1.0}, {}});
+    CHECK(before > 1);
+    CHECK(posts() == before);
+  }
+}
+
 TEST_CASE("big figures hide your louse at no place, in no view") {
   for (const Size size : {Size{60, 20}, Size{80, 24}, Size{120, 36}})
     for (const View view : {View::kMap, View::kFollow, View::kSlope}) {
