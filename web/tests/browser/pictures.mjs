@@ -107,7 +107,12 @@ await picture('deuteranopia', async () => {
 });
 const game = wanted.length && !wanted.some((name) => ['recording', 'altered'].includes(name)) ? null : await recorded('volcano', 30);
 if (game) {
-  await picture('recording', () => played(game.text, 'game.ndjson', 900, 8));
+  await picture('recording', async () => {
+    const found = await played(game.text, 'game.ndjson', 900, 6);
+    await found.page.click('[data-do=verify]');
+    await until(found.page, () => document.querySelector('#verdict').textContent.startsWith('ok '), 60000);
+    return found;
+  });
   await picture('altered', () => played(game.altered, 'altered.ndjson', game.tick - 60, 8));
 }
 await picture('side-by-side', async () => {
