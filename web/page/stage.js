@@ -24,6 +24,7 @@ export class Stage {
   /** @type {import('./lab/side_by_side.js').SideBySide|null} */ lab = null;
   followed = 0;
   /** @type {any} */ #ground = null;
+  /** How the last room was entered; also after a recording. @type {any} */ #wish = {};
   #panelsAt = 0; #hiding = 0;
   /** The recording's name. */ file = '';
 
@@ -50,7 +51,8 @@ export class Stage {
 
   /** Into a room, as before but for what `change` says. */
   enter(change = {}) {
-    const wish = /** @type {import('./live/link.js').Wish} */ ({ role: 'spectator', name: kept('name') || 'guest', room: params.get('room') ?? '', token: '', ...this.room?.door.wish, ...change });
+    const wish = /** @type {import('./live/link.js').Wish} */ ({ role: 'spectator', name: kept('name') || 'guest', room: params.get('room') ?? '', token: '', ...this.#wish, ...change });
+    this.#wish = wish;
     const lines = this.room?.roster.lines ?? [];
     this.room?.stop();
     this.#show('live');
@@ -91,8 +93,6 @@ export class Stage {
     const [{ Recording }, { Player }] = await Promise.all([import('./core/recording.js'), import('./live/player.js')]);
     const recording = await Recording.open(this.core, blob).catch((error) => toast(`${name}: ${error.message}`, 'bad'));
     if (!recording) return;
-    this.room?.stop();
-    this.room = null;
     this.player?.close();
     this.#show('recording');
     this.file = name;
@@ -112,11 +112,15 @@ export class Stage {
     this.lab = new SideBySide(this.core);
     const lab = this.lab, rub = () => { lab.rubs = !lab.rubs; lab.begin(); this.picture.clearTrails(); };
     const begin = (isNext) => { lab.begin(isNext); this.picture.clearTrails(); };
+    this.panels.lab?.end();
     this.panels.lab = new LabPanel(Curves, { again: () => begin(false), next: () => begin(true), pause: () => { lab.isPlaying = !lab.isPlaying; }, rub });
   }
 
   #show(kind) {
     if (kind !== 'recording') { this.player?.close(); this.player = null; this.panels.recording(null); }
+    if (kind !== 'live') { this.room?.stop(); this.room = null; }
+    if (kind !== 'lab') { this.lab = null; this.panels.lab?.end(); this.panels.lab = null; }
+    this.panels.chat.clear();
     document.body.dataset.source = kind;
     if (kind !== 'live') document.body.dataset.role = 'none';
   }
@@ -143,7 +147,9 @@ export class Stage {
     this.drop = new Drop((file) => this.open(file, file.name), (text) => toast(text, 'bad'));
     document.addEventListener('click', (event) => {
       const button = /** @type {HTMLElement} */ (event.target).closest('[data-do]');
-      if (button instanceof HTMLElement) act(this, button.dataset.do);
+      if (!(button instanceof HTMLElement)) return;
+      act(this, button.dataset.do);
+      if (event.detail > 0 && this.isPlaying && !document.querySelector('dialog[open]')) byId('picture').focus();  // by a pointer: Space brakes again
     });
     addEventListener('keydown', (event) => { if (event.key === 'Escape' && !document.querySelector('dialog[open]')) this.teacher.dismiss(); });
     onName();

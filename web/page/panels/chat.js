@@ -22,6 +22,12 @@ export class Chat {
     };
   }
 
+  /** Another room or recording begins. */
+  clear() {
+    this.#said = 0;
+    this.#list.replaceChildren();
+  }
+
   open() {
     document.body.dataset.talks = '';
     byId('say').focus();

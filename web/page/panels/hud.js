@@ -43,7 +43,10 @@ export class TopBar {
   /** @param {(room: string) => void} choose */
   constructor(choose) {
     const select = byId('room');
-    select.onchange = () => choose(select.value);
+    select.onchange = () => {
+      choose(select.value);
+      byId('picture').focus();
+    };
   }
 
   /** @param {string[]} names @param {any[]} counts of the message `rooms` @param {string} chosen */

@@ -27,6 +27,12 @@ export class LabPanel {
     this.#curves = [new Curves(distance), new Curves(energy)];
   }
 
+  /** The laboratory is left. */
+  end() {
+    byId('lab').replaceChildren();
+    byId('lab').hidden = true;
+  }
+
   /** @param {import('../lab/side_by_side.js').SideBySide} lab */
   update(lab) {
     const percent = (part) => `${part < -5e-7 ? '\u2212' : part > 5e-7 ? '+' : '\u00b1'}${(Math.abs(part) * 100).toFixed(Math.abs(part) < 0.001 ? 4 : 1)} %`;

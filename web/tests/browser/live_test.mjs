@@ -146,6 +146,26 @@ test('a race is told in words, with a ghost to race where there is a record', as
   await until(page, () => document.querySelector('#said').textContent.includes('starts again'));
 });
 
+test('a room that plays one game after the other begins the next one on the same line', async () => {
+  const turns = await Served.start('--map', 'crater_loop', 'picnic', '--rotate', '1', '--bots', '2');
+  try {
+    await shown(page, `${turns.web}?play`);
+    await until(page, () => window.woodlouse.room.own.pilot?.louse);
+    const seen = new Set();
+    for (let k = 0; k < 3; k++) {
+      const { mode, hash } = await known(page, () => ({ mode: window.woodlouse.room.mode, hash: window.woodlouse.room.ground.hash }));
+      seen.add(mode + hash);
+      await known(page, () => { window.before = window.woodlouse.room.welcome; });
+      await page.click('[data-do=skip]');
+      await until(page, () => window.woodlouse.room.welcome !== window.before && window.woodlouse.room.own.pilot?.louse && window.woodlouse.room.phase === 'joined');
+      await drive(page, 1, 1);
+    }
+    assert.ok(seen.size === 3, [...seen].join());
+  } finally {
+    await turns.stop();
+  }
+});
+
 test('fingers push and brake on a phone', async () => {
   const phone = await browsed({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
   try {

@@ -127,6 +127,19 @@ test('every control is reached by Tab, has a name, and Tab is never taken', asyn
   assert.deepEqual(nameless, []);
 });
 
+test('a chosen room is entered, and the hands are free to push at once', async () => {
+  await shown(page, `${served.web}?room=hills&play`);
+  await page.selectOption('#room', 'maunga_whau');
+  await until(page, () => window.woodlouse.room.welcome?.room === 'maunga_whau' && window.woodlouse.room.own.pilot?.louse);
+  await page.keyboard.down('w');
+  await until(page, () => window.woodlouse.room.own.steering.isPushing(performance.now() / 1000));
+  await page.keyboard.up('w');
+  await page.click('#bar [data-do=follow]');
+  await page.keyboard.down(' ');
+  await until(page, () => window.woodlouse.room.own.steering.isBraking(performance.now() / 1000));
+  await page.keyboard.up(' ');
+});
+
 test('keys do what their buttons do', async () => {
   await page.locator('#picture').focus();
   const view = () => known(page, () => window.woodlouse.picture.camera.view);
@@ -180,6 +193,9 @@ test('the laboratory shows the paper\'s run drift from the exact one, whose ener
   const { apart, paper, exact } = await known(page, () => ({ apart: window.woodlouse.lab.apart, paper: window.woodlouse.lab.change('paper'), exact: window.woodlouse.lab.change('exact') }));
   assert.ok(apart > 1, `${apart} m apart`);
   assert.ok(Math.abs(exact) < 1e-4 && Math.abs(paper) > 0.01, `${exact} ${paper}`);
+  await page.click('[data-do=join]');  // back to where others are
+  await until(page, () => window.woodlouse.room?.lice.length > 0 && window.woodlouse.lab === null);
+  assert.equal(await page.locator('#lab').isVisible(), false);
 });
 
 test('nothing went wrong, and the policy refused nothing', () => assert.deepEqual(faults, []));
