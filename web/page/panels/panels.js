@@ -84,10 +84,10 @@ export class Panels {
 
   /** What the panels cover of the picture: the map is fitted into what is free. */
   #insets(camera) {
-    const over = byId('over').getBoundingClientRect(), isNarrow = over.width <= 760;
+    const over = byId('over').getBoundingClientRect(), isNarrow = over.width <= 760 || over.height <= 480;
     const box = (id) => byId(id).getBoundingClientRect(), tall = (id) => box(id).height;
     const wide = (id) => box(id).width + 12;
-    camera.insets = isNarrow ? { left: 0, right: 0, top: Math.max(box('top').bottom, box('goal').bottom, box('lesson').bottom) + 4, bottom: over.height - Math.min(...['bar', 'lab', 'recording', 'chat'].filter(tall).map((id) => box(id).top)) }
+    camera.insets = isNarrow ? { left: 0, right: 0, top: Math.max(box('top').bottom, box('goal').bottom, box('lesson').bottom) + 4, bottom: over.height - Math.min(...['bar', 'lab', 'recording'].filter(tall).map((id) => box(id).top)) }
       : { left: wide('lab'), right: Math.max(wide('scores'), wide('louse')), top: tall('top') + 20, bottom: over.height - Math.min(...['bar', 'recording'].filter(tall).map((id) => box(id).top)) };
   }
 
