@@ -9,7 +9,7 @@ const STANDING = 350;  // ms that the camera must have stood before the ground's
 const NEARER = 3e-4;  // of the depth from -1 to 1
 const NO_CHANGE = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
-/** @typedef {{camera: import('./camera.js').Camera, theme: import('./colours.js').ThemeName, shading: 'height' | 'slope'}} Look */
+/** @typedef {{camera: import('./camera.js').Camera, theme: import('./colours.js').ThemeName, shading: 'height' | 'slope', resolution: {at: number}}} Look */
 
 export class Drawing {
   /** Throws an Error where there is no WebGL 2. @param {HTMLCanvasElement} canvas */
@@ -104,12 +104,12 @@ export class Drawing {
     }
     if (!this.isSoftware) {
       this.surface = this.fitted(this.surface ?? null, width, height, 4);
-      this.drawGround(look, this.surface.frame, width, height);
-      this.drawScene(look, staging, this.surface.frame, width, height, false);
+      this.drawGround(look, this.surface.frame, width, height, false);
+      this.drawScene(look, staging, this.surface.frame, width, height, false, false);
       this.surface.copyTo(null, false);
     } else {
       const hides = this.copyGround(look, width, height, now);
-      this.drawScene(look, staging, null, width, height, hides);
+      this.drawScene(look, staging, null, width, height, hides, !hides && look.resolution.at > 1);
     }
   }
 
@@ -121,14 +121,14 @@ export class Drawing {
     return new Surface(this.gl, width, height, samples);
   }
 
-  /** @private @param {Look} look @param {WebGLFramebuffer | null} frame @param {number} width @param {number} height */
-  drawGround(look, frame, width, height) {
+  /** @private @param {Look} look @param {WebGLFramebuffer | null} frame @param {number} width @param {number} height @param {boolean} coarse */
+  drawGround(look, frame, width, height, coarse) {
     const { gl } = this;
     gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
     gl.viewport(0, 0, width, height);
     gl.depthMask(true);
     gl.clear(gl.DEPTH_BUFFER_BIT);
-    this.ground?.draw(look.camera, look.theme, width, height, look.shading === 'slope', () => {
+    this.ground?.draw(look.camera, look.theme, width, height, look.shading === 'slope', coarse, () => {
       gl.enable(gl.BLEND);
       gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
       this.flush(this.scenery.floor, 3, look.camera.matrix, 0, false);
@@ -143,16 +143,16 @@ export class Drawing {
       this.key = key;
       this.stood = now;
       this.kept = 0;
-      this.drawGround(look, null, width, height);
+      this.drawGround(look, null, width, height, look.resolution.at > 1);
       return false;
     }
     const still = this.still = this.fitted(this.still ?? null, width, height, 0);
     if (this.kept === 0) {
-      this.drawGround(look, still.frame, width, height);
+      this.drawGround(look, still.frame, width, height, false);
       this.kept = 1;
     } else if (this.kept === 1 && now - this.stood > STANDING) { // time for smooth outlines
       const smooth = new Surface(gl, width, height, 4);
-      this.drawGround(look, smooth.frame, width, height);
+      this.drawGround(look, smooth.frame, width, height, false);
       smooth.copyTo(still, true);
       smooth.free();
       this.kept = 2;
@@ -167,8 +167,8 @@ export class Drawing {
 
   /** All but the ground: what is solid, what lies on the ground, lice, what one looks through.
    * @private @param {Look} look @param {import('./staging.js').Staging} staging @param {WebGLFramebuffer | null} frame @param {number} width @param {number} height
-   * @param {boolean} hides whether the ground was copied */
-  drawScene({ camera }, staging, frame, width, height, hides) {
+   * @param {boolean} hides whether the ground was copied @param {boolean} coarse whether it was drawn with fewer points */
+  drawScene({ camera }, staging, frame, width, height, hides, coarse) {
     const { gl, lice, ghosts, scenery } = this, { matrix } = camera;
     if (!lice || !ghosts) return;
     gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
@@ -183,9 +183,10 @@ export class Drawing {
     solid(true);
     this.flush(staging.solid, 0, matrix, 0, hides);
     solid(false);
-    this.flush(scenery.border, 3, matrix, NEARER, hides);
-    this.flush(staging.decals, 1, matrix, NEARER, hides);
-    this.flush(staging.ribbons, 4, NO_CHANGE, NEARER, hides, gl.TRIANGLE_STRIP);
+    const nearer = NEARER * (coarse ? 5 : 1);
+    this.flush(scenery.border, 3, matrix, nearer, hides);
+    this.flush(staging.decals, 1, matrix, nearer, hides);
+    this.flush(staging.ribbons, 4, NO_CHANGE, nearer, hides, gl.TRIANGLE_STRIP);
     solid(true);
     lice.begin();
     ghosts.begin();

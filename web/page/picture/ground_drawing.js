@@ -46,6 +46,8 @@ export class GroundDrawing {
       for (let i = 0; i < wide; i++) places[k++] = X(i - mc), places[k++] = Y(j - mr), places[k++] = Z(i - mc, j - mr);
     const triangles = trianglesOf(wide, 0, 0, wide, high, 1);
     this.top = this.mesh(places, [[0, 3]], triangles);
+    // while a camera moves, where a processor draws and is slow at it
+    this.coarse = this.isSoftware ? this.mesh(places, [[0, 3]], trianglesOf(wide, 0, 0, wide, high, 2)) : this.top;
     // about a louse that is followed such a map is shown in whole copies, where a processor draws coarser ones
     this.copy = mc || mr ? this.mesh(places, [[0, 3]], trianglesOf(wide, mc, mr, columns, rows, this.isSoftware ? 2 : 1)) : null;
     // the soil under the edges; none where the map goes on
@@ -55,7 +57,8 @@ export class GroundDrawing {
     const face = (count, at, nx, ny) => {
       const shade = .84 + .36 * Math.max(0, (nx * SUN[0] + ny * SUN[1]) / Math.hypot(SUN[0], SUN[1]));
       for (let k = 0; k + 1 < count; k++) {
-        const [x, y, z] = at(k), [u, v, w] = at(k + 1);
+        // so that each face turns its front outwards
+        const isTurned = ny < 0 || nx > 0, [x, y, z] = at(k + +isTurned), [u, v, w] = at(k + +!isTurned);
         for (const [px, py, pz, deep] of [[x, y, z, 0], [u, v, w, 0], [x, y, b, z - b], [u, v, w, 0], [u, v, b, w - b], [x, y, b, z - b]])
           soil.push(px, py, pz, deep, shade);
       }
@@ -123,8 +126,9 @@ export class GroundDrawing {
   }
 
   /** Draws sky, sides and ground over all of what is bound. @param {import('./camera.js').Camera} camera @param {import('./colours.js').ThemeName} theme
-   * @param {number} width pixels @param {number} height @param {boolean} slope @param {() => void} floor draws what lies under the block */
-  draw(camera, theme, width, height, slope, floor) {
+   * @param {number} width pixels @param {number} height @param {boolean} slope @param {boolean} coarse
+   * @param {() => void} floor draws what lies under the block */
+  draw(camera, theme, width, height, slope, coarse, floor) {
     const { gl, programs } = this, relief = /** @type {import('./relief.js').Relief} */ (this.relief), look = THEMES[theme], { top, soil } = this;
     if (!top || !soil) return;
     const [skyAbove, skyBelow, skyGlow] = look.sky.map(rgb);
@@ -136,7 +140,7 @@ export class GroundDrawing {
     gl.enable(gl.DEPTH_TEST);
     gl.depthMask(true);
     const { domain, wraps = [] } = relief.ground, { middle } = camera, copies = this.copy && camera.view === 'follow' ? [-1, 0, 1] : [0];
-    const { array, count } = copies.length > 1 && this.copy || top;
+    const { array, count } = copies.length > 1 && this.copy || coarse && this.coarse || top;
     gl.bindVertexArray(array);
     for (const i of wraps[0] ? copies : [0])
       for (const j of wraps[1] ? copies : [0]) {
@@ -164,7 +168,9 @@ export class GroundDrawing {
     const [a, b, c] = look.soil.map(rgb);
     use(gl, programs.soil, { ...common, top: a, middle: b, bottom: c, thick: this.thick });
     gl.bindVertexArray(soil.array);
+    gl.enable(gl.CULL_FACE);
     gl.drawArrays(gl.TRIANGLES, 0, soil.count);
+    gl.disable(gl.CULL_FACE);
   }
 }
 

@@ -107,7 +107,7 @@ export class Relief {
     for (const x of [domain[0], domain[2]]) for (const y of [domain[1], domain[3]]) corners.push([x, y, bottom]);
     let top = 0;
     for (let k = 0; k < columns * rows; k++) if (grid[3 * k] > grid[3 * top]) top = k;
-    corners.push([domain[0] + top % columns / (columns - 1) * this.width, domain[1] + Math.floor(top / columns) / (rows - 1) * this.depth, grid[3 * top] * E]);
+    corners.push([domain[0] + top % columns / (columns - 1) * this.width, domain[1] + Math.floor(top / columns) / (rows - 1) * this.depth, grid[3 * top] * E + this.radius * .05]);
     return {
       centre: /** @type {import('./vectors.js').Vector} */ ([(domain[0] + domain[2]) / 2, (domain[1] + domain[3]) / 2, (this.lowest + (this.highest - this.lowest) * .35) * E]),
       radius: this.radius, corners, isPot: this.potness > .2, heightAt, size: this.radius * .02, nearest: (a, b) => this.nearest(a, b),
