@@ -124,3 +124,22 @@ test('over an edge that wraps all goes on: the camera, others, trails, gates', (
     last = me, lastCount = staging.ribbons.count;
   }
 });
+
+test('trails of a held recording stay, and go on with it', () => {
+  const relief = new Relief(groundOf([-20, -20, 20, 20], 41, 41, hill)), camera = new Camera(true), staging = new Staging();
+  camera.setStage(relief.stage(-3));
+  staging.setRelief(relief);
+  let now = 0, x = -10;
+  const show = (frames, speed) => {
+    for (let k = 0; k < frames; k++) {
+      now += 50, x += speed;
+      camera.update(800, 600, now, null);
+      staging.stage({ lice: [louse(1, x, 0), louse(2, 5, 5)] }, { camera, palette: 'default', theme: 'dark', calm: true }, now, 800, 600);
+    }
+    return staging.ribbons.count;
+  };
+  const moving = show(60, .15), held = show(200, 0);
+  assert.ok(moving > 20 && Math.abs(held - moving) <= 2, `${moving} ${held}`);
+  show(5, .15);
+  assert.ok(staging.trails.trails.get(1).count > 10);
+});

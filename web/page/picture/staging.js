@@ -98,7 +98,7 @@ export class Staging {
     this.look = look;
     this.seconds = look.calm ? 0 : now / 1000;
     const least = scene.lice.length > MANY ? LEAST_OF_MANY : LEAST, ratio = width / camera.width;
-    const isDue = scene.trails !== false && this.trails.isDue(now), followed = scene.follow || camera.follow;
+    const isDue = scene.trails !== false && this.trails.isDue(now) && !scene.lice.every(l => this.trails.endsAt(l.id, l.x, l.y)), followed = scene.follow || camera.follow;
     const size = (x, y, z) => {
       const p = camera.project(x, y, z);
       return Math.max(HALF, p ? least * camera.metresPerPixel(p.w) : 0);

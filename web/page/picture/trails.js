@@ -62,6 +62,12 @@ export class Trails {
     trail.count = Math.min(POINTS, trail.count + 1);
   }
 
+  /** Whether a trail ends here: who stands has no further points, and where all stand (a recording that is held) trails stay. @param {any} id @param {number} x @param {number} y */
+  endsAt(id, x, y) {
+    const trail = this.trails.get(id), last = trail ? 4 * ((trail.end + POINTS - 1) % POINTS) : 0;
+    return !!trail && Math.abs(trail.points[last] - x) + Math.abs(trail.points[last + 1] - y) < 1e-3;
+  }
+
   /** Forgets who was not added in this round. */
   sweep() {
     for (const [id, trail] of this.trails) if (trail.seen !== this.round) this.trails.delete(id);

@@ -118,6 +118,11 @@ if (game) {
 await picture('side-by-side', async () => {
   const served = await Served.start('--map', 'hoffmann_2002');
   const { page, context } = await opened(served.web, 'lab=hoffmann_2002');
-  await page.waitForTimeout(9000);
+  await until(page, () => {
+    const { lab } = window.woodlouse, isFar = lab.seconds > 7 && lab.apart > 14;
+    if (isFar) lab.isPlaying = false;
+    return isFar;
+  }, 90000);
+  await page.waitForTimeout(1500);
   return { page, context, served };
 });
