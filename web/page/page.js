@@ -4,12 +4,11 @@ import { Core } from './core/core.js';
 import { CoreEnded } from './core/instance.js';
 import { kept } from './panels/settings.js';
 import { byId, setHidden, setText, toast } from './panels/elements.js';
-import { Stage } from './stage.js';
 
 const params = new URLSearchParams(location.search);
 const loaded = () => Core.load(new URL('core.wasm', import.meta.url));
 
-/** A recording of this server's, by its address. @param {Stage} stage @param {string} address */
+/** A recording of this server's, by its address. @param {import('./stage.js').Stage} stage @param {string} address */
 async function openAddress(stage, address) {
   const url = new URL(address, location.href);
   if (url.origin !== location.origin) throw new Error('?replay= takes recordings of this server alone');
@@ -18,7 +17,7 @@ async function openAddress(stage, address) {
   await stage.open(await answer.blob(), url.pathname.split('/').at(-1) ?? '');
 }
 
-/** @param {Stage} stage */
+/** @param {import('./stage.js').Stage} stage */
 async function begin(stage) {
   const name = params.get('name') ?? kept('name'), replay = params.get('replay');
   if (params.has('lab')) return stage.compare();
@@ -32,7 +31,8 @@ async function begin(stage) {
 const wordsOf = (error) => (error instanceof Error ? error.message : String(error));
 
 try {
-  const stage = new Stage(await loaded());
+  const [core, { Stage }] = await Promise.all([loaded(), import('./stage.js')]);  // the core compiles while modules come
+  const stage = new Stage(core);
   Object.assign(globalThis, { woodlouse: stage });  // for who looks in from the console, and for tests
   requestAnimationFrame((now) => stage.frame(now));
   await begin(stage).catch((error) => { toast(wordsOf(error), 'bad'); stage.enter(); });
