@@ -32,6 +32,40 @@ struct GameEuler {
 /// compile.
 using GameForces = physics::Forces<true, true, true>;
 
+/// A map's ground behind one indirect call a sample, so that steps on all of them are compiled once.
+class GroundView {
+ public:
+  explicit GroundView(const terrain::Terrain& ground) : ground_(ground) {}
+  [[nodiscard]] terrain::SurfaceSample sample(double x, double y) const {
+    return std::visit([&](const auto& s) { return terrain::SurfaceSample{s.sample(x, y)}; },
+                      ground_.surface());
+  }
+  [[nodiscard]] terrain::Rectangle domain() const { return ground_.domain(); }
+  [[nodiscard]] double cell() const {
+    return std::visit([](const auto& s) { return s.cell(); }, ground_.surface());
+  }
+
+ private:
+  const terrain::Terrain& ground_;
+};
+
+template <typename E>
+class StepsOnView final : public physics::GroundSteps {
+ public:
+  StepsOnView(const terrain::Terrain& ground, const physics::StepRules& rules)
+      : view_(ground), steps_(view_, rules) {}
+  void advance(std::span<state::Louse> lice, std::span<const std::uint32_t> moving,
+               const physics::BatchStep& batch, physics::BatchLists& lists, physics::StepCounters& counters,
+               std::span<state::StepEvents> events) const override {
+    steps_.advance(lice, moving, batch, lists, counters, events);
+  }
+  [[nodiscard]] bool holds(const state::Louse& louse) const override { return steps_.holds(louse); }
+
+ private:
+  GroundView view_;
+  physics::CompiledSteps<GroundView, GameForces, GameEuler, E> steps_;
+};
+
 template <typename S>
 std::unique_ptr<const physics::GroundSteps> game_steps_on(const S& ground, const physics::StepRules& rules) {
   if (rules.parameters.equations == state::Equations::kLocalPlane)
@@ -73,31 +107,42 @@ std::shared_ptr<const terrain::AbstractSurface> as_terrain(std::shared_ptr<const
 std::unique_ptr<const physics::GroundSteps> make_game_steps(const terrain::Terrain& ground,
                                                             const physics::StepRules& rules) {
   check(rules.parameters);
-  return std::visit(
-      [&]<typename S>(const S& surface) -> std::unique_ptr<const physics::GroundSteps> {
-        if constexpr (kIsOneOf<S, terrain::BicubicSpline, terrain::FunctionSurface, terrain::PlaneSurface>) {
-          return game_steps_on(surface, rules);
-        } else {
-          assert(false);
-          return nullptr;
-        }
-      },
-      ground.surface());
+  if constexpr (physics::kFewSteps) {
+    if (rules.parameters.equations == state::Equations::kLocalPlane)
+      return std::make_unique<const StepsOnView<LocalPlane>>(ground, rules);
+    return std::make_unique<const StepsOnView<AsPrinted>>(ground, rules);
+  } else {
+    return std::visit(
+        [&]<typename S>(const S& surface) -> std::unique_ptr<const physics::GroundSteps> {
+          if constexpr (kIsOneOf<S, terrain::BicubicSpline, terrain::FunctionSurface,
+                                 terrain::PlaneSurface>) {
+            return game_steps_on(surface, rules);
+          } else {
+            assert(false);
+            return nullptr;
+          }
+        },
+        ground.surface());
+  }
 }
 
 std::unique_ptr<const physics::GroundSteps> make_game_steps(const AnySurface& ground,
                                                             const physics::StepRules& rules) {
   check(rules.parameters);
-  return std::visit(
-      [&]<typename S>(const S& surface) -> std::unique_ptr<const physics::GroundSteps> {
-        if constexpr (kIsOneOf<S, Spline, Biquadratic, Blended, BlendedDocument, GaussGradient>) {
-          return game_steps_on(surface, rules);
-        } else {
-          assert(false);
-          return nullptr;
-        }
-      },
-      ground);
+  if constexpr (physics::kFewSteps) {
+    return game_steps_on(ground, rules);
+  } else {
+    return std::visit(
+        [&]<typename S>(const S& surface) -> std::unique_ptr<const physics::GroundSteps> {
+          if constexpr (kIsOneOf<S, Spline, Biquadratic, Blended, BlendedDocument, GaussGradient>) {
+            return game_steps_on(surface, rules);
+          } else {
+            assert(false);
+            return nullptr;
+          }
+        },
+        ground);
+  }
 }
 
 }  // namespace woodlouse::document

@@ -1,7 +1,8 @@
 #include "shared/follow/follower.h"
 
 #include <cassert>
-#include <sstream>
+#include <memory>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -21,7 +22,7 @@ bool Follower::take(std::string_view line) {
   const auto taken = [&]() -> core::Expected<void> {
     if (auto step = replay::scan_step(line)) return follow(std::move(*step));
     if (line.starts_with(R"({"format":)")) return begin(line);
-    std::istringstream one(std::string(line) + '\n');
+    replay::BytesStream one(std::make_shared<const std::string>(std::string(line) + '\n'));
     replay::ReplayReader reader(one, source_, lines_ - 1);
     auto read = reader.next_line();
     if (!read) return tl::unexpected(read.error());
@@ -46,7 +47,7 @@ void Follower::differ(std::uint64_t tick, std::string what) {
 
 core::Expected<void> Follower::begin(std::string_view line) {
   begin_anew();
-  std::istringstream one(std::string(line) + '\n');
+  replay::BytesStream one(std::make_shared<const std::string>(std::string(line) + '\n'));
   replay::ReplayReader reader(one, source_, lines_ - 1);
   const auto header = reader.read_header();
   if (!header) return tl::unexpected(header.error());

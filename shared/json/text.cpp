@@ -9,6 +9,7 @@
 #include "shared/core/stable_hash.h"
 #include "shared/core/utf8.h"
 #include "shared/json/decimal.h"
+#include "shared/json/decimal_number.h"
 
 namespace woodlouse::json {
 namespace {
@@ -79,7 +80,8 @@ char* write_double(char* to, double value) {
     const auto whole = static_cast<long long>(value);
     if (static_cast<double>(whole) == value) return write_integer(to, whole);
   }
-  return std::to_chars(to, to + kNumberRoom, value).ptr;
+  static_assert(kNumberRoom >= kShortestRoom);
+  return write_shortest(to, value);
 }
 
 void append_hash(std::string& out, std::uint64_t value) {

@@ -1,7 +1,9 @@
 #include "shared/map/terrain_reader.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include "shared/core/joined.h"
@@ -56,6 +58,7 @@ std::optional<std::string> grid_path(const json::Value& name, const GridFolder* 
   return std::nullopt;
 }
 
+#ifndef WOODLOUSE_FREESTANDING
 /// An ESRI ASCII grid, its middle laid at the origin: real-world coordinates would cost digits and help
 /// nobody.
 std::optional<HeightGrid> read_ascii_grid(const json::Value& value, const json::Value& name,
@@ -79,6 +82,7 @@ std::optional<HeightGrid> read_ascii_grid(const json::Value& value, const json::
   for (double& height : grid->heights) height *= scale;
   return grid;
 }
+#endif
 
 /// In place of a big map's heights those of its overview. How steep it is is nobody's business: nothing runs
 /// on it.
@@ -103,9 +107,14 @@ std::optional<TerrainDefinition> read_grid_file(const json::Value& value, const 
   const GridFolder* folder = std::get<const GridFolder*>(place);
   const auto path = grid_path(name, folder, problems);
   if (!path) return std::nullopt;
+#ifdef WOODLOUSE_FREESTANDING
+  assert(false);  // where there are no files there is no folder either
+  return std::nullopt;
+#else
   if (is_float_grid(*path)) return read_float_grid(value, *folder, *path, problems);
   if (auto grid = read_ascii_grid(value, name, *folder, *path, problems)) return std::move(*grid);
   return std::nullopt;
+#endif
 }
 
 void read_rows(const json::Value& value, double scale, HeightGrid& grid, json::Problems& problems) {
@@ -121,7 +130,9 @@ void read_rows(const json::Value& value, double scale, HeightGrid& grid, json::P
     problems.add(rows.front(), "a row of at least 4 heights is wanted");
     return;
   }
-  grid.heights.reserve(grid.rows * grid.columns);
+  // Of rows that are not alike their product may say anything.
+  grid.heights.reserve(
+      static_cast<std::size_t>(std::min(std::uint64_t{grid.rows} * grid.columns, std::uint64_t{kMaxKnots})));
   for (const json::Value& row : rows) {
     const std::vector<json::Value> heights = row.children();
     if (!row.is(json::Kind::kArray)) {

@@ -14,6 +14,14 @@
 
 namespace woodlouse::physics {
 
+/// Whether few steps are compiled, for who loads them over a network (core.wasm): no lanes, and of forces the
+/// main choices. The bits are the same.
+#ifdef WOODLOUSE_FEW_STEPS
+inline constexpr bool kFewSteps = true;
+#else
+inline constexpr bool kFewSteps = false;
+#endif
+
 /// What is sampled in a call: the ground itself, but for big maps, where it remembers the tiles the call was
 /// in. A ground of another room may have a surface_of() there.
 template <typename S>
@@ -51,7 +59,7 @@ class CompiledSteps final : public GroundSteps {
   using Surface = std::remove_cvref_t<decltype(surface_of(std::declval<const S&>()))>;
   using OneStepper = Stepper<Surface, F, E, I>;
   static constexpr bool kHasLanes =
-      E::kExact && std::is_same_v<I, Nystrom4> &&
+      !kFewSteps && E::kExact && std::is_same_v<I, Nystrom4> &&
       (std::is_same_v<S, terrain::BicubicSpline> || std::is_same_v<S, terrain::PlaneSurface>);
 
   void advance_batched(const OneStepper& stepper, std::span<state::Louse> lice,
@@ -80,24 +88,8 @@ class CompiledSteps final : public GroundSteps {
   StepRules rules_;
 };
 
-/// Compiles every combination of the forces that a map may leave out and that earns it.
-template <typename I, typename S>
-std::unique_ptr<const GroundSteps> with_forces(const S& ground, const StepRules& rules) {
-  const state::Parameters& p = rules.parameters;
-  const auto make = [&]<typename F>(F) -> std::unique_ptr<const GroundSteps> {
-    return std::make_unique<const CompiledSteps<S, F, I, SurfaceEquations>>(ground, rules);
-  };
-  if (p.central_gravity > 0.0)
-    return make(Forces<true, true, true, true>{});  // what is 0 of the others does nothing
-  if (p.friction > 0.0)
-    return p.thrust_max > 0.0 ? make(ForcesWithAnyDrag<true, true>{})
-                              : make(ForcesWithAnyDrag<true, false>{});
-  if (p.thrust_max > 0.0) return make(ForcesWithAnyDrag<false, true>{});
-  return p.drag > 0.0 ? make(Forces<true, false, false>{}) : make(Forces<false, false, false>{});
-}
-
-/// The same with fewer choices, for what is rarely run: friction, which has rules of its own, is compiled
-/// out, and all of them where energy is kept.
+/// Steps by a few choices of forces, for what is rarely run: friction, which has rules of its own, is
+/// compiled out, and all of them where energy is kept.
 template <typename I, typename E = SurfaceEquations, typename S>
 std::unique_ptr<const GroundSteps> with_main_forces(const S& ground, const StepRules& rules) {
   const auto make = [&]<typename F>(F) -> std::unique_ptr<const GroundSteps> {
@@ -110,6 +102,26 @@ std::unique_ptr<const GroundSteps> with_main_forces(const S& ground, const StepR
   }
   return rules.parameters.friction > 0.0 ? make(Forces<true, true, true>{})
                                          : make(Forces<true, false, true>{});
+}
+
+/// The same by every combination of the forces that a map may leave out and that earns it.
+template <typename I, typename S>
+std::unique_ptr<const GroundSteps> with_forces(const S& ground, const StepRules& rules) {
+  if constexpr (kFewSteps) {
+    return with_main_forces<I>(ground, rules);
+  } else {
+    const state::Parameters& p = rules.parameters;
+    const auto make = [&]<typename F>(F) -> std::unique_ptr<const GroundSteps> {
+      return std::make_unique<const CompiledSteps<S, F, I, SurfaceEquations>>(ground, rules);
+    };
+    if (p.central_gravity > 0.0)
+      return make(Forces<true, true, true, true>{});  // what is 0 of the others does nothing
+    if (p.friction > 0.0)
+      return p.thrust_max > 0.0 ? make(ForcesWithAnyDrag<true, true>{})
+                                : make(ForcesWithAnyDrag<true, false>{});
+    if (p.thrust_max > 0.0) return make(ForcesWithAnyDrag<false, true>{});
+    return p.drag > 0.0 ? make(Forces<true, false, false>{}) : make(Forces<false, false, false>{});
+  }
 }
 
 /// For the grounds of most maps: the default method in with_forces, the others in the main ones.

@@ -35,7 +35,7 @@ core::Expected<std::shared_ptr<const ReplayArchive>> ReplayArchive::open(ReplayS
 /// Its first keyframe stands behind the header, its last one where it says, and from there steps lead to its
 /// last tick, itself and the end: so far a recording's two ends are known. Each place between is looked at
 /// when it is used (playback.cpp).
-bool ReplayArchive::is_index_sound(std::istream& in) const {
+bool ReplayArchive::is_index_sound(InputStream& in) const {
   in.clear();
   in.seekg(0);
   ReplayReader reader(in, source_.name);

@@ -8,7 +8,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <istream>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,6 +17,7 @@
 #include "shared/core/error.h"
 #include "shared/map/map_definition.h"
 #include "shared/match/match.h"
+#include "shared/replay/byte_stream.h"
 #include "shared/replay/format.h"
 #include "shared/replay/index.h"
 #include "shared/replay/playback.h"
@@ -64,7 +64,7 @@ class ReplayArchive : public std::enable_shared_from_this<ReplayArchive> {
 
  private:
   ReplayArchive(ReplaySource source, Header header, std::shared_ptr<const map::Map> map, ReplayIndex index);
-  [[nodiscard]] bool is_index_sound(std::istream& in) const;
+  [[nodiscard]] bool is_index_sound(InputStream& in) const;
 
   ReplaySource source_;
   Header header_;

@@ -105,7 +105,7 @@ std::string unlike_index(const ReplayIndex& recorded, const ReplayIndex& lines) 
   return unlike;
 }
 
-core::Expected<ReplayIndex> scan_index(std::istream& in, const std::string& source) {
+core::Expected<ReplayIndex> scan_index(InputStream& in, const std::string& source) {
   in.clear();
   in.seekg(0);
   ReplayReader reader(in, source);

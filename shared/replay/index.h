@@ -3,13 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <istream>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "shared/core/error.h"
+#include "shared/replay/byte_stream.h"
 #include "shared/replay/format.h"
 
 namespace woodlouse::replay {
@@ -80,8 +80,8 @@ void append_index(std::string& out, const ReplayIndex& index);
 /// The index of such a line. Errors: fields that are wrong or out of order. `line`: its number.
 core::Expected<ReplayIndex> parse_index(const std::string& text, const std::string& source, std::size_t line);
 /// The index that stands at the end of the recording; nothing where it is missing, cut off or damaged.
-std::optional<ReplayIndex> read_index(std::istream& in, const std::string& source);
+std::optional<ReplayIndex> read_index(InputStream& in, const std::string& source);
 /// The index made anew by reading the whole recording. Errors: a damaged line; not one whole keyframe.
-core::Expected<ReplayIndex> scan_index(std::istream& in, const std::string& source);
+core::Expected<ReplayIndex> scan_index(InputStream& in, const std::string& source);
 
 }  // namespace woodlouse::replay

@@ -1,7 +1,6 @@
 // The index line: written, and read back from the end of a recording.
 #include <algorithm>
 #include <cstddef>
-#include <istream>
 #include <utility>
 
 #include "shared/core/joined.h"
@@ -129,11 +128,11 @@ bool is_in_order(const ReplayIndex& index) {
 }
 
 /// The last whole line; nothing when it is longer than an end can be.
-std::optional<std::string> last_line(std::istream& in) {
+std::optional<std::string> last_line(InputStream& in) {
   in.clear();
   in.seekg(0, std::ios::end);
   const auto size = static_cast<std::streamoff>(in.tellg());
-  if (!in || size <= 0) return std::nullopt;
+  if (in.fail() || size <= 0) return std::nullopt;
   const std::streamoff begin = std::max<std::streamoff>(0, size - static_cast<std::streamoff>(kTailBytes));
   std::string tail(static_cast<std::size_t>(size - begin), '\0');
   in.seekg(begin);
@@ -145,7 +144,7 @@ std::optional<std::string> last_line(std::istream& in) {
   return tail.substr(before + 1);
 }
 
-std::optional<End> read_end(std::istream& in, const std::string& source) {
+std::optional<End> read_end(InputStream& in, const std::string& source) {
   const std::optional<std::string> text = last_line(in);
   if (!text || text->compare(0, 7, "{\"end\":") != 0) return std::nullopt;
   const auto document = json::parse_file(*text, source, kLimits);
@@ -184,7 +183,7 @@ core::Expected<ReplayIndex> parse_index(const std::string& text, const std::stri
   return index;
 }
 
-std::optional<ReplayIndex> read_index(std::istream& in, const std::string& source) {
+std::optional<ReplayIndex> read_index(InputStream& in, const std::string& source) {
   std::optional<End> end = read_end(in, source);
   if (!end) return std::nullopt;
   in.clear();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <istream>
 #include <limits>
 #include <span>
 #include <utility>
@@ -10,7 +9,7 @@
 #include "shared/core/joined.h"
 #include "shared/json/document.h"
 #include "shared/json/fields.h"
-#include "shared/replay/fault_telling_buffer.h"
+#include "shared/replay/byte_stream.h"
 #include "shared/replay/header_reader.h"
 #include "shared/replay/line_fields.h"
 #include "shared/replay/step_line.h"
@@ -254,7 +253,7 @@ std::string ReplayReader::place() const { return joined({source_, ":", std::to_s
 core::Expected<bool> ReplayReader::read_line() {
   line_offset_ += line_.empty() ? 0 : line_.size() + 1;
   line_.clear();
-  std::streambuf& bytes = *in_.rdbuf();
+  StreamBuffer& bytes = *in_.rdbuf();
   for (int c = bytes.sbumpc(); c != std::char_traits<char>::eof(); c = bytes.sbumpc()) {
     if (c == '\n') {
       ++line_number_;
@@ -300,7 +299,8 @@ core::Expected<bool> ReplayReader::read_into(Line& line) {
     return true;
   }
   // Memory goes with the bytes and with the values: who takes shorter lines takes fewer values.
-  const std::size_t values = kMaxValues * longest_line_ / kMaxReplayLineBytes;
+  const auto values =
+      static_cast<std::size_t>(std::uint64_t{kMaxValues} * longest_line_ / kMaxReplayLineBytes);
   const auto document = json::parse_file(line_, source_, {kMaxDepth, values}, line_number_);
   if (!document) {
     wants_longer_lines_ = longest_line_ < kMaxReplayLineBytes;

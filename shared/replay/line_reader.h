@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "shared/core/error.h"
+#include "shared/replay/byte_stream.h"
 #include "shared/replay/format.h"
 #include "shared/replay/line_order.h"
 
@@ -23,7 +24,7 @@ class ReplayReader {
   /// `in` outlives the reader; `source` names it in errors ("FILE:LINE: field: what"). `line`: how many lines
   /// stand before where `in` is. `longest_line`: fewer bytes than kMaxReplayLineBytes for who has less
   /// memory.
-  ReplayReader(std::istream& in, std::string source, std::size_t line = 0,
+  ReplayReader(InputStream& in, std::string source, std::size_t line = 0,
                std::size_t longest_line = kMaxReplayLineBytes)
       : in_(in), source_(std::move(source)), line_number_(line), longest_line_(longest_line) {}
 
@@ -64,7 +65,7 @@ class ReplayReader {
   core::Expected<bool> read_line();  ///< false: no further whole line
   core::Expected<bool> read_into(Line& line);
 
-  std::istream& in_;
+  InputStream& in_;
   std::string source_;
   std::string line_;
   std::size_t line_number_ = 0;

@@ -3,13 +3,13 @@
 #pragma once
 
 #include <cstdint>
-#include <istream>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "shared/core/error.h"
 #include "shared/match/match.h"
+#include "shared/replay/byte_stream.h"
 #include "shared/replay/line_reader.h"
 #include "shared/replay/rerun.h"
 
@@ -53,7 +53,7 @@ class Playback {
   core::Expected<void> pass(const Keyframe& keyframe);
 
   std::shared_ptr<const ReplayArchive> archive_;
-  std::unique_ptr<std::istream> stream_;
+  std::unique_ptr<InputStream> stream_;
   std::unique_ptr<ReplayReader> reader_;
   std::unique_ptr<Rerun> rerun_;
   std::optional<Difference> first_difference_;

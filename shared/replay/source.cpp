@@ -1,23 +1,22 @@
 #include "shared/replay/source.h"
 
 #include <array>
-#include <sstream>
 #include <utility>
 
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
 #include "shared/map/map_text.h"
-#include "shared/replay/fault_telling_buffer.h"
+#include "shared/replay/byte_stream.h"
 #include "shared/replay/zstd_input.h"
 
 namespace woodlouse::replay {
 namespace {
 
 using core::joined;
-using Stream = std::unique_ptr<std::istream>;
+using Stream = std::unique_ptr<InputStream>;
 
 /// zstd's frames and its skippable ones begin so.
-bool is_compressed(std::istream& in) {
+bool is_compressed(InputStream& in) {
   std::array<unsigned char, 4> magic{};
   in.read(reinterpret_cast<char*>(magic.data()), magic.size());
   in.clear();
@@ -43,15 +42,15 @@ core::Expected<MapPointer> map_of(const Header& header, const ReplaySource& sour
 
 }  // namespace
 
-std::unique_ptr<std::istream> unpacked(std::unique_ptr<std::istream> in) {
+std::unique_ptr<InputStream> unpacked(std::unique_ptr<InputStream> in) {
   if (!is_compressed(*in)) return in;
   return std::make_unique<BufferStream<ZstdInput>>(std::move(in));
 }
 
 ReplaySource ReplaySource::of_bytes(std::string bytes, std::string name) {
   return {std::move(name),
-          [bytes = std::move(bytes)]() -> core::Expected<Stream> {
-            return unpacked(std::make_unique<std::istringstream>(bytes));
+          [bytes = std::make_shared<const std::string>(std::move(bytes))]() -> core::Expected<Stream> {
+            return unpacked(std::make_unique<BytesStream>(bytes));
           },
           {}};
 }

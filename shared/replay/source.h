@@ -3,12 +3,12 @@
 #pragma once
 
 #include <functional>
-#include <istream>
 #include <memory>
 #include <string>
 
 #include "shared/core/error.h"
 #include "shared/map/map_definition.h"
+#include "shared/replay/byte_stream.h"
 #include "shared/replay/format.h"
 
 namespace woodlouse::replay {
@@ -18,7 +18,7 @@ using MapPointer = std::shared_ptr<const map::Map>;
 /// Opens as many streams on one recording as are wanted: text, that can be sought in by the byte.
 struct ReplaySource {
   std::string name;  ///< in errors
-  std::function<core::Expected<std::unique_ptr<std::istream>>()> open;
+  std::function<core::Expected<std::unique_ptr<InputStream>>()> open;
   /// The map that a header only names; null: none is looked for.
   std::function<core::Expected<MapPointer>(const Header&)> find_map;
 
@@ -27,7 +27,7 @@ struct ReplaySource {
 };
 
 /// The text of what may be compressed.
-std::unique_ptr<std::istream> unpacked(std::unique_ptr<std::istream> in);
+std::unique_ptr<InputStream> unpacked(std::unique_ptr<InputStream> in);
 
 /// The recorded map: the one in the header, or the one it names. Errors: it is not found, not a map, or
 /// another one than was recorded.

@@ -10,7 +10,7 @@
 
 #include "shared/core/input_file.h"
 #include "shared/core/printable.h"
-#include "shared/replay/fault_telling_buffer.h"
+#include "shared/replay/byte_stream.h"
 #include "shared/replay/recorded_map_file.h"
 
 namespace woodlouse::replay {

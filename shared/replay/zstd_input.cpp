@@ -28,7 +28,7 @@ std::string fault_at(std::uint64_t at, std::size_t error) {
 
 }  // namespace
 
-ZstdInput::ZstdInput(std::unique_ptr<std::istream> packed)
+ZstdInput::ZstdInput(std::unique_ptr<InputStream> packed)
     : packed_(std::move(packed)),
       context_(ZSTD_createDCtx()),
       in_(ZSTD_DStreamInSize()),

@@ -13,13 +13,11 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <istream>
 #include <memory>
-#include <streambuf>
 #include <string>
 #include <vector>
 
-#include "shared/replay/fault_telling_buffer.h"
+#include "shared/replay/byte_stream.h"
 
 namespace woodlouse::replay {
 
@@ -37,7 +35,7 @@ class ZstdInput : public FaultTellingBuffer {
   static constexpr std::uint64_t kMaxRatio =
       100;  ///< but for kMaxFrameBytes; a step's hash alone keeps it below 10
 
-  explicit ZstdInput(std::unique_ptr<std::istream> packed);
+  explicit ZstdInput(std::unique_ptr<InputStream> packed);
 
   [[nodiscard]] bool is_cut_off() const override { return is_drained_ && is_frame_open_; }
 
@@ -58,7 +56,7 @@ class ZstdInput : public FaultTellingBuffer {
   void restart(const ZstdFrame& frame);
   void find_frames();
 
-  std::unique_ptr<std::istream> packed_;
+  std::unique_ptr<InputStream> packed_;
   std::unique_ptr<ZSTD_DCtx, Release> context_;
   std::vector<char> in_;
   std::vector<char> out_;

@@ -29,7 +29,7 @@ std::uint32_t unsigned_at(std::span<const char> bytes, std::size_t at, std::size
 
 std::uint32_t u32_at(std::span<const char> bytes, std::size_t at) { return unsigned_at(bytes, at, 4); }
 
-bool read_at(std::istream& in, std::uint64_t at, std::span<char> bytes) {
+bool read_at(InputStream& in, std::uint64_t at, std::span<char> bytes) {
   in.clear();
   in.seekg(static_cast<std::streamoff>(at));
   in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -47,7 +47,7 @@ constexpr std::size_t kChecksumBytes = 4;
 class FrameWalk {
  public:
   /// `end`: where the last frame has to end.
-  FrameWalk(std::istream& packed, std::uint64_t end) : packed_(packed), end_(end) {}
+  FrameWalk(InputStream& packed, std::uint64_t end) : packed_(packed), end_(end) {}
 
   /// Goes to the end of the frame that begins here; nothing where none does.
   std::optional<std::uint64_t> pass_frame() {
@@ -93,7 +93,7 @@ class FrameWalk {
   }
 
   static constexpr std::uint64_t kPieceBytes = 1u << 16;
-  std::istream& packed_;
+  InputStream& packed_;
   std::uint64_t end_;
   std::uint64_t at_ = 0;
   std::vector<char> piece_;
@@ -114,7 +114,7 @@ void append_zstd_table(std::string& out, const std::vector<ZstdFrameSize>& frame
   append_u32(out, kSeekableMagic);
 }
 
-std::optional<ZstdTable> read_zstd_table(std::istream& packed) {
+std::optional<ZstdTable> read_zstd_table(InputStream& packed) {
   packed.clear();
   packed.seekg(0, std::ios::end);
   const auto end = static_cast<std::streamoff>(packed.tellg());

@@ -8,12 +8,13 @@
 #pragma once
 
 #include <cstdint>
-#include <istream>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "shared/replay/zstd_input.h"
+
+#include "shared/replay/byte_stream.h"
 
 namespace woodlouse::replay {
 
@@ -30,6 +31,6 @@ struct ZstdTable {
 void append_zstd_table(std::string& out, const std::vector<ZstdFrameSize>& frames);
 
 /// Nothing when the stream does not end with one that names its frames; moves the stream.
-std::optional<ZstdTable> read_zstd_table(std::istream& packed);
+std::optional<ZstdTable> read_zstd_table(InputStream& packed);
 
 }  // namespace woodlouse::replay
