@@ -42,7 +42,8 @@ void Play::advance(std::uint64_t count) {
     for (; next_event_ < events.size() && events[next_event_].step == match_.tick(); ++next_event_) {
       apply(events[next_event_]);
     }
-    for (const rules::Event& event : match_.advance().events) rulings_.push_back(to_text(event));
+    last_step_ = &match_.advance();
+    for (const rules::Event& event : last_step_->events) rulings_.push_back(to_text(event));
     if (match_.tick() == scenario_->goldens[hashes_.size()].tick) hashes_.push_back(match_.hash());
   }
 }

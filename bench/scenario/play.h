@@ -34,6 +34,8 @@ class Play {
   /// What the rules of play said so far, as texts (rules/event.h).
   [[nodiscard]] const std::vector<std::string>& rulings() const { return rulings_; }
   [[nodiscard]] const match::Match& match() const { return match_; }
+  /// What the last one did; until the next. REQUIRES one.
+  [[nodiscard]] const match::StepRecord& last_step() const { return *last_step_; }
 
  private:
   void apply(const Event& event);
@@ -45,6 +47,7 @@ class Play {
   std::vector<std::uint32_t> seqs_;  ///< the last one of each player, by number
   std::vector<std::uint64_t> hashes_;
   std::vector<std::string> rulings_;
+  const match::StepRecord* last_step_ = nullptr;
 };
 
 /// Plays all to their ends. Every thread takes the play that waited longest, a few steps at a time, so that a

@@ -24,7 +24,7 @@
 #include "shared/core/error.h"
 #include "shared/core/stable_hash.h"
 #include "shared/replay/archive.h"
-#include "shared/replay/fault_telling_buffer.h"
+#include "shared/replay/byte_stream.h"
 #include "shared/replay/inspect.h"
 #include "shared/replay/line_reader.h"
 #include "shared/replay/line_writer.h"
