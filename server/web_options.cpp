@@ -20,6 +20,11 @@ void add_web_options(CLI::App& app, TypedWeb& typed) {
          "A page's scheme://host:port that may open WebSockets, besides this server's own; several may "
          "be given")
       ->envname("WOODLOUSE_WEB_ORIGIN");
+  app.add_option(
+         "--web-root", typed.root,
+         "A folder with the page's files, read anew for each request, for who works on the page; left out: "
+         "those that were built in")
+      ->envname("WOODLOUSE_WEB_ROOT");
   app.add_option("--tls-cert", typed.certificate,
                  "PEM file of a certificate and those that vouch for it: TLS is spoken on --web, too; SIGHUP "
                  "reads it again")
@@ -31,6 +36,7 @@ void add_web_options(CLI::App& app, TypedWeb& typed) {
 core::Expected<std::optional<WebSettings>> checked_web(const TypedWeb& typed) {
   if (!typed.listen) {
     const char* useless = nullptr;
+    if (typed.root) useless = "--web-root";
     if (typed.key) useless = "--tls-key";
     if (typed.certificate) useless = "--tls-cert";
     if (!typed.origins.empty()) useless = "--web-origin";
@@ -43,8 +49,9 @@ core::Expected<std::optional<WebSettings>> checked_web(const TypedWeb& typed) {
                       "give both:  --tls-cert fullchain.pem --tls-key privkey.pem");
   auto address = parse_listen_address(*typed.listen, "--web", kDefaultWebPort);
   if (!address) return tl::unexpected(address.error());
-  WebSettings settings{std::move(*address), {}, std::nullopt};
+  WebSettings settings{std::move(*address), {}, std::nullopt, std::nullopt};
   if (typed.certificate) settings.tls = TlsFiles{*typed.certificate, *typed.key};
+  settings.root = typed.root;
   for (const std::string& text : typed.hosts) {
     auto host = checked_web_host(text);
     if (!host) return tl::unexpected(host.error());

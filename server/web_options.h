@@ -19,7 +19,7 @@ namespace woodlouse::server {
 struct TypedWeb {
   std::optional<std::string> listen;
   std::vector<std::string> hosts, origins;
-  std::optional<std::filesystem::path> certificate, key;
+  std::optional<std::filesystem::path> certificate, key, root;
 };
 
 void add_web_options(CLI::App& app, TypedWeb& typed);

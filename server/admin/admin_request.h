@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "server/net/web_answers.h"
+#include "server/web/web_answers.h"
 #include "shared/core/error.h"
 
 namespace woodlouse::server {

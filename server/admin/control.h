@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "server/admin/command.h"
-#include "server/net/web_answers.h"
+#include "server/web/web_answers.h"
 
 namespace woodlouse::server {
 

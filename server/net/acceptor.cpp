@@ -46,7 +46,7 @@ core::Expected<tcp::endpoint> Acceptor::open(const ListenAddress& address, Trust
 }
 
 core::Expected<tcp::endpoint> Acceptor::open_web(const WebSettings& settings) {
-  web_environment_.names = settings.names;
+  if (const auto used = web_environment_.use(settings); !used) return tl::unexpected(used.error());
   if (settings.tls) {
     auto tls = load_tls(*settings.tls);
     if (!tls) return tl::unexpected(tls.error());

@@ -12,7 +12,6 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/serializer.hpp>
-#include <boost/beast/http/string_body.hpp>
 #include <boost/beast/http/verb.hpp>
 #include <boost/beast/http/write.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
@@ -23,9 +22,10 @@
 #include <type_traits>
 #include <utility>
 
+#include "server/net/http_response.h"
 #include "server/net/tls_wire.h"
-#include "server/net/web_answers.h"
 #include "server/net/web_wire.h"
+#include "server/web/web_answers.h"
 
 namespace woodlouse::server {
 namespace {
@@ -40,10 +40,6 @@ constexpr std::size_t kBufferBytes = 2 * std::size_t{HttpDoor::kHeadBytes};  // 
 constexpr std::size_t kKeyLength = 24;  // of Sec-WebSocket-Key: 16 bytes in base64
 
 constexpr std::size_t kLineEnd = 2;  // "\r\n", which may stand at a message's end
-
-constexpr const char* kPolicy =
-    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; img-src 'self' data:; "
-    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
 /// What is refused of a head that could not be read. Nothing: the connection is broken or at its end.
 std::optional<WebAnswer> refusal_of(const error_code& error, bool may_ask) {
@@ -139,8 +135,9 @@ class StreamHttpDoor final : public HttpDoor, public std::enable_shared_from_thi
   beast::flat_buffer buffer_{kBufferBytes};
   std::optional<http::request_parser<http::empty_body>> parser_;
   std::uint32_t requests_ = 0;
-  http::response<http::string_body> response_;
-  std::optional<http::response_serializer<http::string_body>> serializer_;
+  WebAnswer answer_;  ///< whose bytes response_ has
+  HttpResponse response_;
+  std::optional<http::response_serializer<HttpResponse::body_type>> serializer_;
   bool is_answering_ = false;
   bool is_last_ = false;  ///< of the answer that is written
   bool is_stopping_ = false;
@@ -222,16 +219,17 @@ WebAnswer StreamHttpDoor<Stream>::judge() {
     if (field(http::field::sec_websocket_key).size() != kKeyLength)
       return refusal(400, "a WebSocket's key is 16 bytes in base64");
     const std::string why = why_no_upgrade();
-    return why.empty() ? WebAnswer{101, {}, {}} : refusal(403, why);
+    return why.empty() ? WebAnswer{.status = 101} : refusal(403, why);
   }
   const auto authority = parse_authority(host);
   assert(authority.has_value());
-  WebAnswer answered =
-      answer_to(target(), authority->host, environment_.directory,
-                {environment_.server_name, web_.lines_port,
-                 is_stopping_ || (environment_.doorman != nullptr && environment_.doorman->is_draining()),
-                 environment_.directory.is_too_late(now())});
-  asker_.account->charge(Spending::kAnswerBytes, static_cast<double>(answered.body.size()), now());
+  WebAnswer answered = answer_to(
+      {target(), authority->host, field(http::field::accept_encoding), field(http::field::if_none_match)},
+      environment_.directory,
+      {environment_.server_name, web_.lines_port,
+       is_stopping_ || (environment_.doorman != nullptr && environment_.doorman->is_draining()),
+       environment_.directory.is_too_late(now()), web_.pages.get()});
+  asker_.account->charge(Spending::kAnswerBytes, static_cast<double>(answered.content().size()), now());
   return answered;
 }
 
@@ -263,24 +261,10 @@ void StreamHttpDoor<Stream>::answer(WebAnswer answer, bool is_last) {
   environment_.traffic.answer(answer.status);
   is_answering_ = true;
   is_last_ = is_last;
-  response_ = {};
-  response_.version(11);
-  response_.result(answer.status);
-  response_.set(http::field::server, "woodlouse");
-  response_.set(http::field::content_type, {answer.type.data(), answer.type.size()});
-  response_.set(http::field::cache_control, "no-store");
-  response_.set("Content-Security-Policy", kPolicy);
-  response_.set("X-Content-Type-Options", "nosniff");
-  response_.set("Referrer-Policy", "no-referrer");
-  response_.set("Cross-Origin-Opener-Policy", "same-origin");
-  if (answer.status == 405) response_.set(http::field::allow, "GET, HEAD");
-  if (answer.status == 426) response_.set(http::field::upgrade, "websocket");
-  if (answer.status == 429 || answer.status == 503) response_.set(http::field::retry_after, "1");
-  response_.keep_alive(!is_last);
-  response_.body() = std::move(answer.body);
-  response_.prepare_payload();
+  answer_ = std::move(answer);
+  response_ = make_response(answer_, !is_last);
   serializer_.emplace(response_);
-  end_at(now() + kPatience);
+  end_at(now() + kPatience + std::chrono::seconds(answer_.content().size() / kSlowest));
   auto answered = [self = this->shared_from_this()](const error_code& error, std::size_t) {
     self->on_answered(error);
   };
@@ -331,6 +315,14 @@ void StreamHttpDoor<Stream>::close() {
 }
 
 }  // namespace
+
+core::Expected<void> WebEnvironment::use(const WebSettings& settings) {
+  auto chosen = chosen_pages(settings.root);
+  if (!chosen) return tl::unexpected(chosen.error());
+  names = settings.names;
+  pages = std::move(*chosen);
+  return {};
+}
 
 std::shared_ptr<HttpDoor> make_http_door(asio::ip::tcp::socket socket, const SessionEnvironment& environment,
                                          const WebEnvironment& web, HttpDoor::Asker asker,

@@ -17,13 +17,18 @@
 #include "server/net/session.h"
 #include "server/net/web_names.h"
 #include "server/net/wire.h"
+#include "server/web/page_files.h"
 
 namespace woodlouse::server {
 
 /// What all HTTP sockets share, besides what sessions do; outlives them.
 struct WebEnvironment {
   WebNames names;
-  std::uint16_t lines_port = 0;  ///< where the server speaks first
+  std::uint16_t lines_port = 0;              ///< where the server speaks first
+  std::unique_ptr<const PageFiles> pages{};  ///< null: there is no page
+
+  /// Errors: the page's folder can't be opened.
+  core::Expected<void> use(const WebSettings& settings);
 };
 
 struct TlsConnection;
@@ -31,7 +36,9 @@ struct TlsConnection;
 class HttpDoor {
  public:
   static constexpr Duration kPatience = std::chrono::seconds(10);  ///< for a head, and for an answer
-  static constexpr Duration kLinger = std::chrono::seconds(1);     ///< for what is not read, after the last
+  static constexpr std::size_t kSlowest =
+      16384;  ///< [bytes/s] a long answer has longer, read as slowly as this
+  static constexpr Duration kLinger = std::chrono::seconds(1);  ///< for what is not read, after the last
   static constexpr std::uint32_t kHeadBytes = 8192;
   static constexpr std::uint32_t kMostRequests = 100;
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -44,7 +45,8 @@ struct WebNames {
 struct WebSettings {
   ListenAddress listen;
   WebNames names;
-  std::optional<TlsFiles> tls;  ///< none: TLS is not spoken
+  std::optional<TlsFiles> tls;                  ///< none: TLS is not spoken
+  std::optional<std::filesystem::path> root{};  ///< a folder with the page's files; none: those built in
 };
 
 // As typed, checked. Errors: where = the option.

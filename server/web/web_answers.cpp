@@ -1,6 +1,7 @@
-#include "server/net/web_answers.h"
+#include "server/web/web_answers.h"
 
 #include <cassert>
+#include <optional>
 #include <utility>
 
 #include "shared/core/joined.h"
@@ -55,18 +56,39 @@ WebAnswer rooms_array(const Directory& directory) {
   return {200, "application/json", line.substr(begin, end + 1 - begin) + '\n'};
 }
 
+std::optional<WebAnswer> page_file(const PageFiles& pages, std::string_view path,
+                                   const WebQuestion& question) {
+  auto file = pages.find(path, takes_gzip(question.accept_encoding));
+  if (!file) return std::nullopt;
+  WebAnswer answer;
+  answer.type = file->type;
+  answer.cache = file->is_for_good ? "public, max-age=31536000, immutable" : "no-cache";
+  answer.etag = std::move(file->etag);
+  answer.varies = file->varies;
+  if (has_already(question.if_none_match, answer.etag)) {
+    answer.status = 304;
+    return answer;
+  }
+  answer.is_packed = file->is_packed;
+  answer.fixed = file->bytes;
+  answer.body = std::move(file->read);
+  return answer;
+}
+
 }  // namespace
 
-WebAnswer answer_to(std::string_view target, std::string_view host, const Directory& directory,
-                    const WebFacts& facts) {
-  const std::string_view path = target.substr(0, target.find('?'));
-  if (path == "/") return front_page(host, directory, facts);
+WebAnswer answer_to(const WebQuestion& question, const Directory& directory, const WebFacts& facts) {
+  const std::string_view path = question.target.substr(0, question.target.find('?'));
+  if (path == "/about") return front_page(question.host, directory, facts);
   if (path == "/rooms") return rooms_array(directory);
   if (path == "/healthz") return refusal(200, "ok");
   if (path == "/readyz") {
     if (facts.is_stopping) return refusal(503, "the server stops");
     return facts.are_ticks_overdue ? refusal(503, "ticks are overdue") : refusal(200, "ready");
   }
+  if (facts.pages != nullptr)
+    if (auto file = page_file(*facts.pages, path, question)) return std::move(*file);
+  if (path == "/") return front_page(question.host, directory, facts);
   return refusal(404, "there is no such page: / says what there is");
 }
 

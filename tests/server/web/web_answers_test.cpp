@@ -1,4 +1,4 @@
-#include "server/net/web_answers.h"
+#include "server/web/web_answers.h"
 
 #include <catch2/catch.hpp>
 
@@ -15,7 +15,8 @@ namespace {
 WebAnswer asked(const std::string& target, const std::string& room = "volcano", bool is_stopping = false,
                 bool are_ticks_overdue = false) {
   const FakeDirectory directory({std::make_shared<FakeDoor>(room)});
-  return answer_to(target, "10.0.0.1", directory, {"woodlouse <1.2>", 7777, is_stopping, are_ticks_overdue});
+  return answer_to({target, "10.0.0.1"}, directory,
+                   {"woodlouse <1.2>", 7777, is_stopping, are_ticks_overdue});
 }
 
 bool has(const WebAnswer& answer, std::string_view text) {
@@ -58,6 +59,29 @@ TEST_CASE("of a page that is not there nothing comes back") {
     CHECK(answer.status == 404);
     CHECK(answer.body == asked("/x").body);
   }
+}
+
+TEST_CASE("where there is a page it is at /, and what this is at /about") {
+  const EmbeddedFile kFiles[] = {{"index.html", "<!doctype html>", ""}, {"page.js", "export {};", "packed"}};
+  const auto pages = built_in_pages({"00c0ffee00c0ffee", kFiles});
+  const FakeDirectory directory({std::make_shared<FakeDoor>("volcano")});
+  const auto ask = [&](WebQuestion question) {
+    question.host = "10.0.0.1";
+    return answer_to(question, directory, {"woodlouse", 7777, false, false, pages.get()});
+  };
+  const WebAnswer page = ask({"/?room=volcano", ""});
+  CHECK(page.content() == "<!doctype html>");
+  CHECK(page.cache == "no-cache");
+  CHECK(has(ask({"/about", ""}), "nc 10.0.0.1 7777\n"));
+  CHECK(ask({"/rooms", ""}).type == "application/json");
+
+  const WebAnswer script = ask({"/00c0ffee00c0ffee/page.js", "", "gzip"});
+  CHECK((script.is_packed && script.varies && script.content() == "packed"));
+  CHECK(script.cache == "public, max-age=31536000, immutable");
+  const WebAnswer again = ask({"/00c0ffee00c0ffee/page.js", "", "gzip", script.etag});
+  CHECK((again.status == 304 && again.content().empty() && again.etag == script.etag));
+  CHECK(ask({"/00c0ffee00c0ffee/page.js", "", "", script.etag}).status == 200);
+  CHECK(ask({"/00c0ffee00c0ffee/other.js", ""}).status == 404);
 }
 
 }  // namespace woodlouse::server::web_answers_test

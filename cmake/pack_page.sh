@@ -1,0 +1,46 @@
+#!/bin/sh
+# pack_page.sh OUT PAGE CORE: the page's files and core.wasm as a C++ file that has them in it (server/web/page_files.h).
+# Comments that are lines of their own become empty lines, so that a line's number stays what it is. index.html names its
+# scripts and styles below the version of all files together, which are therefore good for ever.
+set -eu
+out=$1 page=$2 core=$3
+rm -rf "$out/files"
+mkdir -p "$out/files"
+names=$(cd "$page" && find . -type f \( -name '*.html' -o -name '*.css' -o -name '*.js' -o -name '*.svg' -o -name '*.png' \) | sed 's#^\./##' | LC_ALL=C sort)
+for name in $names; do
+  mkdir -p "$(dirname "$out/files/$name")"
+  case $name in
+    *.js|*.css)
+      sed -E -e 's#^[[:space:]]*//.*##' -e 's#^[[:space:]]*/\*.*\*/[[:space:]]*$##' \
+        -e '\#^[[:space:]]*/\*([^*]|\*[^/]|\*$)*$#,\#\*/#s#.*##' "$page/$name" > "$out/files/$name" ;;
+    *) cp "$page/$name" "$out/files/$name" ;;
+  esac
+done
+cp "$core" "$out/files/core.wasm"
+names="$names
+core.wasm"
+version=$(cd "$out/files" && sha256sum $names | sha256sum | cut -c1-16)
+sed -E "s#(href|src)=\"(\./)?([A-Za-z0-9_][A-Za-z0-9_./-]*\.(js|css|svg|png))\"#\1=\"/$version/\3\"#g" "$page/index.html" > "$out/files/index.html"
+
+{
+  echo '// Made by cmake/pack_page.sh.'
+  echo '#include "server/web/page_files.h"'
+  number=0
+  table=
+  for name in $names; do
+    file=$out/files/$name
+    size=$(wc -c < "$file")
+    gzip -9nc "$file" > "$file.gz"
+    packed=$(wc -c < "$file.gz")
+    for form in "" .gz; do
+      printf 'asm(".pushsection .rodata; .globl %s; %s: .incbin \\"%s\\"; .popsection");\n' \
+        "woodlouse_page_$number${form:+_packed}" "woodlouse_page_$number${form:+_packed}" "$file$form"
+    done
+    echo "extern \"C\" const char woodlouse_page_$number[], woodlouse_page_${number}_packed[];"
+    [ "$packed" -lt "$size" ] || packed=0
+    table="$table    {\"$name\", {woodlouse_page_$number, $size}, {woodlouse_page_${number}_packed, $packed}},
+"
+    number=$((number + 1))
+  done
+  printf 'namespace woodlouse::server {\nEmbeddedPage embedded_page() {\n  static const EmbeddedFile kFiles[] = {\n%s  };\n  return {"%s", kFiles};\n}\n}  // namespace woodlouse::server\n' "$table" "$version"
+} > "$out/embedded_page.cpp"
