@@ -11,6 +11,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <optional>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -23,13 +24,26 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kStartTimeout = 5s;
 constexpr auto kStopTimeout = 1s;
-constexpr std::string_view kListening = "listening ";
+constexpr std::string_view kListening = "listening ", kWeb = "web ";
+constexpr const char* kUsualWeb = "127.0.0.1:7778";
+constexpr const char* kAnyWeb = "127.0.0.1:0";
 constexpr std::size_t kLastWords = 400;  // bytes of its standard error shown when it fails
 
 std::filesystem::path own_folder() {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
   return error ? std::filesystem::path(".") : self.parent_path();
+}
+
+/// What follows `word` on the whole line that begins with it.
+std::optional<std::string_view> line_behind(std::string_view text, std::string_view word) {
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    if (end == std::string_view::npos) return std::nullopt;
+    if (text.starts_with(word)) return text.substr(word.size(), end - word.size());
+    text.remove_prefix(end + 1);
+  }
+  return std::nullopt;
 }
 
 struct Pipe {
@@ -58,7 +72,15 @@ core::Expected<Pipe> make_pipe() {
 
 }  // namespace
 
+/// Another server has the usual port already, or one that was started at this moment.
 core::Expected<std::unique_ptr<LocalServer>> LocalServer::start(const LocalServerSettings& settings) {
+  auto started = start(settings, kUsualWeb);
+  const bool is_taken = !started && started.error().text().find(kUsualWeb) != std::string::npos;
+  return is_taken ? start(settings, kAnyWeb) : std::move(started);
+}
+
+core::Expected<std::unique_ptr<LocalServer>> LocalServer::start(const LocalServerSettings& settings,
+                                                                const char* web) {
   const std::string program = (own_folder() / "woodlouse-server").string();
   if (access(program.c_str(), X_OK) != 0) {
     return core::fail("local server", program + ": " + std::strerror(errno),
@@ -74,8 +96,9 @@ core::Expected<std::unique_ptr<LocalServer>> LocalServer::start(const LocalServe
 
   const std::string map = settings.map.string();
   const std::string bots = std::to_string(settings.bots);
-  const std::array<const char*, 8> arguments = {program.c_str(), "--map",  map.c_str(),  "--listen",
-                                                "127.0.0.1:0",   "--bots", bots.c_str(), nullptr};
+  const std::array arguments = {
+      program.c_str(), "--map", map.c_str(), "--listen",   "127.0.0.1:0",
+      "--web",         web,     "--bots",    bots.c_str(), static_cast<const char*>(nullptr)};
   const pid_t parent = getpid();
   const pid_t child = fork();
   if (child == 0) become(arguments.data(), parent, output->write, log->write);
@@ -101,13 +124,13 @@ core::Expected<void> LocalServer::wait_until_listening() {
     if (size < 0 && errno == EINTR) continue;
     if (size <= 0) return core::fail("local server", "it ended before it listened", last_words());
     said.append(bytes.data(), static_cast<std::size_t>(size));
-    const std::size_t begin = said.find(kListening);
-    const std::size_t end = begin == std::string::npos ? begin : said.find('\n', begin);
-    if (end == std::string::npos) continue;
-    auto address = parse_address(
-        std::string_view(said).substr(begin + kListening.size(), end - begin - kListening.size()));
+    const auto listening = line_behind(said, kListening);
+    const auto web = line_behind(said, kWeb);
+    if (!listening || !web) continue;
+    auto address = parse_address(*listening);
     if (!address) return tl::unexpected(address.error());
     address_ = *address;
+    page_ = *web;
     return {};
   }
 }

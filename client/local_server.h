@@ -20,7 +20,7 @@ struct LocalServerSettings {
 
 class LocalServer {
  public:
-  /// Starts it and waits for `listening HOST:PORT`, at most 5 s. Error: what it said instead.
+  /// Starts it and waits for `listening HOST:PORT` and `web URL`, at most 5 s. Error: what it said instead.
   static core::Expected<std::unique_ptr<LocalServer>> start(const LocalServerSettings& settings);
   /// SIGTERM, then after 1 s SIGKILL.
   ~LocalServer();
@@ -28,6 +28,8 @@ class LocalServer {
   LocalServer& operator=(const LocalServer&) = delete;
 
   [[nodiscard]] const Address& address() const { return address_; }
+  /// Where browsers find its page, "http://127.0.0.1:7778/"; another port where that is taken.
+  [[nodiscard]] const std::string& page() const { return page_; }
   /// Whether it still runs; reaps it when not, and takes in what it said. Call it now and then.
   [[nodiscard]] bool alive();
   /// The end of its standard error, for a person who asks why it ended.
@@ -35,6 +37,8 @@ class LocalServer {
 
  private:
   LocalServer(pid_t process, int output, int log) : process_(process), output_(output), log_(log) {}
+  static core::Expected<std::unique_ptr<LocalServer>> start(const LocalServerSettings& settings,
+                                                            const char* web);
   core::Expected<void> wait_until_listening();
 
   pid_t process_;  ///< 0 once it is reaped
@@ -42,6 +46,7 @@ class LocalServer {
   int log_;     ///< read end of its standard error, non-blocking; owned
   std::string words_;  ///< the last of its standard error
   Address address_;
+  std::string page_;
 };
 
 }  // namespace woodlouse::client

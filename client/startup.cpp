@@ -63,12 +63,13 @@ std::string driving_keys(const Config& config) {
          " turn" + cruise;
 }
 
-void introduce(const Config& config, const Session& session, const Look& look) {
+void introduce(const Config& config, const Session& session, const LocalServer& local, const Look& look) {
   const RoomView& room = session.room();
   std::cout << "woodlouse " WOODLOUSE_VERSION
                " - wood-lice on a spline hill.   (no server given: started here)\n\n"
             << "  server   listening " << session.connection().address().text() << "\n"
-            << "  map      " << room.welcome()->map_name << "   3 bots\n";
+            << "  map      " << room.welcome()->map_name << "   3 bots\n"
+            << "  page     " << local.page() << "   the same room in a browser\n";
   if (config.part == Part::kPlay)
     std::cout << "  you      \"" << config.name << "\"   change with --name or WOODLOUSE_NAME\n"
               << "  keys     " << driving_keys(config) << "\n";
@@ -111,7 +112,7 @@ Outcome play(boost::asio::io_context& context, Session& session, const Config& c
   GameSettings settings{look,        config.view,  config.fps,  Overlay::kNone,
                         config.keys, config.steer, config.bell, data_of(config)};
   if (local != nullptr) {
-    introduce(config, session, look);
+    introduce(config, session, *local, look);
     const auto first = await_key(context, terminal.keys());
     const Key* const key = first ? std::get_if<Key>(&*first) : nullptr;
     if (key != nullptr && is_leaving(*key, config.keys)) return {};
