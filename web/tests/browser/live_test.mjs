@@ -146,6 +146,41 @@ test('a race is told in words, with a ghost to race where there is a record', as
   await until(page, () => document.querySelector('#said').textContent.includes('starts again'));
 });
 
+/** A page of its own, to which each message of the server's comes as `change` makes it. */
+async function misled(change) {
+  const other = await context.newPage();
+  await other.addInitScript(() => {
+    window.changed = 0;
+    const Plain = window.WebSocket;
+    window.WebSocket = class extends Plain {
+      set onmessage(take) { super.onmessage = (event) => take({ data: window.change(event.data) }); }
+    };
+  });
+  await other.addInitScript(change);
+  return other;
+}
+
+test('a stream that differs from what is re-run is told in red with its tick, and watched by frames from then on', async () => {
+  const other = await misled(() => {
+    window.change = (data) => (/^\{"step"/m.test(data) && ++window.changed === 40 ? data.replace(/"hash":"(.)/, (_, digit) => `"hash":"${digit === '0' ? '1' : '0'}`) : data);
+  });
+  await shown(other, `${served.web}?room=hills`);
+  await until(other, () => /^differs at tick \d+: hash/.test(document.querySelector('#proof').textContent) && !window.woodlouse.room.welcome?.stream && window.woodlouse.room.lice.length === 4);
+  assert.match(await other.getAttribute('#proof', 'class'), /bad/);
+  await other.close();
+});
+
+test('a server of another behavior is shown, but nothing is predicted or proven, and the page says so', async () => {
+  const other = await misled(() => { window.change = (data) => data.replace(/"behavior":\d+/, '"behavior":99'); });
+  await shown(other, `${served.web}?room=hills&play`);
+  await until(other, () => window.woodlouse.room.own.pilot && /no proof: the server computes by behavior 99/.test(document.querySelector('#proof').textContent));
+  assert.equal(await known(other, () => window.woodlouse.room.own.pilot.prediction), null);
+  await other.keyboard.down('w');
+  await until(other, () => Math.hypot(window.woodlouse.room.louse(window.woodlouse.room.you)?.vx, window.woodlouse.room.louse(window.woodlouse.room.you)?.vy) > 0.1);
+  await other.keyboard.up('w');
+  await other.close();
+});
+
 test('a room that plays one game after the other begins the next one on the same line', async () => {
   const turns = await Served.start('--map', 'crater_loop', 'picnic', '--rotate', '1', '--bots', '2');
   try {
