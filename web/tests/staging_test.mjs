@@ -30,7 +30,7 @@ function staged(scene, { f = hill, more = {}, view = 'orbit', now = 1000, width 
   return { staging, camera, relief };
 }
 function check(staging) {
-  for (const what of ['solid', 'decals', 'air', 'ribbons']) {
+  for (const what of ['solid', 'decals', 'air', 'through', 'ribbons']) {
     const { data, count } = staging[what];
     for (let k = 0; k < 8 * count; k++) if (!Number.isFinite(data[k])) assert.fail(`${what}: number ${k % 8} of vertex ${k >> 3} is ${data[k]}`);
     for (let k = 0; k < count; k++) assert.ok(data[8 * k + 7] >= 0 && data[8 * k + 7] <= 1.0001, `${what}: alpha ${data[8 * k + 7]}`);

@@ -198,6 +198,8 @@ export class Drawing {
     ghosts.draw(camera, hides);
     this.flush(staging.air, 2, matrix, 0, hides);
     this.flush(scenery.walls, 3, matrix, 0, hides);
+    gl.disable(gl.DEPTH_TEST);
+    this.flush(staging.through, 2, matrix, 0, false);
     gl.bindVertexArray(null);
     if (hides) this.still?.showDepths(false);
   }

@@ -28,6 +28,8 @@ export class Staging {
     this.solid = new Batch();
     this.decals = new Batch();
     this.air = new Batch();
+    /** What is seen through hills, too. */
+    this.through = new Batch();
     this.ribbons = new Ribbons(32768);
     this.trails = new Trails();
     this.data = new Float32Array(16 * 256);
@@ -89,7 +91,7 @@ export class Staging {
   stage(scene, look, now, width, height) {
     const { camera, palette } = look, marks = scene.marks ?? {}, relief = this.relief;
     if (!relief) return;
-    for (const batch of [this.solid, this.decals, this.air]) batch.count = 0;
+    for (const batch of [this.solid, this.decals, this.air, this.through]) batch.count = 0;
     this.ribbons.begin(camera.matrix, width, height);
     this.instances = 0;
     this.names = [];
@@ -183,7 +185,9 @@ export class Staging {
     const ring = (radius, width, colour, alpha) => this.decals.circle(this.heightAt, at.x, at.y, radius, width, lift, colour, alpha, 0);
     ring(r, wide * 2.6, BLACK, .4);
     ring(r, wide, isYou ? c : WHITE, 1);
-    if (isYou) ring(r - wide * 1.8, wide * .8, WHITE, 1);
+    if (!isYou) return;
+    ring(r - wide * 1.8, wide * .8, WHITE, 1);
+    this.through.circle(this.heightAt, at.x, at.y, r, wide, lift, c, .4, 0);
   }
 
   /** @private @param {Louse} louse @param {{x: number, y: number, z: number}} at @param {[number, number, number]} c @param {boolean} own @param {number} ratio pixels a CSS pixel
