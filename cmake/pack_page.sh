@@ -20,7 +20,7 @@ cp "$core" "$out/files/core.wasm"
 names="$names
 core.wasm"
 version=$(cd "$out/files" && sha256sum $names | sha256sum | cut -c1-16)
-sed -E "s#(href|src)=\"(\./)?([A-Za-z0-9_][A-Za-z0-9_./-]*\.(js|css|svg|png))\"#\1=\"/$version/\3\"#g" "$page/index.html" > "$out/files/index.html"
+sed -E "s#(href|src)=\"(\./)?([A-Za-z0-9_][A-Za-z0-9_./-]*\.(js|css|svg|png|wasm))\"#\1=\"/$version/\3\"#g" "$page/index.html" > "$out/files/index.html"
 
 {
   echo '// Made by cmake/pack_page.sh.'

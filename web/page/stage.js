@@ -164,7 +164,7 @@ export class Stage {
 
   frame(now) {
     requestAnimationFrame((next) => this.frame(next));
-    const { source, picture } = this, seconds = now / 1000;
+    const { source, picture } = this, seconds = performance.now() / 1000;  // what is sent bears the time at which it is, not the picture's
     if (this.isPlaying) this.room?.own.steering.lookAlong(this.picture.camera.azimuth);
     source?.update(seconds);
     if (source?.ground) {

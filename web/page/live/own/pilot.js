@@ -4,13 +4,13 @@
 import { Prediction } from './prediction.js';
 import { DriveLog } from './ghosts.js';
 
-const SAFETY = 0.012, FIRST_SAFETY = 0.05, MOST = 1;      // s
+const SAFETY = 0.025, FIRST_SAFETY = 0.08, MOST = 1;      // s; and half of what needs have differed by
 const ACKS = 40, RISE = 0.25, SINK = 0.02;                // s a second
 /** What is too much by more than SPARE [s] goes faster, so much of it a second. */
 const SPARE = 0.05, SINK_SPARE = 0.4;
 
 /** How far ahead of arriving frames inputs are stamped: they must reach the server before the step they ask for. Each
- * ack's margin says how much was needed then; the largest need of the last ACKS and a little more is the lead. Before
+ * ack's margin says how much was needed then; the largest need of the last ACKS, and more the more they differ, is the lead. Before
  * there are any, a usual round trip and what may come on top of it: the longest may have waited for this page. */
 export class Lead {
   /** @type {number[]} */ #needs = [];
@@ -37,8 +37,9 @@ export class Lead {
 
   /** Ticks. */
   ticks(now) {
-    const seconds = this.#needs.length ? Math.max(...this.#needs) / this.hz + SAFETY
-                                       : ([...this.#trips].sort((a, b) => a - b)[this.#trips.length >> 1] ?? 0) + FIRST_SAFETY;
+    const needs = this.#needs, largest = Math.max(...needs);
+    const seconds = needs.length ? (largest + 0.5 * (largest - Math.min(...needs))) / this.hz + SAFETY
+                                 : ([...this.#trips].sort((a, b) => a - b)[this.#trips.length >> 1] ?? 0) + FIRST_SAFETY;
     const wanted = Math.min(MOST, seconds) * this.hz + 1;
     const passed = Math.max(0, now - this.#at);
     this.#at = now;
