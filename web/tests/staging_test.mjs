@@ -13,7 +13,7 @@ const louse = (id, x, y, more = {}) => ({ id, colour: id, phase: 0, x, y, vx: 1,
 const MARKS = {
   gates: [{ a: [-5, 2], b: [-5, -2], number: 1, state: 'passed' }, { a: [5, 2], b: [5, -2], number: 2, state: 'next' }, { a: [18, 18], b: [19.4, 19], number: 3, state: 'later', air: true }],
   crumbs: [{ x: 0, y: 4, value: 1 }, { x: -19, y: 19, value: 3 }],
-  ghosts: [{ ...louse(0, 3, 3), name: undefined, kind: 'record' }],
+  ghosts: [{ ...louse(0, 3, 3), name: undefined, colour: undefined, kind: 'record' }],
   arrow: { x: 20, y: 20 },
 };
 
@@ -62,7 +62,8 @@ test('you are told by a badge with your colour, before all others; ghosts are ou
   const you = staging.names.find(n => n.text === 'you');
   assert.ok(you && you.badge && you.rank === Infinity && you.colour === 0xff3870);
   assert.deepEqual([0, 1, 2, 3].map(k => staging.data[16 * k + 11]), [0, 0, 1, 1]);
-  assert.ok(staging.names.some(n => n.text === 'record'));
+  const record = staging.names.find(n => n.text === 'record');
+  assert.ok(record && record.colour > 0, 'a ghost without a colour has that of its kind');
   assert.deepEqual(staging.shown.filter(s => s.id !== 0).map(s => s.id).sort(), [1, 2, 3]);
 });
 
@@ -142,4 +143,12 @@ test('trails of a held recording stay, and go on with it', () => {
   assert.ok(moving > 20 && Math.abs(held - moving) <= 2, `${moving} ${held}`);
   show(5, .15);
   assert.ok(staging.trails.trails.get(1).count > 10);
+});
+
+test('lice at no place that can be drawn are left out, and the camera stays with what can', () => {
+  const wild = [[NaN, 0], [Infinity, 0], [0, -Infinity], [1e300, 1e300], [undefined, 0]].map(([x, y], k) => louse(10 + k, x, y));
+  const { staging, camera } = staged({ lice: [louse(1, 5, 5), ...wild, louse(20, 0, 0, { phase: 2, flight_z: NaN })], follow: 10 }, { view: 'follow' });
+  check(staging);
+  assert.equal(staging.instances, 1);
+  assert.ok(camera.matrix.every(Number.isFinite));
 });

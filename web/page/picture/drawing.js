@@ -59,9 +59,9 @@ export class Drawing {
       layOut(gl, [[0, 4], [1, 4]]);
       return { array, buffer, room: 4096 };
     });
-    /** The whole picture; the ground alone, where drawing it again costs more than copying it. @type {Surface | null} */
+    /** Where a graphics card draws: the picture, with several samples a pixel. @type {Surface | null} */
     this.surface = null;
-    /** @type {Surface | null} */
+    /** Where a processor draws: the ground before a camera that stands. @type {Surface | null} */
     this.still = null;
     this.key = '';
     this.kept = 0;

@@ -11,7 +11,7 @@ import { clamp } from './vectors.js';
  * A louse with the wire's names (id, phase, x, y, vx, vy, heading_x, heading_y, flight_z, flight_vz, distance), the
  * ground under it (z, zx, zy), its name and the number of its colour.
  * @typedef {{id: any, phase: number, x: number, y: number, vx: number, vy: number, heading_x: number, heading_y: number,
- *   flight_z: number, flight_vz: number, distance: number, z: number, zx: number, zy: number, name?: string, colour?: number,
+ *   flight_z: number, flight_vz: number, distance: number, z: number, zx: number, zy: number, name?: string, colour?: number | 'you',
  *   isYou?: boolean, isGhost?: boolean, outline?: boolean, kind?: string}} Louse
  */
 /** @typedef {{lice: Louse[], you?: any, follow?: any, marks?: import('./marks.js').Marks | null, trails?: boolean}} Scene */
@@ -21,7 +21,11 @@ const HALF = .62, LEAST = 10.5, LEAST_OF_MANY = 6.5, MANY = 60;
 const FLYING = 2;
 /** @type {[number, number, number]} */
 const WHITE = [1, 1, 1], BLACK = /** @type {[number, number, number]} */ ([0, 0, 0]);
-const GHOSTS = /** @type {Record<string, string>} */ ({ record: 'record', author: 'author', own: 'your last' });
+/** Ghosts' names and colours, where they have none of their own. @type {Record<string, [string, number | 'you']>} */
+const GHOSTS = { record: ['record', 0], author: ['author', 3], own: ['your last', 'you'] };
+
+/** Whether a place is one that can be drawn; it came from afar. @param {{x: number, y: number, z: number}} place */
+const isSomewhere = ({ x, y, z }) => Math.abs(x) + Math.abs(y) + Math.abs(z) < 1e7;
 
 export class Staging {
   constructor() {
@@ -43,6 +47,8 @@ export class Staging {
     this.shown = [];
     /** The height of the drawn ground. @type {(x: number, y: number) => number} */
     this.heightAt = () => 0;
+    /** What stage() was given last. @type {{camera: import('./camera.js').Camera, theme: import('./colours.js').ThemeName} | undefined} */
+    this.look = undefined;
     this.seconds = 0;
     this.goal = GOALS.default;
     this.leap = Infinity;
@@ -81,8 +87,8 @@ export class Staging {
   /** Where the louse to follow is, or was last. @param {Scene} scene @param {any} id */
   find(scene, id) {
     if (!id) return null;
-    const louse = scene.lice.find(l => l.id === id && !l.isGhost);
-    if (louse) this.lastFollowed = { id, ...this.placeOf(louse) };
+    const louse = scene.lice.find(l => l.id === id && !l.isGhost), at = louse && this.placeOf(louse);
+    if (at && isSomewhere(at)) this.lastFollowed = { id, ...at };
     return this.lastFollowed?.id === id ? this.lastFollowed : null;
   }
 
@@ -120,10 +126,14 @@ export class Staging {
       this.nameGates(gates, board);
     }
     if (marks.crumbs) drawCrumbs(board, marks.crumbs.map(crumb => this.near(crumb)));
-    const lice = marks.ghosts?.length ? scene.lice.concat(marks.ghosts.map((g, k) => ({ ...g, id: `ghost ${k}`, isGhost: true, name: g.name ?? GHOSTS[g.kind] ?? 'ghost' }))) : scene.lice;
+    const lice = marks.ghosts?.length ? scene.lice.concat(marks.ghosts.map((g, k) => {
+      const [name, colour] = GHOSTS[g.kind] ?? ['ghost', 0];
+      return { ...g, id: `ghost ${k}`, isGhost: true, name: g.name ?? name, colour: g.colour ?? colour };
+    })) : scene.lice;
     for (const louse of lice) {
-      const at = this.near(this.placeOf(louse)), isYou = louse.isYou ?? (louse.id === scene.you && !louse.isGhost);
-      const isGhost = !!(louse.isGhost || louse.outline), own = isYou || louse.id === followed;
+      const at = this.near(this.placeOf(louse));
+      if (!isSomewhere(at)) continue;
+      const isYou = louse.isYou ?? (louse.id === scene.you && !louse.isGhost), isGhost = !!(louse.isGhost || louse.outline), own = isYou || louse.id === followed;
       const colour = louseColour(palette, isYou ? 'you' : louse.colour ?? louse.id), c = rgb(colour);
       const half = size(at.x, at.y, at.z) * (isYou ? 1.12 : 1);
       if (isDue && !isGhost) this.trails.add(louse.id, at.x, at.y, at.z, this.leap);
@@ -169,7 +179,7 @@ export class Staging {
     d[k + 7] = louse.distance / half * 4;
     d[k + 11] = isGhost ? 1 : 0;
     const ink = isGhost && this.look?.theme === 'light' ? .4 : 1;  // outlines are dark on what is bright
-    d[k + 12] = c[0] * ink, d[k + 13] = c[1] * ink, d[k + 14] = c[2] * ink, d[k + 15] = isYou ? 0 : Math.floor((louse.colour ?? louse.id) / OTHERS) % 4 || 0;
+    d[k + 12] = c[0] * ink, d[k + 13] = c[1] * ink, d[k + 14] = c[2] * ink, d[k + 15] = isYou ? 0 : Math.floor(Number(louse.colour ?? louse.id) / OTHERS) % 4 || 0;
     // on the ground below it
     const ground = isFlying ? this.heightAt(at.x, at.y) : at.z, high = Math.max(0, at.z - ground), lift = half * .07;
     const fx = hx * half, fy = hy * half, rise = s => [s * fx, s * fy, s * (zx * fx + zy * fy)], side = s => [-s * fy, s * fx, s * (zy * fx - zx * fy)];
