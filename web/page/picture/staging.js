@@ -4,6 +4,7 @@ import { bodyAxes } from './louse.js';
 import { Batch } from './batch.js';
 import { GOALS, OTHERS, louseColour, rgb } from './colours.js';
 import { POSTS, centreOf, drawCrumbs, drawGates, drawRing, drawSun, middleOf } from './marks.js';
+import { arrowTo } from './names.js';
 import { POINTS, Ribbons, Trails } from './trails.js';
 import { clamp } from './vectors.js';
 
@@ -145,10 +146,10 @@ export class Staging {
       const rank = isYou ? Infinity : own ? 1e6 : isGhost ? 1e3 : 1 / p.w;
       this.names.push({ key: louse.id, text: isYou ? 'you' : String(louse.name ?? '#' + louse.id), colour, badge: isYou, x: p.x, y: p.y, reach: pixels * (own ? 1.35 : .8) + 3, rank });
       if (scene.trails !== false && !isGhost) this.trail(louse, at, c, own, ratio, lice.length > MANY);
-      if (isYou) this.pointAt(at, colour, camera, false);
+      if (isYou) this.arrows.push(...arrowTo(at, colour, camera, 0));
     }
     if (isDue) this.trails.sweep();
-    if (marks.arrow) this.pointAt({ ...this.near(marks.arrow), z: this.heightAt(marks.arrow.x, marks.arrow.y) }, GOALS[palette], camera, true);
+    if (marks.arrow) this.arrows.push(...arrowTo({ ...this.near(marks.arrow), z: this.heightAt(marks.arrow.x, marks.arrow.y) }, GOALS[palette], camera, 34 + 3 * Math.sin(this.seconds * 5)));
     const centre = relief.ground.centre;
     if (centre) {
       const m = camera.matrix, [x, y] = centreOf(centre), n = Math.hypot(m[0], m[4], m[8]), u = Math.hypot(m[1], m[5], m[9]);
@@ -230,22 +231,5 @@ export class Staging {
       const p = this.look?.camera.project(x, y, z);
       if (p) this.names.push({ key: `gate ${gate.number}`, text: String(gate.number) + (gate.air ? ' air' : ''), colour: isNext ? this.goal : null, badge: isNext, x: p.x, y: p.y, reach: 2, rank: isNext ? 1e7 : 10 });
     }
-  }
-
-  /** An arrow at the picture's edge towards what is outside of it; a mark over it inside, if wanted. @private
-   * @param {{x: number, y: number, z: number}} at @param {number} colour @param {import('./camera.js').Camera} camera @param {boolean} inside */
-  pointAt(at, colour, camera, inside) {
-    const { left, top, right, bottom } = camera.insets, p = camera.project(at.x, at.y, at.z);
-    const x0 = left + 22, y0 = top + 22, x1 = camera.width - right - 22, y1 = camera.height - bottom - 22, mx = (x0 + x1) / 2, my = (y0 + y1) / 2;
-    if (p && p.x >= x0 && p.x <= x1 && p.y >= y0 && p.y <= y1) {
-      if (inside) this.arrows.push({ x: p.x, y: p.y - 34 - 3 * Math.sin(this.seconds * 5), angle: Math.PI / 2, colour });
-      return;
-    }
-    // before the division by w what lies behind the eye is on its own side, too
-    const m = camera.matrix, w = Math.max(1e-6, Math.abs(m[3] * at.x + m[7] * at.y + m[11] * at.z + m[15]));
-    const ux = ((m[0] * at.x + m[4] * at.y + m[8] * at.z + m[12]) / w + 1) * camera.width / 2 - mx;
-    const uy = (1 - (m[1] * at.x + m[5] * at.y + m[9] * at.z + m[13]) / w) * camera.height / 2 - my;
-    const t = Math.min((x1 - x0) / 2 / Math.max(1, Math.abs(ux)), (y1 - y0) / 2 / Math.max(1, Math.abs(uy)));
-    this.arrows.push({ x: mx + ux * t, y: my + uy * t, angle: Math.atan2(uy, ux), colour });
   }
 }
