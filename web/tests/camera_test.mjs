@@ -53,7 +53,7 @@ test('a louse that is followed is in the picture at every frame, however it goes
         if (k % 97 === 0) x = 40 * next() - 20, y = 40 * next() - 20;  // begins again elsewhere
         if (k % 10 === 0) camera.turn(60 * next() - 30, 60 * next() - 30), camera.zoom(.8 + .4 * next());
         const z = relief.heightAt(x, y) + (k % 3 === 0 ? 5 : 0);
-        camera.update(width, height, now, { x, y, z });
+        camera.update(width, height, now, { x, y, z }, k % 200 < 100 ? { x: 18 * Math.sin(k / 40), y: -15 } : null);
         const p = camera.project(x, y, z);
         assert.ok(p && p.x >= 0 && p.x <= width && p.y >= 60 && p.y <= height - 80, `frame ${k} of ${width}x${height}: ${p?.x} ${p?.y}`);
       }
@@ -114,4 +114,14 @@ test('zoom and tilt have bounds', () => {
   assert.ok(camera.zooms.orbit >= .5 && camera.pitch.orbit > 0);
   camera.zoom(NaN), camera.zoom(-1), camera.zoom(0);
   assert.ok(camera.zooms.orbit > 0);
+});
+
+test('behind a louse it looks ahead to the goal, which is nearer to the middle then', () => {
+  const off = goal => {
+    const { camera } = cameraOn(() => 0, { calm: true });
+    camera.view = 'follow';
+    camera.update(1280, 800, 0, { x: -8, y: 0, z: 0 }, goal);
+    return camera.offMiddle(camera.project(4, 6, 0)).reduce((a, b) => Math.max(a, b));
+  };
+  assert.ok(off({ x: 4, y: 6 }) < .8 * off(null));
 });

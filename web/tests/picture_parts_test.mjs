@@ -58,14 +58,17 @@ test('what lies behind the eye cuts a ribbon, and a full one takes no more', () 
 test('trails keep their last points, break at leaps, and forget who has gone', () => {
   const trails = new Trails();
   let now = 0;
-  for (let k = 0; k < 100; k++) if (trails.isDue(now += 60)) trails.add(1, k, 0, 0, 5), trails.sweep();
+  for (let k = 0; k < 100; k++) if (trails.isDue(now += 60)) trails.add(1, k, 0, 0, 16), trails.sweep();
   const trail = trails.trails.get(1);
   assert.equal(trail.count, POINTS);
   assert.ok(trail.points.filter((_, i) => i % 4 === 3).every(cut => cut === 0));
-  trails.isDue(now += 200), trails.add(1, 500, 0, 0, 5), trails.add(2, 0, 0, 0, 5), trails.sweep();
+  trails.isDue(now += 200), trails.add(1, 500, 0, 0, 16), trails.add(2, 0, 0, 0, 1), trails.sweep();
   assert.equal(trail.points[4 * ((trail.end + POINTS - 1) % POINTS) + 3], 1);
-  trails.isDue(now += 200), trails.add(2, 0, 0, 0, 5), trails.sweep();
+  trails.isDue(now += 200), trails.add(2, 0, 0, 0, 1), trails.sweep();
   assert.ok(!trails.trails.has(1) && trails.trails.has(2));
+  const slow = new Trails();  // a page that draws once a second
+  for (let k = 0; k < 10; k++) slow.isDue(1000 * k + 1), slow.add(1, 10 * k, 0, 0, 10), slow.sweep();
+  assert.ok(slow.trails.get(1).points.filter((_, i) => i % 4 === 3).every(cut => cut === 0), 'gaps of points are bridged');
   trails.isDue(now - 5000);
   assert.equal(trails.trails.size, 0, 'a jump back in time begins anew');
 });

@@ -83,8 +83,9 @@ export class Camera {
   /**
    * Moves on and makes the matrix. followed: where the louse to follow is drawn, if there is one.
    * @param {number} width CSS pixels @param {number} height @param {number} now ms @param {Place | null} followed
+   * @param {{x: number, y: number} | null} goal towards which it looks ahead of him
    */
-  update(width, height, now, followed) {
+  update(width, height, now, followed, goal = null) {
     const stage = this.stage;
     if (!stage) return;
     this.width = Math.max(1, width);
@@ -97,6 +98,11 @@ export class Camera {
       yaw: view === 'map' ? -Math.PI / 2 : this.yaw, pitch: this.pitch[view], distance: 0, sx: 0, sy: 0,
     };
     wanted.distance = (target ? clamp(stage.radius * .85, 20, 46) * Math.max(1, Math.min(2, 1.2 * height / width)) : this.fit(wanted)) / this.zooms[view];
+    if (target && goal) {
+      const [gx, gy] = stage.nearest([target.x, target.y], [goal.x, goal.y]), dx = gx - target.x, dy = gy - target.y;
+      const ahead = Math.min(.45, wanted.distance * .2 / Math.max(1e-3, Math.hypot(dx, dy)));
+      wanted.x += dx * ahead, wanted.y += dy * ahead;
+    }
     if (target) wanted.pitch = this.clearPitch(wanted);
     // zoomed in on the map, what is followed comes to the middle
     if (!target && followed && this.zooms[view] > 1.15) {

@@ -122,7 +122,7 @@ export class Picture {
     const ratio = Math.min(2, globalThis.devicePixelRatio || 1) * this.resolution.scale, w = canvas.clientWidth, h = canvas.clientHeight;
     const width = Math.max(1, Math.round(w * ratio)), height = Math.max(1, Math.round(h * ratio));
     if (canvas.width !== width || canvas.height !== height) canvas.width = width, canvas.height = height;
-    camera.update(w, h, now, staging.find(scene, scene.follow || camera.follow));
+    camera.update(w, h, now, staging.find(scene, scene.follow || camera.follow), scene.marks?.arrow);
     staging.stage(scene, this, now, width, height);
     drawing.draw(this, staging, width, height, now);
     this.names.draw(staging.names, camera, this.theme, staging.arrows);

@@ -52,7 +52,6 @@ export class Staging {
     this.look = undefined;
     this.seconds = 0;
     this.goal = GOALS.default;
-    this.leap = Infinity;
     this.wraps = false;
     /** @type {any} */
     this.lastFollowed = null;
@@ -62,9 +61,8 @@ export class Staging {
   setRelief(relief) {
     this.relief = relief;
     this.heightAt = (x, y) => relief.heightAt(x, y) * relief.exaggeration;
-    /** Farther than this nobody goes between two points of a trail [m]. */
-    this.leap = relief.radius * .25;
     this.trails.clear();
+    this.trails.slack = relief.radius * .06;
     const { wraps = [] } = relief.ground;
     this.wraps = !!(wraps[0] || wraps[1]);
     this.trails.around = [wraps[0] ? relief.width : 0, wraps[1] ? relief.depth : 0];
@@ -137,7 +135,7 @@ export class Staging {
       const isYou = louse.isYou ?? (louse.id === scene.you && !louse.isGhost), isGhost = !!(louse.isGhost || louse.outline), own = isYou || louse.id === followed;
       const colour = louseColour(palette, isYou ? 'you' : louse.colour ?? louse.id), c = rgb(colour);
       const half = size(at.x, at.y, at.z) * (isYou ? 1.12 : 1);
-      if (isDue && !isGhost) this.trails.add(louse.id, at.x, at.y, at.z, this.leap);
+      if (isDue && !isGhost) this.trails.add(louse.id, at.x, at.y, at.z, Math.hypot(louse.vx, louse.vy));
       const p = camera.project(at.x, at.y, at.z + half * .4), pixels = p ? half / camera.metresPerPixel(p.w) : 1;
       this.put(louse, at, half, c, isGhost, isYou, own, pixels);
       if (!p) continue;
@@ -145,7 +143,7 @@ export class Staging {
       this.pixels[this.instances - 1] = pixels;
       const rank = isYou ? Infinity : own ? 1e6 : isGhost ? 1e3 : 1 / p.w;
       this.names.push({ key: louse.id, text: isYou ? 'you' : String(louse.name ?? '#' + louse.id), colour, badge: isYou, x: p.x, y: p.y, reach: pixels * (own ? 1.35 : .8) + 3, rank });
-      if (scene.trails !== false && !isGhost) this.trail(louse, at, c, own, ratio, lice.length > MANY);
+      if (scene.trails !== false && !isGhost) this.trail(louse, at, c, own, ratio, lice.length > MANY, now);
       if (isYou) this.arrows.push(...arrowTo(at, colour, camera, 0));
     }
     if (isDue) this.trails.sweep();
@@ -202,25 +200,25 @@ export class Staging {
   }
 
   /** @private @param {Louse} louse @param {{x: number, y: number, z: number}} at @param {[number, number, number]} c @param {boolean} own @param {number} ratio pixels a CSS pixel
-   * @param {boolean} isOneOfMany every second point will do */
-  trail(louse, at, c, own, ratio, isOneOfMany) {
+   * @param {boolean} isOneOfMany every second point will do @param {number} now ms */
+  trail(louse, at, c, own, ratio, isOneOfMany, now) {
     const trail = this.trails.trails.get(louse.id), { ribbons } = this;
     if (!trail || trail.count < 2) return;
     // pale colours are lost on a bright ground
     const isLight = this.look?.theme === 'light', [red, green, blue] = isLight ? c.map(v => v * .62) : c;
     const p = trail.points, strength = own || isLight ? .95 : .62, wide = (own ? 2 : 1.35) * ratio, lift = .05;
-    const leap = this.leap;
+    const half = (this.relief?.radius ?? 0) * .6;  // farther: another one of the places that it is
     let x = 0, y = 0;
     ribbons.cut();
     for (let k = 0; k < trail.count; k++) {
       const point = (trail.end - trail.count + k + POINTS) % POINTS, i = 4 * point, age = k / trail.count, lastX = x, lastY = y;
-      if (isOneOfMany && !own && point % 2) continue;
+      if (isOneOfMany && !own && point % 2 && !p[i + 3]) continue;
       x = p[i], y = p[i + 1];
       if (this.wraps) ({ x, y } = this.near({ x, y }));
-      if (p[i + 3] || Math.abs(x - lastX) > leap || Math.abs(y - lastY) > leap) ribbons.cut();
+      if (p[i + 3] || this.wraps && Math.abs(x - lastX) + Math.abs(y - lastY) > half) ribbons.cut();
       ribbons.add(x, y, p[i + 2] + lift, wide * (.3 + .7 * age), red, green, blue, strength * age);
     }
-    if (Math.abs(at.x - x) > leap || Math.abs(at.y - y) > leap) return;
+    if (Math.hypot(at.x - x, at.y - y) > this.trails.leap(Math.hypot(louse.vx, louse.vy), (now - this.trails.last) / 1000)) return;
     ribbons.add(at.x, at.y, at.z + lift, wide, red, green, blue, strength);
   }
 

@@ -3,7 +3,7 @@
 // that show it, widened here into one strip of triangles for all of them: as instances they cost a software renderer
 // four times as much.
 
-const EVERY = 120;  // ms
+const EVERY = 120, LONGEST = 4000;  // ms
 /** Points of a trail. */
 export const POINTS = 24;
 
@@ -28,6 +28,10 @@ export class Trails {
     this.round = 0;
     /** The map's sizes where it wraps, else 0 [m]. */
     this.around = [0, 0];
+    /** What nobody jumps by without beginning anew, however slow he is [m]. */
+    this.slack = 1;
+    /** Time since the last point but one [s]. */
+    this.gap = 0;
   }
 
   clear() {
@@ -36,19 +40,21 @@ export class Trails {
   }
 
   /**
-   * Whether a point is due. A jump back, or over a second, begins anew.
+   * Whether a point is due. A jump back, or over four seconds, begins anew.
    * @param {number} now ms
    */
   isDue(now) {
-    if (now < this.last || now - this.last > 2000) this.clear();
+    if (now < this.last || now - this.last > LONGEST) this.clear();
     if (now - this.last < EVERY) return false;
+    this.gap = Math.min(LONGEST, now - this.last) / 1000;
     this.last = now;
     this.round++;
     return true;
   }
 
-  /** @param {any} id @param {number} x @param {number} y @param {number} z drawn height @param {number} leap what farther jumps than this begins anew [m] */
-  add(id, x, y, z, leap) {
+  /** @param {any} id @param {number} x @param {number} y @param {number} z drawn height @param {number} speed [m/s] */
+  add(id, x, y, z, speed) {
+    const leap = this.leap(speed, this.gap);
     let trail = this.trails.get(id);
     if (!trail) this.trails.set(id, trail = new Trail());
     trail.seen = this.round;
@@ -60,6 +66,11 @@ export class Trails {
     p[at + 3] = trail.count && dx * dx + dy * dy + dz * dz > leap * leap ? 1 : 0;
     trail.end = (trail.end + 1) % POINTS;
     trail.count = Math.min(POINTS, trail.count + 1);
+  }
+
+  /** Who has come farther than this in so many seconds, or so fast, has not come by rolling [m]. @param {number} speed @param {number} seconds */
+  leap(speed, seconds) {
+    return this.slack + 2 * speed * seconds;
   }
 
   /** Whether a trail ends here: who stands has no further points, and where all stand (a recording that is held) trails stay. @param {any} id @param {number} x @param {number} y */
