@@ -80,7 +80,10 @@ export class Stage {
     if (this.source === this.room && id !== this.room?.you) history.replaceState(null, '', id ? `#louse=${encodeURIComponent(this.room?.roster.nameOf(id) ?? id)}` : location.pathname + location.search);
   }
 
-  view(name) { this.picture.camera.view = name; }
+  view(name) {
+    this.picture.camera.view = name;
+    if (name === 'follow' && !this.followed && this.room?.door.wish.role !== 'player') this.followed = this.source?.rows?.[0]?.id ?? 0;  // the one that the panel names
+  }
 
   setTheme(name) {
     if (name) setTheme(name);
@@ -172,7 +175,7 @@ export class Stage {
       this.#chooseFollowed();
       const facts = source.facts?.(this.followed || source.you || 0);
       picture.draw(sceneOf(source, this.followed || source.you || 0, facts ? source.marks(facts) : null), now);
-      if (facts) this.panels.every(source, facts, seconds);
+      if (facts) this.panels.every(source, { ...facts, azimuth: picture.camera.azimuth }, seconds);
     }
     if (now - this.#panelsAt >= PANELS_EVERY) {
       this.#panelsAt = now;

@@ -4,7 +4,7 @@ import { aim, goalLines, marksOf, podium, scoreRows } from '../page/live/goal.js
 import { Lesson } from '../page/live/own/lesson.js';
 import { OwnRun } from '../page/live/own/own_game.js';
 import { Ways } from '../page/live/ways.js';
-import { compass, farewell, medalOf, medalToWin, scoreText, signedText, spanText, told } from '../page/live/words.js';
+import { farewell, medalOf, medalToWin, pointer, scoreText, signedText, spanText, told } from '../page/live/words.js';
 
 const HZ = 60, SECOND = HZ * 65536;
 const words = (lines) => lines.map((line) => line.map(({ text }) => text).join('  ')).join('\n');
@@ -19,7 +19,8 @@ test('times, signs and directions read as the terminal\'s do', () => {
   assert.equal(signedText(0.1 * SECOND, HZ), '+0.10');
   assert.equal(scoreText('race', 0, HZ), '--');
   assert.equal(scoreText('hill', 804, HZ), '13.4 s');
-  assert.deepEqual([[1, 0], [0, 1], [-1, -1]].map(([x, y]) => compass(x, y)), ['E', 'N', 'SW']);
+  const up = Math.PI / 2;
+  assert.deepEqual([[1, 0, up], [0, 1, up], [-1, -1, up], [1, 0, 0], [0, 1, 2 * Math.PI]].map((way) => pointer(...way)), ['\u2192', '\u2191', '\u2199', '\u2191', '\u2190']);
 });
 
 test('medals are the author\'s time and 6, 20 and 50 per cent more', () => {
@@ -33,7 +34,7 @@ test('medals are the author\'s time and 6, 20 and 50 per cent more', () => {
 test('a race tells lap, clock and the way to the next gate, and marks it', () => {
   const you = louse(7, { gate: 1, lap: 1, lap_start: 500 * 65536, score: 0 });
   const race = facts({ mode: 'race', rules: RACE, game: { phase: 'play', round: 1, until: 6600, table: [] }, you, lice: [you], id: 7, rank: 2 });
-  assert.match(words(goalLines(race)), /race {2}1:40 left {2}gate 1 NE 14 m, fly through\nlap 2\/3 {2}0:01\.666 {2}#2\/1 {2}bronze 1:30\.00/);
+  assert.match(words(goalLines(race)), /race {2}1:40 left {2}gate 1 \u2197 14 m, fly through\nlap 2\/3 {2}0:01\.666 {2}#2\/1 {2}bronze 1:30\.00/);
   assert.deepEqual(marksOf(race).gates.map(({ state }) => state), ['passed', 'next']);
   assert.deepEqual(aim(race).at, [10, 10]);
 });

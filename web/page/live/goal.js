@@ -1,14 +1,14 @@
 // @ts-check
 // What the rules of play want and show: the lines over the picture, the marks on the ground, the table, the podium. And what there
 // is to see of a room: its facts, what is proven, the scene for the picture.
-import { compass, leftText, medalOf, medalToWin, MOMENTS, scoreText, spanText } from './words.js';
+import { leftText, medalOf, medalToWin, MOMENTS, pointer, scoreText, spanText } from './words.js';
 
 const HARVEST = 30, TOLD_BEFORE = 15;  // s
 
 /**
- * What is known. `you`: the louse whose goal it is, or null where there is none or it is out; `id`: its number; isOwn: it is yours.
+ * What is known. `you`: the louse whose goal it is, or null where there is none or it is out; `id`: its number; isOwn: it is yours; azimuth: of "up in the picture".
  * @typedef {{mode: string, rules: any, game: any, tick: number, hz: number, lice: any[], ways: import('./ways.js').Ways, you: any, id: number, isOwn: boolean,
- *   run: import('./own/own_game.js').OwnRun|null, nameOf: (id: number) => string, rank: number}} Facts
+ *   run: import('./own/own_game.js').OwnRun|null, nameOf: (id: number) => string, rank: number, azimuth?: number}} Facts
  * @typedef {{text: string, tone?: string}} Span a piece of a line
  */
 
@@ -50,7 +50,7 @@ function aimSpans(facts) {
   const goal = aim(facts);
   if (!goal) return [];
   const [x, y] = facts.ways.way(facts.you.x, facts.you.y, goal.at[0], goal.at[1]);
-  return [{ text: `${goal.what} ${compass(x, y)} ${Math.hypot(x, y).toFixed(0)} m${goal.hint}`, tone: 'goal' }];
+  return [{ text: `${goal.what} ${pointer(x, y, facts.azimuth ?? Math.PI / 2)} ${Math.hypot(x, y).toFixed(0)} m${goal.hint}`, tone: 'goal' }];
 }
 
 /** @returns {Span} */

@@ -31,9 +31,9 @@ export function scoreText(mode, score, hz) {
   return mode === 'hill' ? `${(score / hz).toFixed(1)} s` : String(score);
 }
 
-/** Eight directions: "N", "NE" and so on; north is +y. */
-export function compass(x, y) {
-  return ['E', 'NE', 'N', 'NW', 'W', 'SW', 'S', 'SE'][(Math.round(Math.atan2(y, x) * 4 / Math.PI) + 8) % 8];
+/** One of eight arrows: a way over the map as it lies in the picture. @param {number} azimuth of "up in the picture" [radians] */
+export function pointer(x, y, azimuth) {
+  return '\u2191\u2196\u2190\u2199\u2193\u2198\u2192\u2197'[((Math.round((Math.atan2(y, x) - azimuth) * 4 / Math.PI) % 8) + 8) % 8];
 }
 
 /** The medals of a race with this author's time [ms], the best first. */

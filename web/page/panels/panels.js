@@ -88,7 +88,7 @@ export class Panels {
     const box = (id) => byId(id).getBoundingClientRect(), tall = (id) => box(id).height;
     const wide = (id) => box(id).width + 12;
     camera.insets = isNarrow ? { left: 0, right: 0, top: Math.max(box('top').bottom, box('goal').bottom, box('lesson').bottom) + 4, bottom: over.height - Math.min(...['bar', 'lab', 'recording'].filter(tall).map((id) => box(id).top)) }
-      : { left: wide('lab'), right: Math.max(wide('scores'), wide('louse')), top: tall('top') + 20, bottom: over.height - Math.min(...['bar', 'recording'].filter(tall).map((id) => box(id).top)) };
+      : { left: wide('lab'), right: Math.max(wide('scores'), wide('louse')), top: Math.max(tall('top') + 20, box('goal').bottom + 8), bottom: over.height - Math.min(...['bar', 'recording'].filter(tall).map((id) => box(id).top)) };
   }
 
   #count(source) {
