@@ -5,6 +5,9 @@ import { CoreEnded } from './core/instance.js';
 import { kept } from './panels/settings.js';
 import { byId, setHidden, setText, toast } from './panels/elements.js';
 
+setHidden(byId('lost'), true);  // this much has come; what else goes wrong is told below
+byId('lost').classList.remove('early');
+
 const params = new URLSearchParams(location.search);
 const loaded = () => Core.load(new URL('core.wasm', import.meta.url));
 

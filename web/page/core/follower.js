@@ -12,6 +12,7 @@ export class Follower {
   constructor(core, handle) {
     this.core = core;
     this.handle = handle;
+    core.instance.keep(this, "follower_close", handle);
   }
 
   /** The next line that has no `type`. False: it differs, and nothing further is taken. @param {string} line */
@@ -73,6 +74,6 @@ export class Follower {
   }
 
   close() {
-    this.core.instance.call("follower_close", this.handle);
+    this.core.instance.close(this, "follower_close", this.handle);
   }
 }

@@ -14,6 +14,7 @@ export class Ground {
   constructor(core, handle, hz) {
     this.core = core;
     this.handle = handle;
+    core.instance.keep(this, "ground_close", handle);
     this.hz = hz;
     const facts = core.instance.json("ground_facts", handle);
     /** @type {string} */
@@ -88,6 +89,6 @@ export class Ground {
   }
 
   close() {
-    this.core.instance.call("ground_close", this.handle);
+    this.core.instance.close(this, "ground_close", this.handle);
   }
 }

@@ -20,6 +20,9 @@ async function compiled(source) {
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
+/** What is closed once nobody holds its handle any more. @type {FinalizationRegistry<() => void>} */
+const forgotten = new FinalizationRegistry(close => close());
+
 export class Instance {
   /** @param {string | URL | BufferSource | WebAssembly.Module} source */
   static async load(source) {
@@ -55,6 +58,23 @@ export class Instance {
       this.lastWords = this.lastWords.trim() || /** @type {Error} */ (error).message;
       throw new CoreEnded(`the core has ended: ${this.lastWords}`);
     }
+  }
+
+  /**
+   * Has what `owner` holds closed: by close(), else when the page has forgotten the owner.
+   * @param {object} owner
+   * @param {string} name of the function that closes it
+   * @param {number} handle
+   */
+  keep(owner, name, handle) {
+    const close = () => { if (!this.isEnded) this.call(name, handle); };
+    forgotten.register(owner, close, owner);
+  }
+
+  /** @param {object} owner of keep(), at most once @param {string} name @param {number} handle */
+  close(owner, name, handle) {
+    forgotten.unregister(owner);
+    this.call(name, handle);
   }
 
   /** The memory as it is now; until the next call, which may move it. */

@@ -9,6 +9,7 @@ export class World {
   constructor(core, handle) {
     this.core = core;
     this.handle = handle;
+    core.instance.keep(this, "world_close", handle);
   }
 
   /** In place of the one of its id. @param {import("./lice.js").Louse} louse */
@@ -62,6 +63,6 @@ export class World {
   }
 
   close() {
-    this.core.instance.call("world_close", this.handle);
+    this.core.instance.close(this, "world_close", this.handle);
   }
 }

@@ -152,7 +152,7 @@ export function podium(facts) {
 export function factsOf(room, id) {
   const isOwn = id !== 0 && id === room.you;
   return {
-    mode: room.mode, rules: room.welcome?.rules ?? null, game: room.mode === 'roam' ? null : room.game, tick: room.tick, hz: room.hz, lice: room.lice, ways: room.ways,
+    mode: room.mode, rules: room.shown?.rules ?? null, game: room.mode === 'roam' ? null : room.game, tick: room.tick, hz: room.hz, lice: room.lice, ways: room.ways,
     you: room.louse(id), id, isOwn, run: isOwn ? room.own.run : null, nameOf: (of) => room.roster.nameOf(of), rank: room.rows.find((row) => row.id === id)?.rank ?? 0,
   };
 }

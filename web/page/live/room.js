@@ -32,6 +32,7 @@ export class Room {
     this.ways = new Ways();
     /** What is re-run here, of who watches by inputs. @type {Stream|null} */ this.stream = null;
     /** The `welcome` of the game that is on; null while there is none. @type {any} */ this.welcome = null;
+    /** The last one: what it said is shown on while the line is cut. @type {any} */ this.shown = null;
     /** The map's ground (core.js), or null. @type {any} */ this.ground = null;
     /** As of the last update. @type {any[]} */ this.lice = [];
     /** The table of scores, as it was made last. @type {ReturnType<import('./goal.js').scoreRows>} */ this.rows = [];
@@ -52,8 +53,8 @@ export class Room {
   get tick() { return this.#time.tick; }
   /** No tick passes: the room is paused. */
   get stands() { return this.#time.word.stands; }
-  get you() { return this.welcome?.id ?? 0; }
-  get mode() { return this.welcome?.mode ?? 'roam'; }
+  get you() { return this.shown?.id ?? 0; }
+  get mode() { return this.shown?.mode ?? 'roam'; }
   get game() { return this.#time.game; }
   /** The shortest of the last round trips [s]; null: none yet. */
   get trip() { return this.#pings.trip; }
@@ -159,7 +160,7 @@ export class Room {
     this.#was = true;
     this.lost = null;
     if (welcome.resume_token) this.door.resume = welcome.resume_token;
-    this.welcome = welcome;
+    this.welcome = this.shown = welcome;
     this.roster.welcome(welcome);
     this.#time = new Timeline(welcome, now);
     this.#pings = new Pings();
