@@ -34,7 +34,7 @@ export class Stage {
     this.picture = new Picture(byId('picture'), byId('labels'), { calm: calm.matches });
     this.setTheme(params.get('theme') || kept('theme'));
     this.teacher = new Teacher(!kept('lesson'), () => keep('lesson', 'had'));
-    this.panels = new Panels({ follow: (id) => this.follow(id), say: (text) => this.room?.say(text), choose: (room) => this.enter({ room }), seek: (tick) => this.player?.seek(tick) });
+    this.panels = new Panels({ follow: (id) => this.follow(id), say: (text) => this.room?.say(text), choose: (room) => this.choose(room), seek: (tick) => this.player?.seek(tick) });
     this.#bindHands();
   }
 
@@ -52,15 +52,22 @@ export class Stage {
   /** Into a room, as before but for what `change` says. */
   enter(change = {}) {
     const wish = /** @type {import('./live/link.js').Wish} */ ({ role: 'spectator', name: kept('name') || 'guest', room: params.get('room') ?? '', token: '', ...this.#wish, ...change });
+    const lines = wish.room === this.#wish.room ? this.room?.roster.lines ?? [] : [];  // what was said stays, in the same room
     this.#wish = wish;
-    const lines = this.room?.roster.lines ?? [];
     this.room?.stop();
     this.#show('live');
     this.followed = 0;
     this.room = new Room({ url: new URL('ws', location.href).href.replace(/^http/, 'ws'), core: this.core, wish, storage, onNotice: toast, onTokenWanted: (why) => this.#askToken(why) });
-    if (wish.room === params.get('room')) for (const line of lines) this.room.roster.say(line.from, line.text, line.id);
+    for (const line of lines) this.room.roster.say(line.from, line.text, line.id);
     document.body.dataset.role = wish.role;
     this.room.start();
+  }
+
+  /** Into another room; the address names it, for a reload or a friend. @param {string} room */
+  choose(room) {
+    params.set('room', room);
+    history.replaceState(null, '', `${location.pathname}?${params}`.replaceAll('%2F', '/'));
+    this.enter({ room });
   }
 
   /** Plays, or watches again. */

@@ -162,14 +162,14 @@ export function marksIn(room, facts) {
   return { ...marksOf(facts), ghosts: facts.isOwn && facts.you ? room.own.ghostsAt(room.tick) : [] };
 }
 
-/** What is proven of what is shown. @param {import('./room.js').Room} room @returns {{text: string, tone: 'ok'|'bad'|''}} */
+/** What is proven of what is shown. @param {import('./room.js').Room} room @returns {{text: string, tone: 'ok'|'bad'|'', why?: string}} */
 export function proofOf(room) {
   if (room.stream?.difference) return { text: room.stream.difference, tone: 'bad' };
   if (room.door.behavior !== null && !room.door.isSame)
     return { text: `no proof: the server computes by behavior ${room.door.behavior}, this page by ${room.behavior}`, tone: '' };
-  if (room.welcome?.stream === 'inputs') return { text: `state ok ${room.stream?.proven ?? 0}`, tone: 'ok' };
+  if (room.welcome?.stream === 'inputs') return { text: `state ok ${room.stream?.proven ?? 0}`, tone: 'ok', why: 'so many ticks were run again here from the inputs alone, each equal to the server\'s, bit for bit' };
   const { exact = 0, corrected = 0 } = room.own.pilot?.prediction ?? {};
-  return exact + corrected ? { text: `predicted ${exact}/${exact + corrected}`, tone: corrected ? '' : 'ok' } : { text: '', tone: '' };
+  return exact + corrected ? { text: `predicted ${exact}/${exact + corrected}`, tone: corrected ? '' : 'ok', why: 'so many of the server\'s answers said of your louse what this page had computed before they came, bit for bit' } : { text: '', tone: '' };
 }
 
 /** The colours of ghosts, by kind; their outlines and names tell them from lice. */

@@ -62,12 +62,12 @@ export class TopBar {
     select.value = chosen;
   }
 
-  /** @param {{text: string, tone: string}} proof */
-  proof({ text, tone }) {
+  /** @param {{text: string, tone: string, why?: string}} proof */
+  proof({ text, tone, why }) {
     const output = byId('proof');
     setText(output, text);
     setClass(output, `figure ${tone}`);
-    output.title = text;
+    output.title = why ?? text;
   }
 
   line(text) { setText(byId('line'), text); }
