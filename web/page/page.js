@@ -24,7 +24,10 @@ async function openAddress(stage, address) {
 async function begin(stage) {
   const name = params.get('name') ?? kept('name'), replay = params.get('replay');
   if (params.has('lab')) return stage.compare();
-  if (replay !== null) return openAddress(stage, replay);
+  if (replay !== null) {
+    await openAddress(stage, replay);
+    return void (stage.source ?? stage.enter());  // one that is damaged was told of
+  }
   if (!params.has('play') || !name) return void stage.enter();
   stage.enter({ role: 'player', name });
   stage.view('follow');

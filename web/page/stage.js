@@ -142,7 +142,7 @@ export class Stage {
 
   /** Follows the next louse by its number, or the one before. */
   step(by) {
-    const ids = this.source.lice.map(({ id }) => id).sort((a, b) => a - b);
+    const ids = (this.source?.lice ?? []).map(({ id }) => id).sort((a, b) => a - b);
     if (!ids.length) return;
     const k = ids.indexOf(this.followed);
     this.follow(ids[(k < 0 ? (by > 0 ? 0 : ids.length - 1) : k + by + ids.length) % ids.length]);

@@ -125,3 +125,13 @@ test('a door asks for inputs where it can compute as the server does, else for f
   const hz = door.joinOf(HELLO).state_hz;
   assert.ok(door.halve() && door.joinOf(HELLO).state_hz === hz / 2);
 });
+
+test('more than a page can show is no message', () => {
+  const key = (rows) => JSON.stringify({ type: 'key', tick: 1, hash: '0', louse: Array.from({ length: rows }, (_, k) => [k + 1, 0]) });
+  assert.equal(decoded(key(1000)).louse.length, 1000);
+  assert.throws(() => decoded(key(20000)), /other fields/);
+  const game = (crumbs) => JSON.stringify({ type: 'key', tick: 1, hash: '0', louse: [], game: { crumbs: Array.from({ length: crumbs }, (_, k) => [k, 0, 0, 1]) } });
+  assert.equal(decoded(game(64)).game.crumbs.length, 64);
+  assert.throws(() => decoded(game(5000)), /other fields/);
+  assert.throws(() => decoded(JSON.stringify({ type: 'notice', code: 'x', text: 'x'.repeat(5000) })), /other fields/);
+});

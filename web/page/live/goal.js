@@ -35,6 +35,7 @@ export function aim(facts) {
   if (!isPlayed(game) || !you) return null;
   if (mode === 'race' && rules?.gates?.length) {
     const k = Math.min(you.gate ?? 0, rules.gates.length - 1);
+    if (!rules.gates[k]) return null;
     return { at: middle(rules.gates[k]), what: `gate ${k || 'S'}`, hint: rules.gates[k].air ? ', fly through' : '' };
   }
   if (mode === 'forage') {

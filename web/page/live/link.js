@@ -8,7 +8,7 @@ import { COLUMNS, RULES_COLUMNS } from './frames.js';
 const PROTOCOL = 1;
 const GREET = 5, SILENCE = 5;                  // s until hello and welcome; without a word on a line that is open
 const FIRST_WAIT = 0.25, LONGEST_WAIT = 8;     // s, between attempts
-const MOST_UNSENT = 1 << 18;                   // bytes
+const MOST_UNSENT = 1 << 18, MOST_READ = 1 << 26;  // bytes; of one message
 
 /** Ends that pass by themselves: trying again is worth it. */
 const PASSING = ['', 'rate_limited', 'too_many_connections', 'handshake_timeout', 'idle', 'slow', 'left', 'shutdown', 'draining', 'paused', 'room_full'];
@@ -85,6 +85,7 @@ export class Link {
 
   #read(data) {
     if (typeof data !== 'string') return this.#end({ code: 'no_server', reason: 'no woodlouse server answers there' });
+    if (data.length > MOST_READ) return this.#end({ code: 'no_server', reason: 'the server says more at once than a page can read' });
     this.bytes += data.length;
     const socket = this.#socket;
     for (const line of data.split('\n')) {

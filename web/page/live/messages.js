@@ -3,9 +3,11 @@
 
 const whole = (v) => Number.isSafeInteger(v);
 const number = (v) => typeof v === 'number' && Number.isFinite(v);
-const text = (v) => typeof v === 'string';
+const text = (v) => typeof v === 'string' && v.length <= LONGEST_TEXT;
 const flag = (v) => typeof v === 'boolean';
-const listOf = (is) => (v) => Array.isArray(v) && v.every(is);
+/** More of anything than this no server has, and no page could show. */
+const MOST = 16384, MOST_OF_RULES = 2048, LONGEST_TEXT = 4096;
+const listOf = (is, most = MOST) => (v) => Array.isArray(v) && v.length <= most && v.every(is);
 const objectOf = (shape) => (v) => v !== null && typeof v === 'object' && !Array.isArray(v) &&
   Object.keys(shape).every((name) => name.endsWith('?') ? v[name.slice(0, -1)] === undefined || shape[name](v[name.slice(0, -1)]) : shape[name](v[name]));
 const pair = (v) => Array.isArray(v) && v.length === 2 && v.every(number);
@@ -14,18 +16,18 @@ const any = (v) => v !== undefined;
 const rows = listOf(listOf(number));
 const game = objectOf({
   'phase?': text, 'round?': whole, 'until?': whole, 'table?': listOf((v) => Array.isArray(v) && v.length === 2 && v.every(whole)),
-  'crumbs?': listOf((v) => Array.isArray(v) && v.length === 4 && v.every(number)),
+  'crumbs?': listOf((v) => Array.isArray(v) && v.length === 4 && v.every(number), MOST_OF_RULES),
   'place?': whole, 'holder?': whole, 'contested?': flag, 'moves_at?': whole,
 });
 const rules = objectOf({
-  'gates?': listOf(objectOf({ a: pair, b: pair })), 'places?': listOf(objectOf({ at: pair, 'radius?': number })), 'laps?': whole, 'hold_s?': number, 'author_ms?': whole,
+  'gates?': listOf(objectOf({ a: pair, b: pair }), MOST_OF_RULES), 'places?': listOf(objectOf({ at: pair, 'radius?': number }), MOST_OF_RULES), 'laps?': whole, 'hold_s?': number, 'author_ms?': whole,
 });
 const rate = (v) => whole(v) && v >= 1 && v <= 1000;
 const run = { board: text, name: text, time: whole, splits: listOf(whole) };
 const said = { code: text, text };
 
 const SHAPES = {
-  hello: { protocol: whole, behavior: whole, rooms: listOf(text), features: listOf(text), limits: objectOf({}) },
+  hello: { protocol: whole, behavior: whole, rooms: listOf(text, MOST_OF_RULES), features: listOf(text), limits: objectOf({}) },
   welcome: {
     id: whole, 'name?': text, 'resume_token?': text, 'resumed?': flag, room: text, mode: text, tick: whole, tick_hz: rate, state_hz: rate,
     fields: listOf(text), quantum: listOf(number), format: text, 'stream?': text,
@@ -45,8 +47,8 @@ const SHAPES = {
   event: { n: whole, tick: whole, kind: text, id: whole, name: text, 'text?': text, 'role?': text, 'moment?': whole },
   map: { name: text, hash: text, definition: objectOf({}), 'overview?': flag, 'knots?': objectOf({ origin: pair, spacing: pair, heights: any }) },
   records: { board: text, count: whole, rows: listOf(objectOf({ ...run, rank: whole })) },
-  ghost: { ...run, start: whole, behavior: whole, tick_hz: whole, spawn: whole, ticks: whole, inputs: rows },
-  rooms: { rooms: listOf(objectOf({ name: text, map: text, players: whole, bots: whole, spectators: whole })) },
+  ghost: { ...run, start: whole, behavior: whole, tick_hz: whole, spawn: whole, ticks: whole, inputs: listOf(listOf(number), 100000) },
+  rooms: { rooms: listOf(objectOf({ name: text, map: text, players: whole, bots: whole, spectators: whole }), MOST_OF_RULES) },
   notice: said,
   error: { ...said, fatal: flag, 'retry_after_ms?': number },
   bye: { ...said, resumable: flag },

@@ -15,7 +15,7 @@ function withStandings({ lice, standings }) {
 }
 
 export class Player {
-  #frames; #isBusy = false;
+  #frames; #isBusy = false; #isClosed = false;
   /** @type {number|null} */ #before = null;
   /** @type {number|null} a tick that is sought */ #wanted = null;
   /** @type {number[][]} */ #proven = [];
@@ -104,11 +104,15 @@ export class Player {
                     you: this.louse(id), id, isOwn: false, run: null, nameOf: (of) => this.nameOf(of), rank: this.rows.find((row) => row.id === id)?.rank ?? 0 };
   }
   marks(facts) { return marksOf(facts); }
-  close() { this.recording.close(); }
+  close() {
+    this.#isClosed = true;
+    this.recording.close();
+    this.ground.close();
+  }
 
   /** Has the worker do what is due: one thing at a time. */
   async #go() {
-    if (this.#isBusy) return;
+    if (this.#isBusy || this.#isClosed) return;
     this.#isBusy = true;
     try {
       if (this.#wanted !== null) {
@@ -127,7 +131,7 @@ export class Player {
     } catch (error) {
       this.isPlaying = false;
       this.#wanted = null;
-      this.onNotice(/** @type {Error} */ (error).message, 'bad');
+      if (!this.#isClosed) this.onNotice(/** @type {Error} */ (error).message, 'bad');
     } finally {
       this.#isBusy = false;
     }

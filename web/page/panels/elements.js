@@ -34,10 +34,11 @@ export function fillSpans(line, spans) {
   fillChildren(line, spans, () => made('span'), (span, { text, tone = '' }) => { setText(span, text); setClass(span, tone); });
 }
 
-const MOST = 3, LEAST = 3500, A_LETTER = 55;  // ms
+const MOST = 3, LONGEST = 240, LEAST = 3500, A_LETTER = 55;  // letters, ms, ms
 
-/** @param {string} text @param {string} [tone] */
-export function toast(text, tone = '') {
+/** @param {string} said @param {string} [tone] */
+export function toast(said, tone = '') {
+  const text = said.length > LONGEST ? `${said.slice(0, LONGEST - 1)}\u2026` : said;
   const list = byId('toasts');
   if ([...list.children].some((item) => item.textContent === text)) return;
   const item = made('p', text, tone);

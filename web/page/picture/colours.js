@@ -60,4 +60,4 @@ export const OTHERS = 7;
 
 /** A louse's: yours, or by number. @param {Palette} palette @param {number | 'you'} index */
 export const louseColour = (palette, index) =>
-  LICE[palette][index === 'you' ? 0 : 1 + (index % OTHERS + OTHERS) % OTHERS];
+  LICE[palette][index === 'you' ? 0 : 1 + ((index % OTHERS + OTHERS) % OTHERS | 0)];
