@@ -74,7 +74,7 @@ export class Instance {
   /** @param {object} owner of keep(), at most once @param {string} name @param {number} handle */
   close(owner, name, handle) {
     forgotten.unregister(owner);
-    this.call(name, handle);
+    if (!this.isEnded) this.call(name, handle);
   }
 
   /** The memory as it is now; until the next call, which may move it. */
