@@ -36,6 +36,17 @@ test('a held key pushes in pulses, renewed before they end, and its release ends
   assert.ok(orders.length <= 8, `${orders.length} messages in 2 s`);
 });
 
+test('a held key pushes without a pause on a page that comes to it twice a second', () => {
+  const steering = new Steering(HZ);
+  steering.hold('up', 0);
+  let until = Infinity;
+  for (let k = 0; k < 20; k++) {
+    const now = k * 0.45, order = steering.poll(now);
+    assert.ok(k < 2 || until > now, `a pause before ${now}`);
+    if (order) until = now + order.ticks / HZ;
+  }
+});
+
 test('a tap that is over before the next poll still pushes', () => {
   const orders = driven((steering, now, k) => {
     if (k !== 30) return;

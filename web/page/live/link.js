@@ -31,7 +31,6 @@ export class Link {
    */
   constructor(options) {
     this.options = options;
-    this.bytes = 0;
     /** @type {'connecting'|'joined'|'waiting'|'stopped'} */
     this.phase = 'stopped';
   }
@@ -86,7 +85,6 @@ export class Link {
   #read(data) {
     if (typeof data !== 'string') return this.#end({ code: 'no_server', reason: 'no woodlouse server answers there' });
     if (data.length > MOST_READ) return this.#end({ code: 'no_server', reason: 'the server says more at once than a page can read' });
-    this.bytes += data.length;
     const socket = this.#socket;
     for (const line of data.split('\n')) {
       if (line === '') continue;

@@ -11,14 +11,14 @@ import { Timeline } from './timeline.js';
 import { Ways } from './ways.js';
 import { farewell } from './words.js';
 
-const COUNT_EVERY = 10;  // s
+const COUNT_EVERY = 10, ACT_EVERY = 40;  // s, ms
 /** Before the first welcome. */
 const NOTHING = { tick_hz: 60, state_hz: 10, fields: [], quantum: [] };
 
 const seconds = () => performance.now() / 1000;
 
 export class Room {
-  #core; #link; /* maps that were sent, by hash and rate */ #grounds = new Map(); #time = new Timeline(NOTHING, 0); #pings = new Pings(); #countedAt = -Infinity; #was = false;
+  #core; #link; /* maps that were sent, by hash and rate */ #grounds = new Map(); #time = new Timeline(NOTHING, 0); #pings = new Pings(); #countedAt = -Infinity; #was = false; #acting = setInterval(() => this.#act(seconds()), ACT_EVERY);  // a page with few pictures a second steers as well
 
   /** @param {{url: string, core: any, wish: import('./link.js').Wish, storage: Storage|null, onNotice: (text: string, tone?: string) => void,
    *   onTokenWanted: (why: string) => void, Socket?: any}} options onTokenWanted: ask a person, then enter(token) */
@@ -45,7 +45,7 @@ export class Room {
   }
 
   start() { this.#link.start(); }
-  stop() { this.#link.stop(); }
+  stop() { clearInterval(this.#acting); this.#link.stop(); }
   send(message) { this.#link.send(message); }
   get phase() { return this.#link.phase; }
   get hz() { return this.#time.hz; }
@@ -59,15 +59,11 @@ export class Room {
   /** The shortest of the last round trips [s]; null: none yet. */
   get trip() { return this.#pings.trip; }
   get behavior() { return this.#core.behavior; }
-  get bytes() { return this.#link.bytes; }
   /** Seconds without a word of the server's, when they are too many; else null. */
   get silence() { return this.welcome ? this.#time.word.silence(seconds()) : null; }
 
   /** With a password, after onTokenWanted(). */
-  enter(token) {
-    this.door.wish.token = token;
-    this.#link.joinAgain();
-  }
+  enter(token) { this.door.wish.token = token; this.#link.joinAgain(); }
 
   /** Chat; `/skip` is a vote for the room's next game. */
   say(text) { this.send(text.trim() === '/skip' ? { type: 'skip' } : { type: 'chat', text }); }
@@ -80,8 +76,15 @@ export class Room {
     if (this.phase === 'joined') this.#rejoin();
   }
 
-  /** Runs on to now [s]: pings, your louse, what is drawn. */
+  /** Runs on to now [s]: what is said and done, what is drawn. */
   update(now) {
+    this.#act(now);
+    if (!this.welcome || !this.#time.isKnown(now)) return;  // what was seen last stays until there is something newer
+    this.lice = this.#time.lice(now, this.ways);
+    this.#placeOwn();
+  }
+
+  #act(now) {
     if (!this.welcome) return;
     const time = this.#time, ping = this.#pings.due(now, time.word.isLate(now) && !time.word.stands);
     if (ping) this.send(ping);
@@ -89,11 +92,8 @@ export class Room {
       this.#countedAt = now;
       this.send({ type: 'list', watch: true });
     }
-    if (!time.isKnown(now)) return;  // what was seen last stays until there is something newer
-    const input = this.own.pilot?.update(now, time.clock);
+    const input = time.isKnown(now) && !this.door.isHidden ? this.own.pilot?.update(now, time.clock) : null;
     if (input) this.send(input);
-    this.lice = time.lice(now, this.ways);
-    this.#placeOwn();
   }
 
   nameOf(id) { return this.roster.nameOf(id); }

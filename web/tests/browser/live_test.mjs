@@ -99,6 +99,32 @@ test('a player who looks away for a while keeps the louse', async () => {
   assert.equal(await known(page, () => window.woodlouse.room.you), you);
 });
 
+test('thirty sessions one after the other leave nothing in the core\'s memory', async () => {
+  await shown(page, `${served.web}?room=hills`);
+  const session = await context.newCDPSession(page);
+  const memory = () => known(page, () => window.woodlouse.core.instance.functions.memory.buffer.byteLength / 1e6);
+  const begin = async (count) => {
+    for (let k = 0; k < count; k++) {
+      await known(page, () => { window.before = window.woodlouse.room.ground; window.woodlouse.room.hide(!window.woodlouse.room.door.isHidden); });
+      await until(page, () => window.woodlouse.room.ground !== window.before && window.woodlouse.room.welcome);
+      if (k % 5 === 4) await session.send('HeapProfiler.collectGarbage');
+    }
+  };
+  await begin(5);
+  const first = await memory();
+  await begin(30);
+  assert.ok(await memory() < first + 2, `${first} MB, then ${await memory()} MB`);
+});
+
+test('a page of which a part does not come says so', async () => {
+  const other = await context.newPage();
+  await other.route('**/panels/elements.js', (route) => route.abort());
+  await other.goto(`${served.web}?room=hills`);
+  await other.waitForSelector('#lost p', { state: 'visible' });
+  assert.match(await other.textContent('#lost'), /did not load whole/);
+  await other.close();
+});
+
 test('a server that restarts is waited for', async () => {
   await shown(page, `${served.web}?room=hills`);
   const back = served.restart(2500);

@@ -3,8 +3,8 @@
 // way in the picture, two of them between. Held pushes go out as pulses, renewed before they end, so that a page that
 // dies or loses its line does not push for ever. Pure: time is an argument, in seconds.
 
-/** How long what is sent acts, and what is left of it when it is renewed. [s] */
-export const PULSE = 0.4, RENEW_BEFORE = 0.2;
+/** How long what is sent acts, and what is left of it when it is renewed. [s] Where the page is slow, longer. */
+export const PULSE = 0.4, RENEW_BEFORE = 0.2, LONGEST_PULSE = 1.5;
 /** The least that a tap pushes; a push that turns with the camera is told anew so often; a lesser turn is none. */
 const TAP = 0.05, TURN_EVERY = 0.1, LEAST_TURN = 0.02;
 
@@ -19,6 +19,7 @@ const SIDES = { up: [0, 1], down: [0, -1], left: [-1, 0], right: [1, 0] };
 export class Steering {
   #held = new Set(); #taps = new Map();
   /** @type {any} */ #stick = null; #cruises = false; #azimuth = Math.PI / 2;
+  #polled = 0; #gap = 0;
   #last = [1, 0];  // the heading, a map vector
   /** @type {any} */ #sent = null; #sentAt = -Infinity; #sentUntil = -Infinity;
 
@@ -61,6 +62,8 @@ export class Steering {
   /** What is to be sent now, or null while what was sent still says it.
    * @returns {{kind: number, x: number, y: number, ticks: number} | null} */
   poll(now) {
+    this.#gap = this.#polled ? Math.max(Math.min(0.5, now - this.#polled), 0.9 * this.#gap) : 0;  // between two polls, of late
+    this.#polled = now;
     const want = this.#wanted(now);
     if (!want) {
       if (this.#sentUntil <= now) return null;  // it has ended by itself
@@ -71,14 +74,15 @@ export class Steering {
     if (this.#says(want, now)) return null;
     this.#sent = want;
     this.#sentAt = now;
-    this.#sentUntil = now + PULSE;
-    return { kind: want.kind, x: want.x, y: want.y, ticks: Math.ceil(PULSE * this.hz - 1e-6) };
+    const pulse = Math.min(LONGEST_PULSE, Math.max(PULSE, 3 * this.#gap));
+    this.#sentUntil = now + pulse;
+    return { kind: want.kind, x: want.x, y: want.y, ticks: Math.ceil(pulse * this.hz - 1e-6) };
   }
 
   /** Whether what was sent says `want`, near enough. */
   #says(want, now) {
     const sent = this.#sent;
-    if (!sent || sent.kind !== want.kind || this.#sentUntil - now < RENEW_BEFORE) return false;
+    if (!sent || sent.kind !== want.kind || this.#sentUntil - now < Math.max(RENEW_BEFORE, 1.5 * this.#gap)) return false;
     if (sent.x === want.x && sent.y === want.y) return true;
     const turn = Math.hypot(sent.x - want.x, sent.y - want.y);
     return sent.keys === want.keys && (turn < LEAST_TURN || now - this.#sentAt < TURN_EVERY);
