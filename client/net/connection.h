@@ -51,6 +51,8 @@ class Connection final : public LinkListener {
   [[nodiscard]] int descriptor() const { return link_ ? link_->descriptor() : -1; }
   [[nodiscard]] Phase phase() const { return phase_; }
   [[nodiscard]] const Address& address() const { return address_; }
+  /// The room that was asked for; empty: the server's first.
+  [[nodiscard]] const std::string& room() const { return join_.room; }
   /// Why the last link ended, or the last attempt to get a new one.
   [[nodiscard]] const Closing& closing() const { return closing_; }
   /// Whether a server has ever welcomed us.

@@ -79,7 +79,8 @@ void Session::on_lost() {
 
 core::Error Session::farewell() const {
   const Closing& closing = connection_.closing();
-  const std::string again = "woodlouse " + connection_.address().text();
+  const std::string& room = connection_.room();
+  const std::string again = "woodlouse " + connection_.address().text() + (room.empty() ? "" : "/" + room);
   core::Error error(connection_.address().text(), closing.reason);
   if (closing.code == protocol::code::kReplaced) {
     error.hint = "your louse is played from there now; who wants another one here:  " + again;

@@ -37,10 +37,10 @@ class OverTheWire(InATerminal):
 
     def test_a_server_that_stops_is_told_with_69_and_not_waited_for(self):
         server = Server()
-        self.terminal.run(f"{BIN}/woodlouse {LOOK} {server.address} --name mara")
+        self.terminal.run(f"{BIN}/woodlouse {LOOK} {server.address}/volcano --name mara")
         self.terminal.shows(r"PLAYERS 3")
         server.stop()
-        self.terminal.shows(r"the server stops\s+when it is up again:  woodlouse 127")
+        self.terminal.shows(r"the server stops\s+when it is up again:  woodlouse 127[.:\d]+/volcano")
         self.assertEqual(self.exit_code(), 69)
 
     def test_two_clients_see_each_other_and_chat(self):
