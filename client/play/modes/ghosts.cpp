@@ -95,7 +95,7 @@ GhostMark Ghosts::mark(std::string name, const LouseSample& sample, Trail& trail
 bool Ghosts::is_better(GhostRun& a, GhostRun& b) const {
   if (mode_ == state::Mode::kRace) {
     const std::uint64_t of_a = a.drive().lap, of_b = b.drive().lap;
-    return of_a != 0 && (of_b == 0 || of_a < of_b);
+    return of_a < of_b;  // neither is without one: take_own
   }
   const std::uint32_t ticks = std::min(a.drive().ticks, b.drive().ticks);
   return a.distance_at(ticks) > b.distance_at(ticks);
@@ -107,16 +107,18 @@ void Ghosts::add_drive(OwnDrive drive) {
   if (mode_ != state::Mode::kRoam && mode_ != state::Mode::kRace) return;  // others would be in its way
   if (!why_no_drive(*map_, tick_hz_, drive).empty()) return;
   if (folder_) keep_ghost_drive(*folder_, *map_, tick_hz_, mode_, drive);
+  take_own(std::move(drive));
+}
+
+void Ghosts::take_own(OwnDrive drive) {
   last_.emplace(*map_, tick_hz_, mode_, drive);
+  if (mode_ == state::Mode::kRace && drive.lap == 0) return;  // nothing in it that could be the best
   if (!best_ || is_better(*last_, *best_)) best_.emplace(*map_, tick_hz_, mode_, std::move(drive));
 }
 
 void Ghosts::load() {
   if (!folder_) return;
-  for (OwnDrive& drive : read_ghost_drives(*folder_, *map_, tick_hz_, mode_)) {
-    last_.emplace(*map_, tick_hz_, mode_, drive);
-    if (!best_ || is_better(*last_, *best_)) best_.emplace(*map_, tick_hz_, mode_, std::move(drive));
-  }
+  for (OwnDrive& drive : read_ghost_drives(*folder_, *map_, tick_hz_, mode_)) take_own(std::move(drive));
 }
 
 std::string Ghosts::cycle() {
@@ -129,7 +131,9 @@ std::string Ghosts::cycle() {
       return "ghosts off";
     case GhostChoice::kOff:
       choice_ = GhostChoice::kBest;
-      return best_ || !records_.empty() ? "ghosts: the best" : "ghosts: the best, once you respawn (R)";
+      if (best_ || !records_.empty()) return "ghosts: the best";
+      return mode_ == state::Mode::kRace ? "ghosts: the best, once you drove a lap and respawn (R)"
+                                         : "ghosts: the best, once you respawn (R)";
   }
   return {};
 }

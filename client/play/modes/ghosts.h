@@ -53,6 +53,8 @@ class Ghosts {
 
   [[nodiscard]] GhostMark mark(std::string name, const LouseSample& sample, Trail& trail) const;
   [[nodiscard]] double trail_spacing() const;
+  /// The last drive from here on, and the best where it is one: of a race only with a lap in it.
+  void take_own(OwnDrive drive);
   [[nodiscard]] bool is_better(GhostRun& a, GhostRun& b) const;
   void add_run(std::optional<protocol::Board> board, const std::string& name,
                const protocol::GhostLine& line);

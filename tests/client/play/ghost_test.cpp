@@ -127,6 +127,25 @@ TEST_CASE("own drives are kept in a file of twenty at most, and are there again"
   std::filesystem::remove_all(folder);
 }
 
+TEST_CASE("of a race's drives the best is one with a lap, whatever came first") {
+  const auto map = map_of("crater_loop");
+  Ghosts ghosts;
+  ghosts.begin(map, 60, state::Mode::kRace);
+  ghosts.add_drive(driven(*map, 4));
+  CHECK(ghosts.marks(0.0, 0, 0.0).empty());
+  OwnDrive slow = driven(*map, 5), quick = driven(*map, 6), none = driven(*map, 7);
+  slow.lap = 90 * 60 * 65536ULL;
+  quick.lap = 30 * 60 * 65536ULL;
+  for (OwnDrive* drive : {&slow, &quick, &none}) ghosts.add_drive(*drive);
+  REQUIRE(ghosts.marks(0.0, 0, 0.0).size() == 1);
+  CHECK(ghosts.marks(0.0, 0, 0.0)[0].name == "your best");
+  CHECK(ghosts.marks(5.5 * 60, 0, 0.0).size() == 1);  // the quick one goes on for six seconds
+  CHECK(ghosts.marks(6.5 * 60, 0, 0.0).empty());
+  ghosts.cycle();
+  REQUIRE(ghosts.marks(0.0, 0, 0.0).size() == 1);
+  CHECK(ghosts.marks(0.0, 0, 0.0)[0].name == "your last");
+}
+
 TEST_CASE("two clients of one account lose none of each other's drives, of other rates neither") {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("woodlouse-two-clients-" + std::to_string(getpid()));
