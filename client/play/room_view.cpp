@@ -8,6 +8,7 @@
 
 #include "client/play/bell.h"
 #include "client/play/modes/goal.h"
+#include "client/play/modes/ruling_words.h"
 #include "client/play/spoken_words.h"
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "client/drawing/formatted.h"
+#include "client/drawing/compose.h"
 #include "client/drawing/layout.h"
 #include "client/play/modes/course_builder.h"
 #include "client/play/modes/goal.h"
@@ -217,9 +217,10 @@ Scene build_scene(const Session& session, const Interface& interface, const Chat
   for (const Utterance& line : room.roster().chat()) scene.chat.push_back({line.from, line.text});
   scene.chat_entry = entry.text();
   scene.notice = room.notice_line();
+  const core::Vec2 up = up_in_picture(scene.view, scene.look);
   scene.course = course_of({room.sight(), scene.spectating ? scene.follow_id : own_id,
                             sample_of(room.sight(), scene.spectating ? scene.follow_id : own_id),
-                            !scene.spectating, &room.own_game().run(), scene.hud.rank});
+                            !scene.spectating, &room.own_game().run(), scene.hud.rank, up});
   if (const auto* welcome = room.welcome();
       scene.course.lines.empty() && welcome != nullptr &&
       state::mode_from_text(welcome->mode).value_or(state::Mode::kRoam) != state::Mode::kRoam)
@@ -231,11 +232,9 @@ Scene build_scene(const Session& session, const Interface& interface, const Chat
     scene.course.gates.push_back(*gate);
     scene.course.target = 0.5 * (gate->a + gate->b);
     scene.course.lines.push_back(room.own_game().gate().line(facts.now));
-    if (const LouseSample* you = sample_of(room.sight(), own_id)) {
-      const core::Vec2 way = *scene.course.target - you->position;
+    if (const LouseSample* you = sample_of(room.sight(), own_id))
       scene.course.lines.back().push_back(
-          {formatted("  %s %.0f m", compass(way).c_str(), std::hypot(way.x, way.y)), Tone::kGoal});
-    }
+          {"  " + way_text(*scene.course.target - you->position, up), Tone::kGoal});
   }
   scene.silence = room.silence(facts.now);
   scene.paused = room.stands() && !scene.silence;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "client/drawing/compose.h"
 #include "client/play/modes/course_builder.h"
 
 namespace woodlouse::client {
@@ -141,8 +142,9 @@ Scene Screening::scene(const FrameFacts& facts) const {
   fill_louse_numbers(recording_.sight(), scene.follow_id, scene);
   if (const state::Louse* louse = recording_.louse(scene.follow_id))
     fill_thrust_numbers(*louse, recording_.archive().header().tick_hz, scene.hud);
-  scene.course = course_of({recording_.sight(), scene.follow_id,
-                            sample_of(recording_.sight(), scene.follow_id), false, nullptr, scene.hud.rank});
+  scene.course =
+      course_of({recording_.sight(), scene.follow_id, sample_of(recording_.sight(), scene.follow_id), false,
+                 nullptr, scene.hud.rank, up_in_picture(scene.view, scene.look)});
   scene.chat = recording_.chat();
   scene.replay = bar();
   const RecordingProof& proof = recording_.proof();

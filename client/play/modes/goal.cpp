@@ -19,11 +19,6 @@ namespace {
 
 constexpr double kMoments = 65536.0;  ///< of a tick
 
-std::string way_to(const GoalFacts& facts, core::Vec2 place) {
-  const core::Vec2 way = place - facts.you->position;
-  return formatted("%s %.0f m", compass(way).c_str(), std::hypot(way.x, way.y));
-}
-
 core::Vec2 seen_from_you(const GoalFacts& facts, core::Vec2 place) {
   const map::Map& map = *facts.sight.map;
   return Ways(map.terrain->domain(), map.definition.physics.edges).beside(facts.you->position, place);
@@ -160,8 +155,7 @@ void add_aim(const GoalFacts& facts, GoalLine& line) {
     case state::Mode::kRace: {
       const map::RaceMode& race = *facts.sight.map->definition.modes.race;
       const std::size_t gate = std::min<std::size_t>(facts.you->standing.gate, race.gates.size() - 1);
-      what =
-          (gate == 0 ? "gate S" : "gate " + std::to_string(gate)) + ":";  // "gate S S" would be read as one
+      what = gate_name(static_cast<std::int64_t>(gate)) + ":";  // "gate S S" would be read as one
       is_flown = race.gates[gate].in_air;
       break;
     }
@@ -174,7 +168,7 @@ void add_aim(const GoalFacts& facts, GoalLine& line) {
     case state::Mode::kRoam:
       break;
   }
-  line.push_back({"  " + what + " " + way_to(facts, *place), Tone::kGoal});
+  line.push_back({"  " + what + " " + way_text(*place - facts.you->position, facts.up), Tone::kGoal});
   if (is_flown) line.push_back({", fly through", Tone::kGoal, true});
   if (!facts.is_own) line.push_back({" from " + facts.sight.name_of(facts.id), Tone::kDim, true});
 }
@@ -293,11 +287,20 @@ std::vector<GoalLine> goal_lines(const GoalFacts& facts) {
   return own.empty() ? std::vector<GoalLine>{first} : std::vector<GoalLine>{first, own};
 }
 
-std::string compass(core::Vec2 way) {
+std::string compass(core::Vec2 way, core::Vec2 up) {
+  assert(std::abs(std::hypot(up.x, up.y) - 1.0) < 1e-6);
   constexpr const char* kNames[] = {"E", "NE", "N", "NW", "W", "SW", "S", "SE"};
-  const double eighths = std::atan2(way.y, way.x) * (4.0 / std::numbers::pi);
+  const double right = way.x * up.y - way.y * up.x;
+  const double eighths = std::atan2(way.x * up.x + way.y * up.y, right) * (4.0 / std::numbers::pi);
   return kNames[(static_cast<long>(std::lround(eighths)) + 8) % 8];
 }
+
+std::string way_text(core::Vec2 way, core::Vec2 up) {
+  const double metres = std::hypot(way.x, way.y);
+  return metres < 0.5 ? "here" : formatted("%s %.0f m", compass(way, up).c_str(), metres);
+}
+
+std::string gate_name(std::int64_t gate) { return gate == 0 ? "gate S" : "gate " + std::to_string(gate); }
 
 std::string span_text(std::int64_t moments, std::uint32_t tick_hz) {
   assert(tick_hz > 0);
@@ -305,45 +308,6 @@ std::string span_text(std::int64_t moments, std::uint32_t tick_hz) {
   const auto ms = static_cast<std::int64_t>(static_cast<double>(moments) / kMoments / tick_hz * 1e3);
   return formatted("%ld:%02ld.%03ld", static_cast<long>(ms / 60000), static_cast<long>(ms / 1000 % 60),
                    static_cast<long>(ms % 1000));
-}
-
-std::string describe_ruling(const protocol::Event& event, std::uint32_t you, std::uint32_t tick_hz) {
-  using protocol::EventKind;
-  const auto value = [&event](std::size_t k) { return event.values[k].value_or(0); };
-  const bool is_you = event.id != 0 && event.id == you;
-  switch (event.kind) {
-    case EventKind::kGate:
-      if (!is_you) return {};
-      if (value(2) == 0) return value(0) == 0 ? "through S: the clock runs" : std::string();
-      return formatted("gate %ld %s", static_cast<long>(value(0)), span_text(value(2), tick_hz).c_str()) +
-             (event.values[3] ? formatted(" %+.2f s", static_cast<double>(value(3)) / kMoments / tick_hz)
-                              : "");
-    case EventKind::kLapDone:
-      return is_you ? "lap " + span_text(value(1), tick_hz) + (value(2) != 0 ? ", your best" : "")
-                    : std::string();
-    case EventKind::kRun:
-      return formatted("%s ran %s, #%ld", event.name.c_str(), span_text(value(0), tick_hz).c_str(),
-                       static_cast<long>(value(1)));
-    case EventKind::kRecord:
-      return formatted("%s drove a record: %s", event.name.c_str(), span_text(value(0), tick_hz).c_str());
-    case EventKind::kHarvest:
-      return "harvest: crumbs count twice";
-    case EventKind::kHolds:
-      return event.id == 0 ? std::string()
-                           : event.name + " holds the place";  // the lines say when nobody does
-    case EventKind::kMoving:
-      return "the place will move";
-    case EventKind::kFell:
-      return event.name + " fell";
-    case EventKind::kRound:
-      if (event.phase == protocol::GamePhase::kPlay)
-        return formatted("round %ld begins", static_cast<long>(value(0)));
-      if (event.phase == protocol::GamePhase::kPodium)
-        return formatted("round %ld is over", static_cast<long>(value(0)));
-      return {};
-    default:
-      return {};
-  }
 }
 
 }  // namespace woodlouse::client

@@ -1,4 +1,4 @@
-// What the rules of play want of you, in words: the lines over the map, and what is said of a ruling.
+// What the rules of play want of you, in words: the lines over the map.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,6 @@
 #include "client/drawing/course/course.h"
 #include "client/play/modes/own_run.h"
 #include "client/play/visible_lice.h"
-#include "shared/protocol/messages.h"
 
 namespace woodlouse::client {
 
@@ -20,6 +19,7 @@ struct GoalFacts {
   bool is_own = false;               ///< it is yours, not one that you watch
   const OwnRun* run = nullptr;       ///< of your own louse
   int rank = 0;                      ///< 0: none
+  core::Vec2 up{0.0, 1.0};           ///< what over the map points up in the picture; length 1
 };
 
 /// One line or two: phase and time left, score or clock, the way to the next gate, place or dearest crumb. In
@@ -29,8 +29,13 @@ std::vector<GoalLine> goal_lines(const GoalFacts& facts);
 /// Where that way leads, as seen from the louse where edges wrap; none: nowhere.
 std::optional<core::Vec2> goal_of(const GoalFacts& facts);
 
-/// Eight directions of the compass: "N", "NE" and so on; north is +y.
-std::string compass(core::Vec2 way);
+/// Eight directions of the compass: "N", "NE" and so on. North is `up`: in a picture that is turned the words
+/// name the keys that push there.
+std::string compass(core::Vec2 way, core::Vec2 up = {0.0, 1.0});
+/// "NE 27 m"; "here" below half a metre.
+std::string way_text(core::Vec2 way, core::Vec2 up);
+/// What a gate is called: "gate S", where laps begin, "gate 3".
+std::string gate_name(std::int64_t gate);
 /// A span of moments: 1:23.456.
 std::string span_text(std::int64_t moments, std::uint32_t tick_hz);
 /// A score as a mode counts it: "1:02.345", "12", "13.4 s"; "--" where there is none yet.
@@ -42,8 +47,5 @@ std::uint64_t author_ms_of(const std::string& rules);
 /// Which medal a run of a race with this author's time deserves: "AUTHOR", "GOLD", "SILVER", "BRONZE"; empty:
 /// none. moments > 0.
 std::string medal_of(std::uint64_t author_ms, std::int64_t moments, std::uint32_t tick_hz);
-
-/// What an event of the rules is told as; empty: not worth a line. `you`: your louse, or 0.
-std::string describe_ruling(const protocol::Event& event, std::uint32_t you, std::uint32_t tick_hz);
 
 }  // namespace woodlouse::client

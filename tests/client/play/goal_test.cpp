@@ -3,7 +3,9 @@
 #include <catch2/catch.hpp>
 #include <tuple>
 
+#include "client/drawing/compose.h"
 #include "client/play/modes/course_builder.h"
+#include "client/play/modes/ruling_words.h"
 #include "shared/map/map_file.h"
 #include "shared/map/map_search_file.h"
 
@@ -165,6 +167,43 @@ TEST_CASE("a welcome's rules tell the author's time, or nothing") {
   CHECK(author_ms_of(R"({"laps":3,"author_ms":61652})") == 61652);
   for (const char* text : {"", "{", "[]", R"({"author_ms":-1})", R"({"author_ms":"1"})", R"({"laps":3})"})
     CHECK(author_ms_of(text) == 0);
+}
+
+TEST_CASE("a way is named by the keys that push there, in a picture that is turned, too") {
+  const core::Vec2 turned = up_in_picture(View::kOblique, Look{ColorMode::kTruecolor, GlyphSet::kHalfBlocks});
+  REQUIRE(turned.x > 0.0);  // its up is east of north
+  const core::Vec2 north{0.0, 1.0};
+  CHECK(compass(turned, turned) == "N");
+  CHECK(compass({turned.y, -turned.x}, turned) == "E");
+  const core::Vec2 between{-0.2, 1.0};  // 11 degrees west of north: 28 left of up
+  CHECK(compass(between, north) == "N");
+  CHECK(compass(between, turned) == "NW");
+  CHECK(way_text({0.0, 0.4}, north) == "here");
+  CHECK(way_text({0.0, -10.0}, north) == "S 10 m");
+
+  SeenRoom room = race();
+  room.add(2, 0, 10.0, true);
+  LouseSample& you = room.lice.at(2).sample;
+  you.standing.gate = 1;
+  const map::Gate& gate = room.map->definition.modes.race->gates[1];
+  you.position = 0.5 * (gate.a + gate.b) - 20.0 * between;
+  CHECK(text_of(goal_lines({room.sight(), 2, &you, true, nullptr, 1})).find("gate 1: N 20 m") !=
+        std::string::npos);
+  CHECK(text_of(goal_lines({room.sight(), 2, &you, true, nullptr, 1, turned})).find("gate 1: NW 20 m") !=
+        std::string::npos);
+}
+
+TEST_CASE("the gate where laps begin has the same name in the chat as in the picture") {
+  protocol::Event event;
+  event.kind = protocol::EventKind::kGate;
+  event.id = 7;
+  event.values = {0, 1, 12 * kSecond, std::nullopt};
+  CHECK(describe_ruling(event, 7, 60) == "gate S 0:12.000");
+  event.values = {3, 1, 12 * kSecond, -kSecond / 2};
+  CHECK(describe_ruling(event, 7, 60) == "gate 3 0:12.000 -0.50 s");
+  CHECK(describe_ruling(event, 8, 60).empty());
+  event.values = {0, 0, 0, std::nullopt};
+  CHECK(describe_ruling(event, 7, 60) == "through S: the clock runs");
 }
 
 TEST_CASE("a split is told in figures with its sign, for two seconds") {
