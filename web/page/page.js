@@ -24,7 +24,7 @@ async function openAddress(stage, address) {
 async function begin(stage) {
   const name = params.get('name') ?? kept('name'), replay = params.get('replay');
   if (params.has('lab')) return stage.compare();
-  if (replay !== null) {
+  if (replay) {
     await openAddress(stage, replay);
     return void (stage.source ?? stage.enter());  // one that is damaged was told of
   }

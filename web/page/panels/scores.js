@@ -34,7 +34,7 @@ export class Scores {
       dot.style.background = colourOf(id);
       setText(name, id === you ? 'you' : nameOf(id));
       setText(what.firstChild, measure);
-      setHidden(what.lastChild, share === 0);
+      setHidden(what.lastChild, share < 0.02);
       what.lastChild.style.width = `${share * 100}%`;
     });
   }
