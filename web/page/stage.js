@@ -33,7 +33,7 @@ export class Stage {
     this.core = core;
     this.picture = new Picture(byId('picture'), byId('labels'), { calm: calm.matches });
     this.setTheme(params.get('theme') || kept('theme'));
-    this.teacher = new Teacher(!kept('lesson'), () => keep('lesson', 'had'));
+    this.teacher = new Teacher(!kept('lesson'), () => keep('lesson', 'had'), matchMedia('(pointer: coarse)').matches);
     this.panels = new Panels({ follow: (id) => this.follow(id), say: (text) => this.room?.say(text), choose: (room) => this.choose(room), seek: (tick) => this.player?.seek(tick) });
     this.#bindHands();
   }
@@ -105,13 +105,14 @@ export class Stage {
     if (!recording) return;
     this.player?.close();
     this.#show('recording');
+    const isFirst = !this.file;
     this.file = name;
     this.followed = 0;
     const player = this.player = new Player(recording, toast);
     player.isPlaying = !calm.matches;
     player.onSeek = () => this.picture.clearTrails();
     this.panels.recording(player);
-    const at = hash().get('t');
+    const at = isFirst ? hash().get('t') : null;  // the address means the one it came with
     if (at !== null && at !== '') player.seek(Number(at) || player.info.first);
     if (player.info.is_cut_off) toast('this recording ends before its game did');
   }

@@ -87,6 +87,7 @@ test('a split flashes with its sign, a chain runs out', () => {
 });
 
 test('a lesson goes on when something was really done', () => {
+  assert.match(new Lesson(10, true).lines.join(), /move the stick/);
   const lesson = new Lesson(10);
   let now = 0;
   const see = (more, seconds) => { for (const end = now + seconds; now < end; now += 0.05) lesson.observe({ now, isPushing: false, heading: [1, 0], slope: 0, height: 0, speed: 0, ...more }); };

@@ -87,7 +87,9 @@ export class Panels {
     const over = byId('over').getBoundingClientRect(), isNarrow = over.width <= 760 || over.height <= 480;
     const box = (id) => byId(id).getBoundingClientRect(), tall = (id) => box(id).height;
     const wide = (id) => box(id).width + 12;
-    camera.insets = isNarrow ? { left: 0, right: 0, top: Math.max(box('top').bottom, box('goal').bottom, box('lesson').bottom) + 4, bottom: over.height - Math.min(...['bar', 'lab', 'recording'].filter(tall).map((id) => box(id).top)) }
+    const isLow = isNarrow && over.width > 760;  // a phone on its side: panels stand left and right
+    camera.insets = isLow ? { left: Math.max(wide('goal'), wide('lesson')), right: wide('scores'), top: box('top').bottom + 4, bottom: over.height - Math.min(...['bar', 'lab', 'recording'].filter(tall).map((id) => box(id).top)) }
+      : isNarrow ? { left: 0, right: 0, top: Math.max(box('top').bottom, box('goal').bottom, box('lesson').bottom) + 4, bottom: over.height - Math.min(...['bar', 'lab', 'recording'].filter(tall).map((id) => box(id).top)) }
       : { left: wide('lab'), right: Math.max(wide('scores'), wide('louse')), top: Math.max(tall('top') + 20, box('goal').bottom + 8), bottom: over.height - Math.min(...['bar', 'recording'].filter(tall).map((id) => box(id).top)) };
   }
 

@@ -63,7 +63,7 @@ export class Names {
       } else {
         context.strokeStyle = look.halo;
         context.strokeText(text, width / 2, HEIGHT / 2 + .5);
-        context.fillStyle = theme === 'dark' && colour !== null ? css(colour) : look.text;
+        context.fillStyle = theme === 'dark' && colour !== null && readableOn(colour) !== '#ffffff' ? css(colour) : look.text;  // a dark one is not read on the halo
       }
       context.fillText(text, width / 2, HEIGHT / 2 + .5);
     });

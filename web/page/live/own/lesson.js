@@ -8,8 +8,8 @@ const SWING = 0.6, HIGHEST_RISE = 1, RISE_OF_RELIEF = 0.1, LEAST_RELIEF = 1, PRA
 export class Lesson {
   /** @type {any} */ #before = null; #begun = 0; #pushed = 0; #turned = 0; #lowest = 0;
 
-  /** @param {number} relief between the map's highest and lowest place [m]; where that is little nobody can swing */
-  constructor(relief) { this.relief = relief; /** @type {'push'|'turn'|'swing'|'praise'|'over'} */ this.step = 'push'; }
+  /** @param {number} relief between the map's highest and lowest place [m]; where that is little nobody can swing @param {boolean} [byThumb] by the stick: there are no keys */
+  constructor(relief, byThumb = false) { this.relief = relief; this.byThumb = byThumb; /** @type {'push'|'turn'|'swing'|'praise'|'over'} */ this.step = 'push'; }
 
   get isOver() { return this.step === 'over'; }
   /** Everything was done; praise may still stand there. */
@@ -33,10 +33,10 @@ export class Lesson {
   get lines() {
     const of = this.relief >= LEAST_RELIEF ? 3 : 2;
     return {
-      push: [`1/${of} PUSH: hold W, an arrow, or the stick`, 'each key pushes that way in the picture'],
-      turn: [`2/${of} TURN: push another way`, 'a curve: two keys at once'],
+      push: this.byThumb ? [`1/${of} PUSH: move the stick`, 'it pushes that way in the picture'] : [`1/${of} PUSH: hold W or an arrow`, 'each key pushes that way in the picture'],
+      turn: [`2/${of} TURN: push another way`, this.byThumb ? 'a curve: all ways between' : 'a curve: two keys at once'],
       swing: ['3/3 SWING: push while rolling DOWN', 'speed climbs what no push can'],
-      praise: ['WELL DONE: that is how hills are won', '? shows all keys, V another view'],
+      praise: ['WELL DONE: that is how hills are won', this.byThumb ? 'two fingers zoom, one turns the picture' : '? shows all keys, V another view'],
       over: [],
     }[this.step];
   }
@@ -83,9 +83,10 @@ function reliefOf(ground) {
 export class Teacher {
   /** @type {Lesson|null} */ #lesson = null;
 
-  /** @param {boolean} isNew the pupil has had no lesson @param {() => void} onLearnt */
-  constructor(isNew, onLearnt) {
+  /** @param {boolean} isNew the pupil has had no lesson @param {() => void} onLearnt @param {boolean} [byThumb] */
+  constructor(isNew, onLearnt, byThumb = false) {
     this.isNew = isNew;
+    this.byThumb = byThumb;
     this.onLearnt = onLearnt;
   }
 
@@ -93,7 +94,7 @@ export class Teacher {
   observe(room, now) {
     const { ground, own } = room, you = room.louse(room.you);
     if (!this.isNew || !own.pilot || !ground || !you) return [];
-    this.#lesson ??= new Lesson(reliefOf(ground));
+    this.#lesson ??= new Lesson(reliefOf(ground), this.byThumb);
     const { z, zx, zy } = ground.sample(you.x, you.y), climbing = zx * you.vx + zy * you.vy, flat = Math.hypot(you.vx, you.vy);
     const hasChanged = this.#lesson.observe({
       now, isPushing: own.steering.isPushing(now), heading: own.steering.heading, slope: flat > 0.05 ? climbing / flat : 0, height: z, speed: Math.hypot(flat, climbing),
