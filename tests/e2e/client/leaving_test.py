@@ -4,6 +4,7 @@ import os
 import re
 import signal
 import time
+import unittest
 
 from terminal import InATerminal, alive, wait_for
 

@@ -8,6 +8,7 @@ import signal
 import struct
 import termios
 import time
+import unittest
 
 from terminal import BIN, InATerminal, LOOK, Server, wait_for
 
