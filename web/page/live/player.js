@@ -79,6 +79,8 @@ export class Player {
   /** All of it, re-run at once. */
   async verify() {
     const begun = performance.now(), { ok, text } = await this.recording.verify();
+    const tick = /differs at tick (\d+)/.exec(text)?.[1];
+    if (tick) this.difference ??= { tick: Number(tick), what: text };  // marked on the track, too
     this.verdict = { ok, text: `${text.trim()} (${(performance.now() - begun).toFixed(0)} ms)` };
   }
 
