@@ -21,8 +21,9 @@ class ConnectionLimits {
   static constexpr std::uint32_t kCourtesy = 16;
   /// One connection in so many is for addresses that have none: a few can't keep out everybody else.
   static constexpr std::uint32_t kReserve = 20;
-  /// So many of an address's connections may speak HTTP: what a browser opens for a page, several times.
-  static constexpr std::uint32_t kMostHttp = 32;
+  /// So many of an address's connections may speak HTTP: six are what a browser opens for a page, and some
+  /// twenty behind one router may come at once. A page that lacks a module does not begin.
+  static constexpr std::uint32_t kMostHttp = 128;
 
   /// limits outlives it.
   explicit ConnectionLimits(const LiveLimits& limits) : limits_(limits) {}

@@ -28,7 +28,8 @@ bool is_sound(const state::Louse& louse) {
   for (const state::LouseField& field : state::kLouseFields)
     is_finite = is_finite && std::isfinite(field_value(louse, field));
   return is_finite && louse.phase <= state::Phase::kFlying &&
-         louse.thrust_kind <= state::ThrustKind::kMapVector;
+         louse.thrust_kind <= state::ThrustKind::kMapVector &&
+         louse.thrust.x * louse.thrust.x + louse.thrust.y * louse.thrust.y <= 1.0;
 }
 
 }  // namespace

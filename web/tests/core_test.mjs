@@ -93,6 +93,7 @@ test("worlds step lice, each for itself", { skip }, async () => {
   assert.equal(one.thrust(7, 2, 1, 1, 1), false);  // longer than 1
   assert.throws(() => one.put({ ...start, id: 9, x: NaN }), /no louse/);
   assert.throws(() => one.put({ ...start, id: 9, phase: 3 }), /no louse/);
+  assert.throws(() => one.put({ ...start, id: 9, thrust_kind: 2, tx: 1e300, ticks_left: 60 }), /no louse/);
   assert.ok(one.erase(7));
   assert.equal(one.find(7), null);
 });

@@ -249,7 +249,7 @@ class Http(unittest.TestCase):
     def test_an_address_has_so_many_sockets_of_http(self):
         with WebServer() as server:
             kept = []
-            for _ in range(33):
+            for _ in range(129):
                 connection = http.client.HTTPConnection(server.host, server.web_port, timeout=PATIENCE)
                 connection.request("GET", "/healthz")
                 answer = connection.getresponse()

@@ -109,7 +109,7 @@ TEST_CASE("an IPv6 network of 64 bits counts as one address, a mapped IPv4 addre
 }
 
 TEST_CASE("of an address's connections only some may speak HTTP at a time") {
-  Limited house(64);
+  Limited house(256);
   ConnectionLimits& connections = house.limits;
   for (std::uint32_t k = 0; k < ConnectionLimits::kMostHttp; ++k) {
     REQUIRE(house.admit("10.0.0.1") == Admission::kWelcome);
