@@ -162,7 +162,7 @@ export class Stage {
       act(this, button.dataset.do);
       if (event.detail > 0 && this.isPlaying && !document.querySelector('dialog[open]')) byId('picture').focus();  // by a pointer: Space brakes again
     });
-    addEventListener('keydown', (event) => { if (event.key === 'Escape' && !document.querySelector('dialog[open]')) this.teacher.dismiss(); });
+    addEventListener('keydown', (event) => { if (event.key === 'Escape' && event.target !== byId('say') && !document.querySelector('dialog[open]')) this.teacher.dismiss(); });
     onName();
     onPalette((palette) => this.picture.setPalette(palette));
     onSystemTheme(() => this.picture.setTheme(theme()));
