@@ -5,7 +5,6 @@ import hashlib
 import http.client
 import json
 import os
-import re
 import shutil
 import signal
 import socket
@@ -216,35 +215,6 @@ class Http(unittest.TestCase):
             self.assertEqual(status, 403)
             self.assertIn("--web-host", body)
             self.assertEqual(server.ask("GET", "/", A="a" * 8193)[0], 431)
-
-    def test_the_page_brings_its_files_along_and_is_asked_for_once(self):
-        with WebServer() as server:
-            status, headers, page = server.ask("GET", "/")
-            script = re.search(r'src="(/[0-9a-f]{16}/page\.js)"', page)
-            if script is None:
-                self.skipTest("the server was built without the page")
-            self.assertEqual((status, headers["Cache-Control"]), (200, "no-cache"))
-            self.assertEqual(server.ask("GET", "/", **{"If-None-Match": headers["ETag"]})[::2], (304, ""))
-            status, headers, text = server.ask("GET", script[1])
-            self.assertEqual((status, headers["Content-Type"]), (200, "text/javascript; charset=utf-8"))
-            self.assertIn("immutable", headers["Cache-Control"])
-            for name in re.findall(r"from '\./([a-z_/]+\.js)'", text):
-                self.assertEqual(server.ask("HEAD", script[1].replace("page.js", name))[0], 200, name)
-            core = script[1].replace("page.js", "core.wasm")
-            packed = server.ask("HEAD", core, **{"Accept-Encoding": "gzip"})[1]
-            self.assertEqual((packed["Content-Encoding"], packed["Content-Type"]), ("gzip", "application/wasm"))
-            self.assertLess(int(packed["Content-Length"]), 350_000)
-            self.assertEqual(server.ask("GET", "/0123456789abcdef/page.js")[0], 404)
-
-    def test_a_folder_is_served_and_nothing_outside_of_it(self):
-        with tempfile.TemporaryDirectory() as folder:
-            with open(os.path.join(folder, "index.html"), "w", encoding="utf-8") as file:
-                file.write("<!doctype html>mine")
-            os.symlink("/etc/passwd", os.path.join(folder, "users.txt"))
-            with WebServer("--web-root", folder) as server:
-                self.assertEqual(server.ask("GET", "/")[::2], (200, "<!doctype html>mine"))
-                for path in ("/users.txt", "/../../etc/passwd", "/%2e%2e/etc/passwd", "//etc/passwd", "/.", "/index.html/"):
-                    self.assertEqual(server.ask("GET", path)[0], 404, path)
 
     def test_an_address_has_so_many_sockets_of_http(self):
         with WebServer() as server:
