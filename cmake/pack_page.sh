@@ -1,8 +1,10 @@
 #!/bin/sh
 # pack_page.sh OUT PAGE CORE: the page's files and core.wasm as a C++ file that has them in it (server/web/page_files.h).
-# Comments that are lines of their own become empty lines, so that a line's number stays what it is. index.html names its
-# scripts and styles below the version of all files together, which are therefore good for ever.
+# Where esbuild is installed each file becomes shorter by itself (no bundle: modules stay what they are); without it comments
+# that are lines of their own become empty ones. index.html names its scripts and styles below the version of all files
+# together, which are therefore good for ever, and all modules at once: else a browser learns of them one after the other.
 set -eu
+esbuild=$(command -v esbuild || true)
 out=$1 page=$2 core=$3
 rm -rf "$out/files"
 mkdir -p "$out/files"
@@ -11,6 +13,10 @@ for name in $names; do
   mkdir -p "$(dirname "$out/files/$name")"
   case $name in
     *.js|*.css)
+      if [ -n "$esbuild" ]; then
+        "$esbuild" --minify --charset=utf8 --target=es2022 --log-level=error --loader="${name##*.}" < "$page/$name" > "$out/files/$name"
+        continue
+      fi
       sed -E -e 's#^[[:space:]]*//.*##' -e 's#^[[:space:]]*/\*.*\*/[[:space:]]*$##' \
         -e '\#^[[:space:]]*/\*([^*]|\*[^/]|\*$)*$#,\#\*/#s#.*##' "$page/$name" > "$out/files/$name" ;;
     *) cp "$page/$name" "$out/files/$name" ;;
@@ -20,7 +26,8 @@ cp "$core" "$out/files/core.wasm"
 names="$names
 core.wasm"
 version=$(cd "$out/files" && sha256sum $names | sha256sum | cut -c1-16)
-sed -E "s#(href|src)=\"(\./)?([A-Za-z0-9_][A-Za-z0-9_./-]*\.(js|css|svg|png|wasm))\"#\1=\"/$version/\3\"#g" "$page/index.html" > "$out/files/index.html"
+modules=$(printf '%s\n' $names | grep '\.js$' | grep -v '_worker\.js$' | sed 's#.*#<link rel="modulepreload" href="&">#' | tr -d '\n')
+sed -E -e "s#^<script type=\"module\"#$modules\n&#" -e "s#(href|src)=\"(\./)?([A-Za-z0-9_][A-Za-z0-9_./-]*\.(js|css|svg|png|wasm))\"#\1=\"/$version/\3\"#g" "$page/index.html" > "$out/files/index.html"
 
 {
   echo '// Made by cmake/pack_page.sh.'
