@@ -2,7 +2,7 @@
 // The page begins: with what its address asks for.
 import { Core } from './core/core.js';
 import { CoreEnded } from './core/instance.js';
-import { kept } from './panels/settings.js';
+import { kept, leaveBehind, leftBehind } from './panels/settings.js';
 import { byId, setHidden, setText, toast } from './panels/elements.js';
 
 setHidden(byId('lost'), true);  // this much has come; what else goes wrong is told below
@@ -28,8 +28,9 @@ async function begin(stage) {
     await openAddress(stage, replay);
     return void (stage.source ?? stage.enter());  // one that is damaged was told of
   }
-  if (!params.has('play') || !name) return void stage.enter();
-  stage.enter({ role: 'player', name });
+  const left = leftBehind(), back = left && left.room === (params.get('room') || left.room) ? left : null;
+  if (!back && !(params.has('play') && name)) return void stage.enter();
+  stage.enter({ role: 'player', ...back ?? { name } });
   stage.view('follow');
 }
 
@@ -41,6 +42,7 @@ try {
   const stage = new Stage(core);
   Object.assign(globalThis, { woodlouse: stage });  // for who looks in from the console, and for tests
   requestAnimationFrame((now) => stage.frame(now));
+  addEventListener('pagehide', () => leaveBehind(stage.back));
   await begin(stage).catch((error) => { toast(wordsOf(error), 'bad'); stage.enter(); });
   let isMending = false;
   addEventListener('error', async ({ error }) => {

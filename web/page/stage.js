@@ -51,7 +51,7 @@ export class Stage {
 
   /** Into a room, as before but for what `change` says. */
   enter(change = {}) {
-    const wish = /** @type {import('./live/link.js').Wish} */ ({ role: 'spectator', name: kept('name') || 'guest', room: params.get('room') ?? '', token: '', ...this.#wish, ...change });
+    const wish = /** @type {import('./live/link.js').Wish} */ ({ role: 'spectator', name: kept('name') || 'guest', room: params.get('room') ?? '', token: '', ...this.#wish, resume: '', ...change });
     const lines = wish.room === this.#wish.room ? this.room?.roster.lines ?? [] : [];  // what was said stays, in the same room
     this.#wish = wish;
     this.room?.stop();
@@ -62,6 +62,9 @@ export class Stage {
     document.body.dataset.role = wish.role;
     this.room.start();
   }
+
+  /** What a page that is loaded anew needs to be put back into its louse; null: nobody plays. */
+  get back() { return this.isPlaying && this.room?.door.resume ? { name: this.room.door.wish.name, room: this.room.welcome?.room ?? '', resume: this.room.door.resume } : null; }
 
   /** Into another room; the address names it, for a reload or a friend. @param {string} room */
   choose(room) {

@@ -144,7 +144,7 @@ export class Link {
 
 const PLAYER_HZ = 20, WATCHER_HZ = 10, STREAM_HZ = 20, HIDDEN_HZ = 1;
 
-/** @typedef {{role: 'player'|'spectator', name: string, room: string, token: string}} Wish */
+/** @typedef {{role: 'player'|'spectator', name: string, room: string, token: string, resume?: string}} Wish token: a password; resume: of a louse that waits */
 
 export class Door {
   #byFrames = false; #halves = 0;
@@ -158,6 +158,7 @@ export class Door {
   /** @param {Wish} wish @param {number} ownBehavior of the page's core */
   constructor(wish, ownBehavior) {
     this.wish = wish;
+    this.resume = wish.resume ?? '';
     this.ownBehavior = ownBehavior;
   }
 

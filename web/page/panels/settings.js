@@ -11,6 +11,17 @@ export const storage = (() => { try { return localStorage; } catch { return null
 export function kept(name) { try { return storage?.getItem(KEY + name) ?? ''; } catch { return ''; } }
 export function keep(name, value) { try { storage?.setItem(KEY + name, value); } catch { /* then it is asked again */ } }
 
+/** What is wanted of the next page in this tab, once: a page that is loaded anew. @param {object|null} wish */
+export function leaveBehind(wish) { try { if (wish) sessionStorage.setItem(KEY + 'back', JSON.stringify(wish)); } catch { /* then it begins as ever */ } }
+/** @returns {{name: string, room: string, resume: string}|null} */
+export function leftBehind() {
+  try {
+    const text = sessionStorage.getItem(KEY + 'back');
+    sessionStorage.removeItem(KEY + 'back');
+    return text ? JSON.parse(text) : null;
+  } catch { return null; }
+}
+
 const prefersLight = matchMedia('(prefers-color-scheme: light)');
 
 /** @returns {'light'|'dark'} as chosen, else as the system has it */

@@ -125,6 +125,20 @@ test('a page of which a part does not come says so', async () => {
   await other.close();
 });
 
+test('a page that is loaded anew is put back into its louse, and a watcher into none', async () => {
+  await shown(page, `${served.web}?room=hills&play`);
+  await until(page, () => window.woodlouse.room.own.pilot?.louse);
+  const you = await known(page, () => window.woodlouse.room.you);
+  await page.goto(`${served.web}?room=hills`);
+  await until(page, () => window.woodlouse?.room?.you > 0);
+  assert.equal(await known(page, () => window.woodlouse.room.you), you);
+  await known(page, () => window.woodlouse.join());
+  await until(page, () => window.woodlouse.room.door.wish.role === 'spectator' && window.woodlouse.room.lice.length > 0);
+  await page.reload();
+  await until(page, () => window.woodlouse?.room?.lice.length > 0);
+  assert.equal(await known(page, () => window.woodlouse.room.you), 0);
+});
+
 test('a server that restarts is waited for', async () => {
   await shown(page, `${served.web}?room=hills`);
   const back = served.restart(2500);
