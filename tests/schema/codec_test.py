@@ -96,7 +96,7 @@ class Codec(unittest.TestCase):
         values = {name for names in TABLES["events"].values() for name in names}
         pairs = {"a", "b"}  # of a gate, read in a loop over both
         self.assertEqual(properties_of(DOCUMENTS["client.json"]), read_by("shared/protocol/decode_client.cpp") | common)
-        sources = [f"shared/protocol/decode_{part}.cpp" for part in ("server", "frame", "game", "records")]
+        sources = [f"shared/protocol/decode_{part}.cpp" for part in ("server", "frame", "game", "map", "records")]
         self.assertEqual(properties_of(DOCUMENTS["server.json"]), read_by(*sources) | common | limits | values)
         readers = ["shared/map/*reader.cpp", "shared/map/spawns.cpp"]
         self.assertEqual(properties_of(DOCUMENTS["map.json"]), read_by(*readers) | pairs)

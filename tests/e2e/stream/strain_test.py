@@ -20,12 +20,18 @@ class Strain(StreamTest):
             steady_reader.start()
             watcher.watch(1)
             self.assertEqual(len(watcher.files), 1)
-            time.sleep(5)
-            # So small a window opens late once it has been shut, and he may fall behind again meanwhile.
-            watcher.watch(60, until=lambda: len(watcher.files) >= 2 and len(watcher.files[-1]) > 20)
-            first, second = (json.loads(file[1])["keyframe"] for file in watcher.files[:2])
-            last_before = json.loads(watcher.files[0][-1])["step"]
-            self.assertGreater(second, last_before + 60)
+            # So small a window opens late once it has been shut, and he may fall behind again meanwhile; and where the machine
+            # is busy the crowd says less, of which five seconds may fit into what lies under way.
+            for _ in range(4):
+                files = len(watcher.files)
+                time.sleep(5)
+                watcher.watch(60, until=lambda: len(watcher.files) > files and len(watcher.files[-1]) > 20)
+                last = [json.loads(file[-1]) for file in watcher.files[:-1]]
+                missed = [json.loads(file[1])["keyframe"] - line.get("step", line.get("keyframe"))
+                          for line, file in zip(last, watcher.files[1:])]
+                if max(missed, default=0) > 60:
+                    break
+            self.assertGreater(max(missed), 60)
             steady_reader.join(20)
             self.assertEqual(len(steady.files), 1)  # the slow one is nobody else's matter
             self.assertGreater(steady.steps, 500)

@@ -167,8 +167,8 @@ class Hostile(unittest.TestCase):
                     answer = b""
                 status = status_of(answer)
                 statuses[status] = statuses.get(status, 0) + 1
-            # 32 of HTTP at a time; no more than 256 and those that are told why are let in at all, though who was refused makes room.
-            self.assertEqual(statuses[200], 32, statuses)
+            # 128 of HTTP at a time; no more than 256 and those that are told why are let in at all, though who was refused makes room.
+            self.assertEqual(statuses[200], 128, statuses)
             self.assertEqual(sum(statuses.values()), 1000)
             self.assertLessEqual(set(statuses), {200, 503, None})
             self.assertGreater(statuses[503], 0)

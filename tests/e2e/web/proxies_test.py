@@ -152,10 +152,10 @@ class Proxies(unittest.TestCase):
         fields = {"X-Forwarded-For": "203.0.113.5, 192.0.2.1"}
         with self.server() as server:
             kept = []
-            for _ in range(33):
+            for _ in range(129):
                 status, connection = self.ask(server, **fields)
                 kept.append(connection)
-            self.assertEqual(status, 503, "of one address 32 at a time")
+            self.assertEqual(status, 503, "of one address 128 at a time")
             self.assertEqual(self.ask(server, **{"X-Forwarded-For": "192.0.2.2"})[0], 200)
             # The first socket is another one's with its next request, and so there is room again.
             kept[0].request("GET", "/healthz", headers={"X-Forwarded-For": "192.0.2.3"})
