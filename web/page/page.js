@@ -28,7 +28,7 @@ async function begin(stage) {
     await openAddress(stage, replay);
     return void (stage.source ?? stage.enter());  // one that is damaged was told of
   }
-  const left = leftBehind(), back = left && left.room === (params.get('room') || left.room) ? left : null;
+  const back = leftBehind();
   if (!back && !(params.has('play') && name)) return void stage.enter();
   stage.enter({ role: 'player', ...back ?? { name } });
   stage.view('follow');

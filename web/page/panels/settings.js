@@ -13,12 +13,13 @@ export function keep(name, value) { try { storage?.setItem(KEY + name, value); }
 
 /** What is wanted of the next page in this tab, once: a page that is loaded anew. @param {object|null} wish */
 export function leaveBehind(wish) { try { if (wish) sessionStorage.setItem(KEY + 'back', JSON.stringify(wish)); } catch { /* then it begins as ever */ } }
-/** @returns {{name: string, room: string, resume: string}|null} */
+/** What the page before left, where this one is that page loaded anew. @returns {{name: string, room: string, resume: string}|null} */
 export function leftBehind() {
   try {
     const text = sessionStorage.getItem(KEY + 'back');
     sessionStorage.removeItem(KEY + 'back');
-    return text ? JSON.parse(text) : null;
+    const navigation = /** @type {PerformanceNavigationTiming|undefined} */ (performance.getEntriesByType('navigation')[0]);
+    return text && navigation?.type === 'reload' ? JSON.parse(text) : null;
   } catch { return null; }
 }
 
