@@ -5,11 +5,6 @@ import { Ground } from "./ground.js";
 import { Instance } from "./instance.js";
 import { LouseRows } from "./lice.js";
 
-/**
- * What a key's hash is made of besides its rows, as an exact key with all fields has it: 16 hex digits each, and `link`, a tick.
- * @typedef {{previous: string, inputs: string, roster: string, rules: string, generator: string, link: number}} Link
- */
-
 export class Core {
   /**
    * @param {string | URL | BufferSource | WebAssembly.Module} source where it is, or its bytes
@@ -60,26 +55,6 @@ export class Core {
   #opened(handle, hz) {
     if (handle === 0) throw new Error(this.instance.answer());
     return new Ground(this, handle, hz);
-  }
-
-  /**
-   * The hash that a key with these rows has.
-   * @param {Link} link
-   * @param {import("./lice.js").Louse[]} lice by ascending id
-   * @returns {string} 16 hex digits
-   */
-  keyHash(link, lice) {
-    const { instance, rows } = this;
-    const kLinkBytes = 48;
-    return instance.withMemory(kLinkBytes + rows.size * lice.length, at => {
-      const view = instance.view(at);
-      [link.previous, link.inputs, link.roster, link.rules].forEach((hash, k) => view.setBigUint64(8 * k, BigInt(`0x${hash}`), true));
-      view.setBigUint64(32, BigInt(link.link), true);
-      view.setBigUint64(40, BigInt(`0x${link.generator}`), true);
-      rows.write(instance.view(at + kLinkBytes), lice);
-      instance.call("key_hash", at, at + kLinkBytes, lice.length);
-      return instance.answer();
-    });
   }
 
   /** Watches a room by inputs. */
