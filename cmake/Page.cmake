@@ -31,11 +31,11 @@ function(woodlouse_embed_page target)
     return()
   endif()
 
-  # The inner build finds out what is to be done; what it may depend on is named here. A file that comes or goes changes
-  # its folder.
+  # The inner build finds out what is to be done; what it may depend on is named here, and looked for anew before each
+  # build: files come and go.
   set(core_build ${PROJECT_BINARY_DIR}/wasm)
   set(core ${core_build}/bin/core.wasm)
-  file(GLOB_RECURSE core_sources LIST_DIRECTORIES true ${PROJECT_SOURCE_DIR}/shared/* ${PROJECT_SOURCE_DIR}/web/core/* ${PROJECT_SOURCE_DIR}/web/third_party/*)
+  file(GLOB_RECURSE core_sources CONFIGURE_DEPENDS LIST_DIRECTORIES true ${PROJECT_SOURCE_DIR}/shared/* ${PROJECT_SOURCE_DIR}/web/core/* ${PROJECT_SOURCE_DIR}/web/third_party/*)
   add_custom_command(OUTPUT ${core}
     COMMAND ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR} -B ${core_build} -G Ninja -DCMAKE_BUILD_TYPE=Release -DWOODLOUSE_ONLY=web
             -DCMAKE_TOOLCHAIN_FILE=${PROJECT_SOURCE_DIR}/cmake/wasm.cmake > ${core_build}.log
@@ -44,7 +44,7 @@ function(woodlouse_embed_page target)
     DEPENDS ${core_sources} ${PROJECT_SOURCE_DIR}/CMakeLists.txt ${PROJECT_SOURCE_DIR}/web/CMakeLists.txt ${PROJECT_SOURCE_DIR}/cmake/wasm.cmake
             ${PROJECT_SOURCE_DIR}/cmake/Flags.cmake ${PROJECT_SOURCE_DIR}/cmake/Dependencies.cmake
     COMMENT "Compiling the core for browsers (core.wasm)" VERBATIM)
-  file(GLOB_RECURSE page_sources LIST_DIRECTORIES true ${page}/*)
+  file(GLOB_RECURSE page_sources CONFIGURE_DEPENDS LIST_DIRECTORIES true ${page}/*)
   set(packed ${PROJECT_BINARY_DIR}/page)
   add_custom_command(OUTPUT ${packed}/embedded_page.cpp
     COMMAND ${PROJECT_SOURCE_DIR}/cmake/pack_page.sh ${packed} ${page} ${core}
