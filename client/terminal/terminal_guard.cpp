@@ -133,11 +133,11 @@ bool is_in_foreground() {
 }
 
 void take_terminal() {
+  borrowed.active = 1;  // before anything is taken: giving back what was not does no harm, the reverse does
   const termios raw = raw_of(borrowed.saved);
   tcsetattr(borrowed.input, TCSANOW, &raw);
   if (borrowed.use == TerminalUse::kFullScreen) put(kEnter);
   if (borrowed.kitty) put(kPushKitty);
-  borrowed.active = 1;
 }
 
 void give_terminal_back() {

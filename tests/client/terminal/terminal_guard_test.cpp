@@ -61,7 +61,6 @@ TEST_CASE("every signal that ends a program leaves the terminal as it was, and e
     const termios before = terminal.settings();
     const pid_t child = in_session_of(terminal, [](TerminalGuard&) {});
     REQUIRE(terminal.written_until(kEntered, 3000ms).find(kEntered) != std::string::npos);
-    std::this_thread::sleep_for(1ms);
     kill(child, signal);
     CHECK(terminal.written_until(kLeft, 3000ms).find(kLeft) != std::string::npos);
     int status = 0;
@@ -69,6 +68,27 @@ TEST_CASE("every signal that ends a program leaves the terminal as it was, and e
     CHECK(WIFSIGNALED(status));
     CHECK(WTERMSIG(status) == signal);
     CHECK(same(terminal.settings(), before));
+  }
+}
+
+TEST_CASE("a signal while the terminal is being taken gives back what was taken of it") {
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM, SIGUSR1}) {
+    INFO("signal " << signal);
+    const PseudoTerminal terminal;
+    const termios before = terminal.settings();
+    const int full = open(terminal.name().c_str(), O_WRONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    while (write(full, "#", 1) == 1) {  // the first bytes of who enters wait
+    }
+    const pid_t child = in_session_of(terminal, [](TerminalGuard&) {});
+    for (int i = 0; i < 1000 && same(terminal.settings(), before); ++i) std::this_thread::sleep_for(10ms);
+    CHECK(!same(terminal.settings(), before));
+    kill(child, signal);
+    int status = 0;
+    REQUIRE(ends(child, status));
+    CHECK(WIFSIGNALED(status));
+    CHECK(same(terminal.settings(), before));
+    CHECK(terminal.written_until(kLeft, 3000ms).find(kLeft) != std::string::npos);
+    close(full);
   }
 }
 
