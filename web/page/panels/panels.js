@@ -10,11 +10,16 @@ import { LousePanel } from './louse_panel.js';
 import { RecordingBar } from './recording_bar.js';
 import { Scores } from './scores.js';
 
+const SCORES_EVERY = 250;  // ms: forty rows of text
+/** What covers the picture, or says how large it is. */
+const COVERING = ['over', 'top', 'goal', 'lesson', 'scores', 'louse', 'bar', 'lab', 'recording'];
+
 const plural = (count, one, many) => `${count} ${count === 1 ? one : many}`;
 
 export class Panels {
   /** @type {import('./lab_panel.js').LabPanel|null} */ lab = null;
   /** @type {any} */ #facts = null;
+  #scoredAt = -Infinity; #scored = 0; #haveMoved = true;
 
   /** @param {{follow: (id: number) => void, say: (text: string) => void, choose: (room: string) => void, seek: (tick: number) => void}} hands */
   constructor({ follow, say, choose, seek }) {
@@ -24,6 +29,8 @@ export class Panels {
     this.chat = new Chat(say, () => byId('picture').focus());
     this.hud = new Hud();
     this.bar = new RecordingBar({ seek });
+    const moves = new ResizeObserver(() => { this.#haveMoved = true; });  // to ask with each frame costs a layout
+    for (const id of COVERING) moves.observe(byId(id));
   }
 
   /** A recording begins, or null: there is none any more. @param {import('../live/player.js').Player|null} player */
@@ -50,7 +57,8 @@ export class Panels {
     setText(join, source !== room ? 'Live' : room?.door.wish.role === 'player' ? 'Watch' : 'Play');
     join?.classList.toggle('go', join.textContent !== 'Watch');
     this.#line(room);
-    this.#insets(camera);
+    if (this.#haveMoved) this.#insets(camera);
+    this.#haveMoved = false;
     if (room && source === room) this.#room(room, picture, colourOf, isPlaying ? page.teacher.observe(room, performance.now() / 1000) : []);
     if (player) this.bar.update(player);
     if (page.lab) { setText(byId('proof'), ''); this.top.line('a laboratory'); return this.lab?.update(page.lab); }
@@ -58,8 +66,12 @@ export class Panels {
     const facts = this.#facts;
     if (!facts || !source?.ground) return;
     source.rows = scoreRows(facts);
-    const followed = page.followed || source.you || source.rows[0]?.id || 0, nameOf = (id) => source.nameOf(id);
-    this.scores.update({ rows: source.rows, you: source.you ?? 0, followed: page.followed || source.you || 0, nameOf, colourOf, count: this.#count(source) });
+    const marked = page.followed || source.you || 0, followed = marked || source.rows[0]?.id || 0, nameOf = (id) => source.nameOf(id), now = performance.now();
+    if (marked !== this.#scored || now - this.#scoredAt >= SCORES_EVERY) {
+      this.scores.update({ rows: source.rows, you: source.you ?? 0, followed: marked, nameOf, colourOf, count: this.#count(source) });
+      this.#scored = marked;
+      this.#scoredAt = now;
+    }
     const louse = source.louse(followed);
     this.louse.update(louse && { ...louse, ...source.ground.sample(louse.x, louse.y) }, followed === source.you ? `${nameOf(followed)} (you)` : nameOf(followed));
   }

@@ -1,7 +1,7 @@
 // @ts-check
 // Everything of the WebGL context: what was lost with it is made again.
 import { Batch } from './batch.js';
-import { DEPTHS, Surface, layOut, makeBuffer, makePrograms, use } from './gl.js';
+import { COLOURS, DEPTHS, Surface, layOut, makeBuffer, makePrograms, use } from './gl.js';
 import { GroundDrawing } from './ground_drawing.js';
 import { INSTANCE, LiceDrawing } from './lice_drawing.js';
 
@@ -14,7 +14,7 @@ const NO_CHANGE = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 export class Drawing {
   /** Throws an Error where there is no WebGL 2. @param {HTMLCanvasElement} canvas */
   constructor(canvas) {
-    const gl = canvas.getContext('webgl2', { antialias: false, powerPreference: 'low-power' });
+    const gl = canvas.getContext('webgl2', { alpha: false, antialias: false, powerPreference: 'low-power' });
     if (!gl) throw new Error('this browser shows no WebGL 2, which the picture is drawn with');
     this.gl = gl;
     const info = gl.getExtension('WEBGL_debug_renderer_info');
@@ -49,6 +49,7 @@ export class Drawing {
   begin() {
     const { gl } = this, programs = makePrograms(gl);
     this.flat = programs.flat;
+    this.copy = programs.copy;
     this.ground = new GroundDrawing(gl, programs, this.isSoftware);
     this.lice = new LiceDrawing(gl, programs);
     this.ghosts = new LiceDrawing(gl, programs);
@@ -157,11 +158,16 @@ export class Drawing {
       smooth.free();
       this.kept = 2;
     }
-    // the canvas is cleared by the first call that draws or clears; copying does not count as one
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+    gl.viewport(0, 0, width, height);
     gl.depthMask(true);
     gl.clear(gl.DEPTH_BUFFER_BIT);
-    still.copyTo(null, false);
+    gl.disable(gl.DEPTH_TEST);
+    gl.disable(gl.BLEND);
+    still.show(true);
+    if (this.copy) use(gl, this.copy, { picture: COLOURS });
+    gl.bindVertexArray(null);
+    gl.drawArrays(gl.TRIANGLES, 0, 3);
     return true;
   }
 
@@ -173,7 +179,6 @@ export class Drawing {
     if (!lice || !ghosts) return;
     gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
     gl.viewport(0, 0, width, height);
-    if (hides) this.still?.showDepths(true);
     gl.enable(gl.DEPTH_TEST);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     const solid = is => {
@@ -201,7 +206,7 @@ export class Drawing {
     gl.disable(gl.DEPTH_TEST);
     this.flush(staging.through, 2, matrix, 0, false);
     gl.bindVertexArray(null);
-    if (hides) this.still?.showDepths(false);
+    if (hides) this.still?.show(false);
   }
 
   /** Sends vertices through one of the buffers. @private @param {{data: Float32Array, count: number}} batch @param {number} which @param {number[]} matrix

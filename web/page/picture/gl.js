@@ -2,8 +2,8 @@
 // The little that the picture needs around WebGL 2.
 import { SHADERS } from './shaders.js';
 
-/** The texture unit of a surface's depths. */
-export const DEPTHS = { unit: 4 };
+/** The texture units of a surface's depths and colours. */
+export const DEPTHS = { unit: 4 }, COLOURS = { unit: 5 };
 
 /** @typedef {{program: WebGLProgram, at: Record<string, WebGLUniformLocation | null>}} Program */
 
@@ -89,36 +89,42 @@ export function fillTexture(gl, texture, unit, width, height, kind, data) {
   return made;
 }
 
-/** What is drawn into besides the canvas: colour and depth; several samples a pixel, or the depth as a texture. */
+/** What is drawn into besides the canvas: colour and depth; several samples a pixel, or both as textures. */
 export class Surface {
-  /** @param {WebGL2RenderingContext} gl @param {number} width @param {number} height @param {number} samples 0: one, and depth is a texture */
+  /** @param {WebGL2RenderingContext} gl @param {number} width @param {number} height @param {number} samples 0: one, in textures */
   constructor(gl, width, height, samples) {
     this.gl = gl;
     this.width = width;
     this.height = height;
     this.frame = gl.createFramebuffer();
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.frame);
-    this.depths = samples ? null : gl.createTexture();
-    this.buffers = [[gl.COLOR_ATTACHMENT0, gl.RGBA8], [gl.DEPTH_ATTACHMENT, gl.DEPTH_COMPONENT24]].slice(0, samples ? 2 : 1).map(([attachment, format]) => {
+    const parts = [{ attachment: gl.COLOR_ATTACHMENT0, format: gl.RGBA8, ...COLOURS }, { attachment: gl.DEPTH_ATTACHMENT, format: gl.DEPTH_COMPONENT24, ...DEPTHS }];
+    this.buffers = !samples ? [] : parts.map(({ attachment, format }) => {
       const buffer = gl.createRenderbuffer();
       gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
       gl.renderbufferStorageMultisample(gl.RENDERBUFFER, samples, format, width, height);
       gl.framebufferRenderbuffer(gl.FRAMEBUFFER, attachment, gl.RENDERBUFFER, buffer);
       return buffer;
     });
-    if (!this.depths) return;
-    gl.activeTexture(gl.TEXTURE0 + DEPTHS.unit);
-    gl.bindTexture(gl.TEXTURE_2D, this.depths);
-    gl.texStorage2D(gl.TEXTURE_2D, 1, gl.DEPTH_COMPONENT24, width, height);
-    for (const which of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, which, gl.NEAREST);
-    gl.bindTexture(gl.TEXTURE_2D, null);
-    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.TEXTURE_2D, this.depths, 0);
+    this.textures = samples ? [] : parts.map(({ attachment, format, unit }) => {
+      const texture = gl.createTexture();
+      gl.activeTexture(gl.TEXTURE0 + unit);
+      gl.bindTexture(gl.TEXTURE_2D, texture);
+      gl.texStorage2D(gl.TEXTURE_2D, 1, format, width, height);
+      for (const which of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, which, gl.NEAREST);
+      gl.bindTexture(gl.TEXTURE_2D, null);
+      gl.framebufferTexture2D(gl.FRAMEBUFFER, attachment, gl.TEXTURE_2D, texture, 0);
+      return { texture, unit };
+    });
   }
 
-  /** Its depths to the shaders; or no more: what is drawn into can't be read. @param {boolean} on */
-  showDepths(on) {
-    this.gl.activeTexture(this.gl.TEXTURE0 + DEPTHS.unit);
-    this.gl.bindTexture(this.gl.TEXTURE_2D, on ? this.depths : null);
+  /** Its textures to the shaders; or no more: what is drawn into can't be read. @param {boolean} on */
+  show(on) {
+    const { gl } = this;
+    for (const { texture, unit } of this.textures) {
+      gl.activeTexture(gl.TEXTURE0 + unit);
+      gl.bindTexture(gl.TEXTURE_2D, on ? texture : null);
+    }
   }
 
   /** Copies into another one of the same size, or (null) onto the canvas. @param {Surface | null} to @param {boolean} depth its depth, too */
@@ -132,6 +138,6 @@ export class Surface {
   free() {
     this.gl.deleteFramebuffer(this.frame);
     for (const buffer of this.buffers) this.gl.deleteRenderbuffer(buffer);
-    this.gl.deleteTexture(this.depths);
+    for (const { texture } of this.textures) this.gl.deleteTexture(texture);
   }
 }

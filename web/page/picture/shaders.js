@@ -22,6 +22,9 @@ export const SHADERS = {
 c=sky(p); gl_Position=vec4(p*2.-1.,.999999,1); }`,
   HEAD + 'in vec3 c; out vec4 o; void main(){ ivec2 p=ivec2(gl_FragCoord.xy); int k=p.x^p.y; o=vec4(c+(float((k&1)*8+(p.y&1)*4+(k&2)+(p.y&2)/2)/16.-.47)/255.,1); }'],
 
+  // a picture of the same size, as it is: by a draw, which a processor shares out; its blit does not
+  copy: [WHOLE, HEAD + 'uniform highp sampler2D picture; out vec4 o; void main(){ o=texelFetch(picture,ivec2(gl_FragCoord.xy),0); }'],
+
   // shape: z from 0 to 1, zx, zy; light: of sun and sky; ramps: height, below it slope
   paint: [WHOLE, HEAD + `in vec2 t; out vec4 o; uniform sampler2D shape,light,ramps;
 uniform vec3 toSun; uniform vec2 points,metres; uniform float exaggeration,steep,slope,tile,open,sun,seam;
