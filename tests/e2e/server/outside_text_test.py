@@ -11,9 +11,10 @@ from wire import PROGRAM, map_file
 SCENARIO = os.environ["WOODLOUSE_SCENARIO"]
 SWARM = os.environ["WOODLOUSE_SWARM"]
 
-# ESC, BEL, newline, return, DEL, C1's CSI, an override, an isolate, marks, separators, without a shape, a tag.
-NASTY = ["\x1b[2J", "\x1b]0;title\x07", "\n", "\r", "\x7f", "\u009b31m", "\u0085", "\u202e", "\u2066", "\u200e\u200f\u061c",
-         "\u2028\u2029", "\ufeff\u200b\u00ad", "\U000e0061"]
+# What a terminal obeys: ESC and BEL and DEL; newline; return, NEL and separators; C1's CSI, an override, an isolate, marks, what has no
+# shape, a tag. Few together: a program is started for each, and none may hide behind where a long text is cut.
+NASTY = ["\x1b[2J\x1b]0;title\x07\x7f", "\n", "\r\u0085\u2028\u2029",
+         "\u009b31m\u202e\u2066\u200e\u200f\u061c\ufeff\u200b\u00ad\U000e0061"]
 FORBIDDEN = [range(0x00, 0x0a), range(0x0b, 0x20), range(0x7f, 0xa0), range(0x200b, 0x2010), range(0x2028, 0x202f),
              range(0x2060, 0x2070), [0xad, 0x61c, 0xfeff], range(0xe0000, 0xe1000)]
 
