@@ -5,7 +5,7 @@ option(WOODLOUSE_PAGE "Build core.wasm and put the page into the server" ON)
 # What is missing to build core.wasm; empty: nothing.
 function(woodlouse_missing_for_page result)
   set(missing)
-  foreach(program clang++-19 wasm-ld-19 llvm-ar-19)
+  foreach(program clang++-19 wasm-ld-19 llvm-ar-19 esbuild)
     find_program(WOODLOUSE_${program} ${program})
     if(NOT WOODLOUSE_${program})
       list(APPEND missing ${program})

@@ -10,6 +10,11 @@ byId('lost').classList.remove('early');
 
 const params = new URLSearchParams(location.search);
 const loaded = () => Core.load(new URL('core.wasm', import.meta.url));
+/** @type {WorkerOptions} */ const modular = { type: 'module' };
+const workers = {
+  baker: () => new Worker(new URL('./picture/bake.js', import.meta.url), modular),
+  reader: () => new Worker(new URL('./core/recording_worker.js', import.meta.url), modular),
+};
 
 /** A recording of this server's, by its address. @param {import('./stage.js').Stage} stage @param {string} address */
 async function openAddress(stage, address) {
@@ -38,8 +43,10 @@ async function begin(stage) {
 const wordsOf = (error) => (error instanceof Error ? error.message : String(error));
 
 try {
-  const [core, { Stage }] = await Promise.all([loaded(), import('./stage.js')]);  // the core compiles while modules come
-  const stage = new Stage(core);
+  const loading = loaded();
+  loading.catch(() => {});  // told below
+  const { Stage } = await import('./stage.js'), stage = new Stage(workers);  // the core compiles while the picture is made ready
+  stage.core = await loading;
   Object.assign(globalThis, { woodlouse: stage });  // for who looks in from the console, and for tests
   requestAnimationFrame((now) => stage.frame(now));
   addEventListener('pagehide', () => leaveBehind(stage.back));

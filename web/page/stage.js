@@ -28,10 +28,12 @@ export class Stage {
   #panelsAt = 0; #hiding = 0;
   /** The recording's name. */ file = '';
 
-  /** @param {any} core */
-  constructor(core) {
-    this.core = core;
-    this.picture = new Picture(byId('picture'), byId('labels'), { calm: calm.matches });
+  /** The physics, which comes after the page. @type {any} */ core = null;
+
+  /** @param {{baker: () => Worker, reader: () => Worker}} workers begin a worker of picture/bake.js, of core/recording_worker.js */
+  constructor(workers) {
+    this.workers = workers;
+    this.picture = new Picture(byId('picture'), byId('labels'), { calm: calm.matches, baker: workers.baker });
     this.setTheme(params.get('theme') || kept('theme'));
     this.teacher = new Teacher(!kept('lesson'), () => keep('lesson', 'had'), matchMedia('(pointer: coarse)').matches);
     this.panels = new Panels({ follow: (id) => this.follow(id), say: (text) => this.room?.say(text), choose: (room) => this.choose(room), seek: (tick) => this.player?.seek(tick) });
@@ -104,7 +106,7 @@ export class Stage {
   async open(blob, name) {
     toast(`opening ${name}`);
     const [{ Recording }, { Player }] = await Promise.all([import('./core/recording.js'), import('./live/player.js')]);
-    const recording = await Recording.open(this.core, blob).catch((error) => toast(`${name}: ${error.message}`, 'bad'));
+    const recording = await Recording.open(this.core, blob, this.workers.reader).catch((error) => toast(`${name}: ${error.message}`, 'bad'));
     if (!recording) return;
     this.player?.close();
     this.#show('recording');

@@ -1,13 +1,14 @@
 // The picture's pure parts: ribbons, trails, labels, relief, baked light, resolution.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { SUN, bake } from '../page/picture/bake.js';
+import { bake } from '../page/picture/bake.js';
 import { extentOf, ticks } from '../page/picture/curves.js';
 import { placeLabels } from '../page/picture/names.js';
 import { Relief, roundStep } from '../page/picture/relief.js';
 import { Resolution, SCALES } from '../page/picture/picture.js';
 import { Ribbons, STRIDE } from '../page/picture/trails.js';
 import { POINTS, Trails } from '../page/picture/trails.js';
+import { SUN } from '../page/picture/vectors.js';
 import { groundOf, hill, pot } from './picture_ground.mjs';
 import { sequence } from './sequence.mjs';
 

@@ -23,7 +23,10 @@ class Page(unittest.TestCase):
             status, headers, text = server.ask("GET", script[1])
             self.assertEqual((status, headers["Content-Type"]), (200, "text/javascript; charset=utf-8"))
             self.assertIn("immutable", headers["Cache-Control"])
-            for name in re.findall(r"from '\./([a-z_/]+\.js)'", text):
+            names = set(re.findall(r'["`]\./([A-Za-z0-9_/-]+\.js)["`]', text))
+            self.assertGreaterEqual(names, {"picture/bake.js", "core/recording_worker.js"})
+            self.assertTrue(any(name.startswith("parts/stage-") for name in names), names)
+            for name in names | set(re.findall(r'modulepreload" href="/[0-9a-f]{16}/([^"]+)"', page)):
                 self.assertEqual(server.ask("HEAD", script[1].replace("page.js", name))[0], 200, name)
             core = script[1].replace("page.js", "core.wasm")
             packed = server.ask("HEAD", core, **{"Accept-Encoding": "gzip"})[1]

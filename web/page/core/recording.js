@@ -7,8 +7,9 @@
  */
 
 class Desk {
-  constructor() {
-    this.worker = new Worker(new URL("./recording_worker.js", import.meta.url), { type: "module" });
+  /** @param {Worker} worker */
+  constructor(worker) {
+    this.worker = worker;
     /** @type {Map<number, {resolve: (result: any) => void, reject: (error: Error) => void}>} */
     this.waiting = new Map();
     this.calls = 0;
@@ -45,14 +46,15 @@ export class Recording {
   /**
    * @param {import("./core.js").Core} core whose code the workers run
    * @param {Blob | Uint8Array} file plain or packed
+   * @param {() => Worker} worker begins one that runs recording_worker.js
    * @returns {Promise<Recording>} rejects with words for people
    */
-  static async open(core, file) {
+  static async open(core, file, worker) {
     const blob = file instanceof Blob ? file : new Blob([/** @type {BlobPart} */ (file)]);
-    const desk = new Desk();
+    const desk = new Desk(worker());
     try {
       await desk.ask("begin", { module: core.instance.module });
-      return new Recording(core, blob, desk, await desk.ask("open", { blob }));
+      return new Recording(core, blob, desk, await desk.ask("open", { blob }), worker);
     } catch (error) {
       desk.end("closed");
       throw error;
@@ -64,13 +66,15 @@ export class Recording {
    * @param {Blob} blob
    * @param {Desk} desk
    * @param {Info} info
+   * @param {() => Worker} worker
    */
-  constructor(core, blob, desk, info) {
+  constructor(core, blob, desk, info, worker) {
     this.core = core;
     /** The file, to be saved again. */
     this.blob = blob;
     this.desk = desk;
     this.info = info;
+    this.worker = worker;
     /** @type {Desk | null} */
     this.verifier = null;
   }
@@ -92,7 +96,7 @@ export class Recording {
 
   /** All of it, beside what is shown; as RecordingDesk.verify(). @returns {Promise<{ok: number, text: string}>} */
   async verify() {
-    const desk = new Desk();
+    const desk = new Desk(this.worker());
     this.verifier = desk;
     try {
       await desk.ask("begin", { module: this.core.instance.module });

@@ -2,8 +2,7 @@
 // The shadow that a ground casts on itself, and how much of the sky each place sees: once a map, in a worker: it takes some 0.2 s, in which the picture is
 // shown without shadows.
 
-/** To the sun, of length 1: from the north-west, some 38 degrees high. */
-export const SUN = [-.568, .459, .683];
+import { SUN } from './vectors.js';
 
 const DIRECTIONS = 10;
 
@@ -61,7 +60,7 @@ export function bake({ domain, columns, rows, grid, wraps = [] }, exaggeration) 
   return light;
 }
 
-// in a worker of its own this module answers with what it bakes; in the page it only says where the sun is
+// in a worker of its own this module answers with what it bakes
 if (typeof document === 'undefined' && 'importScripts' in globalThis)
   self.onmessage = ({ data }) => {
     const light = bake(data.ground, data.exaggeration);

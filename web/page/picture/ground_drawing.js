@@ -1,8 +1,8 @@
 // @ts-check
 // The ground with its sides and the sky behind it.
-import { SUN } from './bake.js';
 import { THEMES, along, rgb } from './colours.js';
 import { fillTexture, layOut, makeBuffer, use } from './gl.js';
+import { SUN } from './vectors.js';
 
 /** Of the map's width: so much of a map that wraps is shown again beyond each edge, fading. */
 const MARGIN = .22;

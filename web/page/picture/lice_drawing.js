@@ -1,8 +1,8 @@
 // @ts-check
 // Lice: one mesh for those near, plainer ones for those far off, all of one kind in a call.
-import { SUN } from './bake.js';
 import { DEPTHS, layOut, makeBuffer, use } from './gl.js';
 import { louseMesh } from './louse.js';
+import { SUN } from './vectors.js';
 
 /** Numbers an instance: x, y, z, half length; forward, phase of the walk; up, 1 a ghost; colour, unused. */
 export const INSTANCE = 16;

@@ -13,10 +13,11 @@ export class Picture {
   /**
    * Throws an Error that a person understands where there is no WebGL 2.
    * @param {HTMLCanvasElement} canvas @param {HTMLElement} labels an empty element over it, of the same size, that cuts off what overflows
-   * @param {{calm?: boolean}} options calm: nothing glides or pulses
+   * @param {{calm?: boolean, baker: () => Worker}} options calm: nothing glides or pulses; baker: begins a worker that runs bake.js
    */
-  constructor(canvas, labels, { calm = false } = {}) {
+  constructor(canvas, labels, { calm = false, baker }) {
     this.canvas = canvas;
+    this.baker = baker;
     this.calm = calm;
     this.camera = new Camera(calm);
     this.names = new Names(labels);
@@ -60,7 +61,7 @@ export class Picture {
     this.build();
     if (relief.isFlat) return;
     // shadows come when they are done; where a browser runs no such worker there are none
-    const worker = this.worker ??= new Worker(new URL('./bake.js', import.meta.url), { type: 'module' });
+    const worker = this.worker ??= this.baker();
     worker.onmessage = ({ data }) => {
       if (data.number === this.number) this.drawing.setLight(data.light);
     };

@@ -10,6 +10,8 @@ export const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 /** @param {Vector} a @param {Vector} b @returns {Vector} */
 export const cross = (a, b) =>
   [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+/** To the sun, of length 1: from the north-west, some 38 degrees high. @type {Vector} */
+export const SUN = [-.568, .459, .683];
 /** Of length 1; the zero vector stays. @param {Vector} a @returns {Vector} */
 export const unit = a => {
   const n = Math.hypot(a[0], a[1], a[2]) || 1;
