@@ -45,7 +45,7 @@ const wordsOf = (error) => (error instanceof Error ? error.message : String(erro
 try {
   const loading = loaded();
   loading.catch(() => {});  // told below
-  const { Stage } = await import('./stage.js'), stage = new Stage(workers);  // the core compiles while the picture is made ready
+  const { Stage } = await import('./stage.js'), stage = new Stage(workers);  // what draws gets ready while the core compiles
   stage.core = await loading;
   Object.assign(globalThis, { woodlouse: stage });  // for who looks in from the console, and for tests
   requestAnimationFrame((now) => stage.frame(now));
@@ -53,6 +53,7 @@ try {
   await begin(stage).catch((error) => { toast(wordsOf(error), 'bad'); stage.enter(); });
   let isMending = false;
   addEventListener('error', async ({ error }) => {
+    if (error instanceof Error && !(error instanceof CoreEnded)) toast(error.message, 'bad');  // a shader that this machine can't have, above all
     if (!(error instanceof CoreEnded) || isMending) return;
     isMending = true;  // an instance that has ended is of no use any more
     stage.replaceCore(await loaded());

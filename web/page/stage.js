@@ -13,6 +13,7 @@ import { keep, kept, onName, onPalette, onSystemTheme, setTheme, shortName, stor
 import { Picture } from './picture/picture.js';
 
 const HIDDEN_AFTER = 3000, PANELS_EVERY = 100;  // ms
+const PANELS_BY = 2500;  // ms from the navigation on; before, they wait for the picture: where a processor draws they take as long
 
 const params = new URLSearchParams(location.search);
 const hash = () => new URLSearchParams(location.hash.slice(1));
@@ -25,7 +26,7 @@ export class Stage {
   followed = 0;
   /** @type {any} */ #ground = null;
   /** How the last room was entered; also after a recording. @type {any} */ #wish = {};
-  #panelsAt = 0; #hiding = 0;
+  #panelsAt = 0; #hiding = 0; /* whether the panels are there */ #isWhole = false;
   /** The recording's name. */ file = '';
 
   /** The physics, which comes after the page. @type {any} */ core = null;
@@ -187,8 +188,13 @@ export class Stage {
       if (source.ground !== this.#ground) this.#setGround(source.ground);
       this.#chooseFollowed();
       const facts = source.facts?.(this.followed || source.you || 0);
+      byId('picture').classList.remove('early');
       picture.draw(sceneOf(source, this.followed || source.you || 0, facts ? source.marks(facts) : null), now);
       if (facts) this.panels.every(source, { ...facts, azimuth: picture.camera.azimuth }, seconds);
+    }
+    if (!this.#isWhole && (picture.peopled > 1 || now > PANELS_BY)) {
+      this.#isWhole = true;
+      byId('over').classList.remove('early');
     }
     if (now - this.#panelsAt >= PANELS_EVERY) {
       this.#panelsAt = now;

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { bake } from '../page/picture/bake.js';
 import { extentOf, ticks } from '../page/picture/curves.js';
+import { firstCoat } from '../page/picture/first_coat.js';
 import { placeLabels } from '../page/picture/names.js';
 import { Relief, roundStep } from '../page/picture/relief.js';
 import { Resolution, SCALES } from '../page/picture/picture.js';
@@ -184,4 +185,16 @@ test('an axis has round numbers, few of them, all on it; curves of nothing have 
     const { x0, x1, y0, y1 } = extentOf(series);
     assert.ok(x1 > x0 && y1 > y0 && [x0, x1, y0, y1].every(Number.isFinite));
   }
+});
+
+test('the first coat is brighter towards the sun, by height or by slope, and never burnt out', () => {
+  const ramps = new Uint8Array(2048).fill(128, 0, 1024).fill(64, 1024);
+  const coat = (f, slope = false, sun = 1) => firstCoat(new Relief(groundOf([-20, -20, 20, 20], 41, 41, f)), ramps, slope, sun);
+  const at = (painted, i, j) => painted.subarray(4 * (41 * j + i), 4 * (41 * j + i) + 4);
+  const towards = coat((x, y) => -.5 * (x * SUN[0] + y * SUN[1])), away = coat((x, y) => .5 * (x * SUN[0] + y * SUN[1]));
+  assert.ok(at(towards, 20, 20)[0] > at(away, 20, 20)[0] + 30);
+  assert.equal(at(towards, 20, 20)[3], 255);
+  assert.ok(at(coat(hill, true), 20, 20)[0] < at(coat(hill), 20, 20)[0], 'the slope has colours of its own');
+  const glaring = coat(hill, false, 20);
+  for (let k = 0; k < glaring.length; k += 4) assert.ok(glaring[k] > 200 && glaring[k] <= 255);
 });

@@ -57,8 +57,10 @@ export class Panels {
     setText(join, source !== room ? 'Live' : room?.door.wish.role === 'player' ? 'Watch' : 'Play');
     join?.classList.toggle('go', join.textContent !== 'Watch');
     this.#line(room);
-    if (this.#haveMoved) this.#insets(camera);
-    this.#haveMoved = false;
+    if (this.#haveMoved && byId('over').offsetWidth > 0) {  // not before they are shown
+      this.#insets(camera);
+      this.#haveMoved = false;
+    }
     if (room && source === room) this.#room(room, picture, colourOf, isPlaying ? page.teacher.observe(room, performance.now() / 1000) : []);
     if (player) this.bar.update(player);
     if (page.lab) { setText(byId('proof'), ''); this.top.line('a laboratory'); return this.lab?.update(page.lab); }

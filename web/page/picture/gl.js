@@ -7,10 +7,12 @@ export const DEPTHS = { unit: 4 }, COLOURS = { unit: 5 };
 
 /** @typedef {{program: WebGLProgram, at: Record<string, WebGLUniformLocation | null>}} Program */
 
-/** Compiles every program; how each went is asked for afterwards, so that a driver can do them side by side.
+/** Compiles every program; how each went is asked for when it is used first, so that a driver does them side by side while the page goes on.
  * @param {WebGL2RenderingContext} gl @returns {Record<string, Program>} */
 export function makePrograms(gl) {
-  const made = Object.entries(SHADERS).map(([name, sources]) => {
+  /** @type {Record<string, Program>} */
+  const programs = {};
+  for (const [name, sources] of Object.entries(SHADERS)) {
     const program = gl.createProgram();
     const shaders = sources.map((source, k) => {
       const shader = /** @type {WebGLShader} */ (gl.createShader(k ? gl.FRAGMENT_SHADER : gl.VERTEX_SHADER));
@@ -20,22 +22,25 @@ export function makePrograms(gl) {
       return shader;
     });
     gl.linkProgram(program);
-    return { name, program, shaders };
-  });
-  /** @type {Record<string, Program>} */
-  const programs = {};
-  for (const { name, program, shaders } of made) {
-    if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
-      throw new Error(`the ${name} shader: ${shaders.map(s => gl.getShaderInfoLog(s)).join(' ')} ${gl.getProgramInfoLog(program)}`);
-    /** @type {Program['at']} */
-    const at = {};
-    for (let k = 0, n = gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS) ?? 0; k < n; k++) {
-      const info = gl.getActiveUniform(program, k);
-      if (info) at[info.name] = gl.getUniformLocation(program, info.name);
-    }
-    programs[name] = { program, at };
+    /** @type {Program['at'] | null} */
+    let places = null;
+    programs[name] = { program, get at() { return places ??= placesIn(gl, name, program, shaders); } };
   }
   return programs;
+}
+
+/** Where a program's uniforms are. Throws an Error where it could not be made. @param {WebGL2RenderingContext} gl @param {string} name
+ * @param {WebGLProgram} program @param {WebGLShader[]} shaders */
+function placesIn(gl, name, program, shaders) {
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
+    throw new Error(`the ${name} shader: ${shaders.map(s => gl.getShaderInfoLog(s)).join(' ')} ${gl.getProgramInfoLog(program)}`);
+  /** @type {Program['at']} */
+  const at = {};
+  for (let k = 0, n = gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS) ?? 0; k < n; k++) {
+    const info = gl.getActiveUniform(program, k);
+    if (info) at[info.name] = gl.getUniformLocation(program, info.name);
+  }
+  return at;
 }
 
 /** Uses a program with uniforms by name: numbers, vectors by length, 16 numbers a matrix; {unit} a texture's.

@@ -1,6 +1,7 @@
 // @ts-check
 // The ground with its sides and the sky behind it.
 import { THEMES, along, rgb } from './colours.js';
+import { firstCoat } from './first_coat.js';
 import { fillTexture, layOut, makeBuffer, use } from './gl.js';
 import { SUN } from './vectors.js';
 
@@ -102,9 +103,14 @@ export class GroundDrawing {
       ramps.set(along(look.slope, k / 255).map(v => 255 * v), 4 * (256 + k));
     }
     this.textures.ramps = fillTexture(gl, this.textures.ramps, RAMPS.unit, 256, 2, [gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE], ramps);
+    const kind = [gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE];
+    if (!fine && this.isSoftware) {
+      this.textures.painted = fillTexture(gl, this.textures.painted, PAINTED.unit, columns, rows, kind, firstCoat(relief, ramps, slope, look.sun));
+      return this.wrapPainted(wraps);
+    }
     const longest = !fine ? 384 : this.isSoftware ? 1024 : 2048, most = Math.max(relief.width, relief.depth);
     const w = Math.max(64, Math.round(longest * relief.width / most)), h = Math.max(64, Math.round(longest * relief.depth / most));
-    this.textures.painted = fillTexture(gl, this.textures.painted, PAINTED.unit, w, h, [gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE], null);
+    this.textures.painted = fillTexture(gl, this.textures.painted, PAINTED.unit, w, h, kind, null);
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.frame);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, this.textures.painted, 0);
     gl.viewport(0, 0, w, h);
@@ -119,10 +125,16 @@ export class GroundDrawing {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.activeTexture(gl.TEXTURE0 + PAINTED.unit);
     if (!this.isSoftware) gl.generateMipmap(gl.TEXTURE_2D), gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
-    if (wraps[0]) gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.REPEAT);
-    if (wraps[1]) gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.REPEAT);
+    this.wrapPainted(wraps);
     const sharper = !this.isSoftware && gl.getExtension('EXT_texture_filter_anisotropic');
     if (sharper) gl.texParameterf(gl.TEXTURE_2D, sharper.TEXTURE_MAX_ANISOTROPY_EXT, 8);
+  }
+
+  /** Repeats what is painted, the bound texture, along what wraps. @private @param {boolean[]} wraps */
+  wrapPainted(wraps) {
+    const { gl } = this;
+    if (wraps[0]) gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_S, gl.REPEAT);
+    if (wraps[1]) gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, gl.REPEAT);
   }
 
   /** Draws sky, sides and ground over all of what is bound. @param {import('./camera.js').Camera} camera @param {import('./colours.js').ThemeName} theme

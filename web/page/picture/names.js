@@ -7,6 +7,8 @@ const FONT = '600 12px system-ui, "Segoe UI", "DejaVu Sans", sans-serif';
 const HEIGHT = 18, PAD = 4;
 /** More names than this are noise; of many lice even fewer. */
 const MOST = 40, MOST_OF_MANY = 24, MANY = 60;
+/** Small, and written once: nothing for a graphics card, whose context takes a tenth of a second to make where a processor draws. */
+const WRITTEN = { willReadFrequently: true };
 const KEPT = 400;  // written texts
 
 /** One to show: where, how far from there at least, CSS pixels; higher ranks first, Infinity always; colour 0xRRGGBB or null: text's own; a badge has a plate of that colour.
@@ -31,7 +33,7 @@ export class Names {
   /** A canvas that is kept by this key, drawn the first time it is asked for. @param {string} key @param {number} width CSS pixels @param {number} height
    * @param {(context: CanvasRenderingContext2D) => void} draw */
   keep(key, width, height, draw) {
-    const canvas = document.createElement('canvas'), context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
+    const canvas = document.createElement('canvas'), context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d', WRITTEN));
     canvas.width = Math.ceil(width * this.ratio);
     canvas.height = Math.ceil(height * this.ratio);
     canvas.style.cssText = `position:absolute;left:0;top:0;width:${width}px;height:${height}px;will-change:transform;pointer-events:none`;
@@ -47,7 +49,7 @@ export class Names {
   write({ text, colour, badge }, theme, twin) {
     const key = `${text}\n${colour}\n${badge}\n${theme}\n${twin}`, known = this.written.get(key);
     if (known) return known;
-    const look = THEMES[theme], measure = this.measure ??= /** @type {CanvasRenderingContext2D} */ (document.createElement('canvas').getContext('2d'));
+    const look = THEMES[theme], measure = this.measure ??= /** @type {CanvasRenderingContext2D} */ (document.createElement('canvas').getContext('2d', WRITTEN));
     measure.font = FONT;
     const width = Math.ceil(measure.measureText(text).width) + 2 * PAD + (badge ? 6 : 0);
     return this.keep(key, width, HEIGHT, context => {

@@ -23,7 +23,7 @@ export class Picture {
     this.names = new Names(labels);
     this.staging = new Staging();
     this.drawing = new Drawing(canvas);
-    this.resolution = new Resolution(this.drawing.isSoftware ? 1 : 0);
+    this.resolution = new Resolution(this.drawing.isSoftware ? SCALES.length - 1 : 0);
     /** @type {import('./colours.js').ThemeName} */
     this.theme = 'dark';
     /** @type {import('./colours.js').Palette} */
@@ -36,6 +36,8 @@ export class Picture {
     this.worker = undefined;
     this.number = 0;
     this.last = 0;
+    /** Pictures with lice in them that were drawn. */
+    this.peopled = 0;
     /** Milliseconds of own script in the last frame. */
     this.cost = 0;
   }
@@ -126,7 +128,8 @@ export class Picture {
     camera.update(w, h, now, staging.find(scene, scene.follow || camera.follow), scene.marks?.arrow);
     staging.stage(scene, this, now, width, height);
     drawing.draw(this, staging, width, height, now);
-    this.names.draw(staging.names, camera, this.theme, staging.arrows);
+    if (this.peopled > 0) this.names.draw(staging.names, camera, this.theme, staging.arrows);  // the first picture does not wait for letters
+    if (scene.lice.length) this.peopled++;
     this.cost = performance.now() - begun;
   }
 }

@@ -117,12 +117,14 @@ test('thirty sessions one after the other leave nothing in the core\'s memory', 
 });
 
 test('a page of which a part does not come says so', async () => {
-  const other = await context.newPage();
-  await other.route('**/panels/elements.js', (route) => route.abort());
-  await other.goto(`${served.web}?room=hills`);
-  await other.waitForSelector('#lost p', { state: 'visible' });
-  assert.match(await other.textContent('#lost'), /did not load whole/);
-  await other.close();
+  for (const [part, words] of [[/\/chunk-[^/]*\.js$/, /did not load whole/], [/\/stage-[^/]*\.js$/, /import/], [/\/core\.wasm$/, /physics/]]) {
+    const other = await context.newPage();
+    await other.route(part, (route) => route.abort());
+    await other.goto(`${served.web}?room=hills`);
+    await other.waitForSelector('#lost p', { state: 'visible' });
+    assert.match(await other.textContent('#lost'), words);
+    await other.close();
+  }
 });
 
 test('a page that is loaded anew is put back into its louse, and a watcher into none', async () => {
