@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "bench/lab/game/precision.h"
 #include "bench/lab/job.h"
 #include "bench/lab/precision_flight.h"
 #include "bench/lab/precision_integrators.h"
@@ -22,11 +23,12 @@ namespace {
 struct PrecisionOptions {
   Output output;
   std::string function = "wavy_pot";
-  std::string only;  ///< empty: all
+  std::string only;            ///< empty: all
+  std::filesystem::path maps;  ///< empty: the project's own
 };
 
-constexpr std::array<std::string_view, 5> kProblems = {"integrators", "surfaces", "kepler", "orders",
-                                                       "flight"};
+constexpr std::array<std::string_view, 6> kProblems = {"maps",   "integrators", "surfaces",
+                                                       "kepler", "orders",      "flight"};
 
 std::string problem_names() {
   std::string names;
@@ -45,6 +47,9 @@ core::Expected<void> run(const PrecisionOptions& options) {
   const auto wanted = [&](std::string_view problem) {
     return options.only.empty() || options.only == problem;
   };
+  if (wanted("maps")) {
+    if (auto done = measure_game_precision(options.maps, options.output); !done) return done;
+  }
   if (wanted("integrators")) {
     if (auto done = measure_integrators(*function, options.output); !done) return done;
   }
@@ -72,9 +77,12 @@ void add_precision(CLI::App& app, Job& job) {
   command->add_option("--function", options->function, names_of(terrain::kFunctionNames))
       ->capture_default_str();
   command->add_option("--only", options->only, problem_names() + "; all of them when left out");
+  command->add_option("--maps", options->maps, "folder of maps; the project's own when left out")
+      ->check(CLI::ExistingDirectory);
   add_output_options(*command, options->output);
   command->footer(
-      "Writes lab-precision-integrators, -surfaces, -kepler and -flight as .csv, .svg and .png, -flight-cost "
+      "Writes lab-precision-maps (the shipped maps as they are played), -integrators, -surfaces, -kepler and "
+      "-flight as .csv, .svg and .png, -flight-cost "
       "as .csv; orders, of the rooms' methods at walls, seams, flights, stops and thrusts, is printed "
       "alone.\n"
       "Example:\n  woodlouse-lab precision --quick --out .");

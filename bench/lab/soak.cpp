@@ -4,10 +4,13 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <string>
 
 #include "bench/lab/problems/motion.h"
 #include "bench/lab/report/progress.h"
+#include "bench/lab/speed/maps.h"
 #include "shared/core/random.h"
+#include "shared/map/map_world.h"
 #include "shared/physics/world.h"
 
 namespace woodlouse::lab {
@@ -38,47 +41,64 @@ void look(const physics::World& world, Findings& findings) {
   }
 }
 
+/// A thousand lice of a world are pushed about until it has made `wanted` louse-steps; a row of the table.
+void soak_one(physics::World& world, const std::string& name, std::uint64_t wanted, Table& table) {
+  core::Random random(11);
+  const auto symmetric = [&](double size) { return size * (2.0 * random.uniform() - 1.0); };
+  const terrain::Rectangle domain = world.terrain().domain();
+  const auto within = [&](double low, double high) {
+    return 0.5 * (low + high) + symmetric(0.5 * (high - low));
+  };
+  for (std::uint32_t id = 1; id <= kLice; ++id) {
+    state::Louse louse = louse_at({within(domain.x_min, domain.x_max), within(domain.y_min, domain.y_max)},
+                                  {symmetric(10), symmetric(10)});
+    louse.id = id;
+    world.insert(louse);
+  }
+  Findings findings;
+  Progress progress("soak on " + name, wanted);
+  const auto begin = std::chrono::steady_clock::now();
+  for (std::uint64_t tick = 0; world.counters().louse_steps < wanted; ++tick) {
+    // Most change their thrust once a second, every eighth with each tick; vectors, headings, brakes.
+    for (std::uint32_t id = 1; id <= kLice; ++id) {
+      if (tick % 60 != 0 && id % 8 != 0) continue;
+      const double angle = symmetric(std::numbers::pi);
+      const state::Thrust vector{state::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}};
+      const state::Thrust along{state::ThrustKind::kAlongHeading, {symmetric(1.0), 0.0}};
+      world.set_thrust(id, id % 2 == 0 ? vector : along, state::kHeld);
+    }
+    const std::uint64_t before = world.counters().louse_steps;
+    world.step();
+    progress.advance(world.counters().louse_steps - before);
+    if (tick % 10 == 0) look(world, findings);
+  }
+  const double ns =
+      std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
+  look(world, findings);
+  const auto& c = world.counters();
+  const auto number = [](std::uint64_t n) { return static_cast<double>(n); };
+  table.add({name, number(c.louse_steps), number(c.sub_steps), number(c.bounces), number(c.flights),
+             number(c.stops), number(c.capped), findings.not_finite, findings.outside, findings.absurd,
+             findings.fastest, ns / number(c.louse_steps)});
+}
+
 }  // namespace
 
-Table soak(Effort effort) {
-  Table table({"terrain", "louse_steps", "sub_steps", "bounces", "stops", "capped", "not_finite", "outside",
-               "absurd", "fastest", "ns_per_step"});
-  const std::uint64_t wanted = effort == Effort::kQuick ? 1'000'000 : 25'000'000;
+core::Expected<Table> soak(const std::filesystem::path& folder, Effort effort) {
+  const auto maps = maps_of(folder);
+  if (!maps) return tl::unexpected(maps.error());
+  Table table({"terrain", "louse_steps", "sub_steps", "bounces", "flights", "stops", "capped", "not_finite",
+               "outside", "absurd", "fastest", "ns_per_step"});
+  const std::uint64_t wanted = effort == Effort::kQuick ? 200'000 : 10'000'000;
   for (const auto function : terrain::kFunctionNames) {
     const auto ground = std::make_shared<const terrain::Terrain>(
         terrain::BicubicSpline(terrain::sample_function(function, kScale, 50)));
     physics::World world(ground, {9.81, 0.2, 0.05, 6.0, 0.5}, 1.0 / 60.0);
-    core::Random random(11);
-    const auto symmetric = [&](double size) { return size * (2.0 * random.uniform() - 1.0); };
-    for (std::uint32_t id = 1; id <= kLice; ++id) {
-      state::Louse louse = louse_at({symmetric(kScale), symmetric(kScale)}, {symmetric(10), symmetric(10)});
-      louse.id = id;
-      world.insert(louse);
-    }
-    Findings findings;
-    Progress progress("soak on " + std::string(to_text(function)), wanted);
-    const auto begin = std::chrono::steady_clock::now();
-    for (std::uint64_t tick = 0; world.counters().louse_steps < wanted; ++tick) {
-      if (tick % 60 == 0) {
-        for (std::uint32_t id = 1; id <= kLice; ++id) {
-          const double angle = symmetric(std::numbers::pi);
-          world.set_thrust(id, {state::ThrustKind::kMapVector, {std::cos(angle), std::sin(angle)}},
-                           state::kHeld);
-        }
-      }
-      const std::uint64_t before = world.counters().louse_steps;
-      world.step();
-      progress.advance(world.counters().louse_steps - before);
-      if (tick % 10 == 0) look(world, findings);
-    }
-    const double ns =
-        std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
-    look(world, findings);
-    const auto& c = world.counters();
-    const auto number = [](std::uint64_t n) { return static_cast<double>(n); };
-    table.add({std::string(to_text(function)), number(c.louse_steps), number(c.sub_steps), number(c.bounces),
-               number(c.stops), number(c.capped), findings.not_finite, findings.outside, findings.absurd,
-               findings.fastest, ns / number(c.louse_steps)});
+    soak_one(world, std::string(to_text(function)), wanted, table);
+  }
+  for (const auto& map : *maps) {
+    physics::World world = map::make_world(*map, 1.0 / 60.0);
+    soak_one(world, "map " + map->definition.name, wanted, table);
   }
   return table;
 }

@@ -2,10 +2,12 @@
 // step: whether anything ever became infinite, left the domain, or grew without end.
 #pragma once
 
+#include <filesystem>
+
 #include "bench/lab/report/output.h"
 
 namespace woodlouse::lab {
 
-Table soak(Effort effort);
+core::Expected<Table> soak(const std::filesystem::path& folder, Effort effort);
 
 }  // namespace woodlouse::lab

@@ -1,14 +1,19 @@
 // `stability`: every integrator over slopes, curvatures, speeds, frictions, rates and grids; and a long soak.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 #include <limits>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/lab/gains.h"
+#include "bench/lab/game/rounding.h"
+#include "bench/lab/game/stability.h"
+#include "bench/lab/game/stress.h"
 #include "bench/lab/job.h"
 #include "bench/lab/problems/egg_crate.h"
 #include "bench/lab/problems/motion.h"
@@ -27,7 +32,13 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 struct StabilityOptions {
   Output output;
   std::string integrator = "all";
+  std::filesystem::path maps;     ///< empty: the project's own
+  std::vector<std::string> only;  ///< empty: all
+  std::size_t random = 0;         ///< maps made by chance; 0: as many as the effort says
+  std::uint64_t seed = 1;         ///< of the first of them
 };
+
+constexpr std::array kParts = {"crates", "maps", "soak", "gains", "random", "rounding"};
 
 struct Axes {
   std::vector<double> slopes, curvatures, speeds, frictions, rates, knots_per_wave;
@@ -217,7 +228,7 @@ std::string picture(Integrator integrator, const std::vector<Cell>& cells, const
   return script.str();
 }
 
-core::Expected<void> run(const StabilityOptions& options) {
+core::Expected<void> run_crates(const StabilityOptions& options) {
   std::vector<Integrator> integrators(kIntegrators.begin(), kIntegrators.end());
   if (options.integrator != "all") {
     const auto one = integrator_named(options.integrator);
@@ -241,15 +252,40 @@ core::Expected<void> run(const StabilityOptions& options) {
   std::cout << "Egg crates between elastic walls, " << axes.seconds
             << " s a cell; percent, worst: cells that never reached the sub-step cap\n";
   summary.print(std::cout);
-  if (auto done = output.write(table, "lab-stability"); !done) return done;
-  const Table soaked = soak(output.effort());
-  std::cout << "\nSoak\n";
-  soaked.print(std::cout);
-  if (auto done = output.write(soaked, "lab-soak"); !done) return done;
-  const Table gained = gains(output.effort());
-  std::cout << "\nEnergy from nothing, of that above the map's lowest place\n";
-  gained.print(std::cout);
-  return output.write(gained, "lab-gains");
+  return output.write(table, "lab-stability");
+}
+
+core::Expected<void> run(const StabilityOptions& options) {
+  const Output& output = options.output;
+  const auto wanted = [&](std::string_view part) {
+    return options.only.empty() ||
+           std::find(options.only.begin(), options.only.end(), part) != options.only.end();
+  };
+  if (wanted("crates")) {
+    if (auto done = run_crates(options); !done) return done;
+  }
+  if (wanted("maps")) {
+    if (auto done = measure_game_stability(options.maps, output); !done) return done;
+  }
+  if (wanted("soak")) {
+    const auto soaked = soak(options.maps, output.effort());
+    if (!soaked) return tl::unexpected(soaked.error());
+    std::cout << "\nSoak\n";
+    soaked->print(std::cout);
+    if (auto done = output.write(*soaked, "lab-soak"); !done) return done;
+  }
+  if (wanted("gains")) {
+    const Table gained = gains(output.effort());
+    std::cout << "\nEnergy from nothing, of that above the map's lowest place\n";
+    gained.print(std::cout);
+    if (auto done = output.write(gained, "lab-gains"); !done) return done;
+  }
+  if (wanted("random")) {
+    const std::size_t count = options.random > 0 ? options.random : output.quick ? 20 : 2000;
+    if (auto done = measure_stress(count, options.seed, output); !done) return done;
+  }
+  if (!wanted("rounding")) return {};
+  return measure_rounding(output);
 }
 
 }  // namespace
@@ -261,11 +297,31 @@ void add_stability(CLI::App& app, Job& job) {
   const auto options = std::make_shared<StabilityOptions>();
   command->add_option("--integrator", options->integrator, "all, or one of: " + names_of(kIntegrators))
       ->capture_default_str();
+  command->add_option("--maps", options->maps, "folder of maps; the project's own when left out")
+      ->check(CLI::ExistingDirectory);
+  command
+      ->add_option("--only", options->only,
+                   "some of crates,maps,soak,gains,random,rounding; all when left out")
+      ->delimiter(',')
+      ->check(CLI::IsMember(std::vector<std::string>(kParts.begin(), kParts.end())));
+  command->add_option("--random", options->random, "how many maps are made by chance");
+  command->add_option("--seed", options->seed, "of the first of them; each has the next number")
+      ->capture_default_str();
   add_output_options(*command, options->output);
   command->footer(
-      "Writes lab-stability.csv, lab-soak.csv, lab-gains.csv and a heat map per integrator.\n"
-      "Example:\n  woodlouse-lab stability --quick --integrator nystrom4");
-  command->callback([options, &job] { job = [options] { return run(*options); }; });
+      "Writes lab-stability.csv and a heat map per integrator, lab-stability-maps.csv and its picture, "
+      "lab-soak.csv, "
+      "lab-gains.csv, lab-stability-random.csv, lab-rounding.csv and its picture.\n"
+      "Example:\n  woodlouse-lab stability --quick --integrator nystrom4\n"
+      "One of the maps that chance made once more:\n  woodlouse-lab stability --only random --random 1 "
+      "--seed 7");
+  command->callback([options, &job] {
+    for (const std::string& part : options->only)
+      options->output.command += (&part == &options->only.front() ? " --only " : ",") + part;
+    if (options->random > 0) options->output.command += " --random " + std::to_string(options->random);
+    if (options->seed != 1) options->output.command += " --seed " + std::to_string(options->seed);
+    job = [options] { return run(*options); };
+  });
 }
 
 }  // namespace woodlouse::lab

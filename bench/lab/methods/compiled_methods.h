@@ -3,8 +3,6 @@
 // verlet_q, precise over the grounds of terrain.h) and what the document has is compiled where it belongs.
 #pragma once
 
-#include <optional>
-
 #include "bench/lab/methods/integrators.h"
 #include "bench/lab/methods/steps.h"
 #include "shared/document/euler.h"
@@ -38,20 +36,6 @@ Steps own_exact_steps(const S& ground, Integrator integrator, const physics::Ste
       return physics::with_main_forces<document::FalseEuler>(ground, rules);
     default:
       return own_steps<physics::SurfaceEquations>(ground, integrator, rules);
-  }
-}
-
-/// The method that a room would step with; nothing: no room has that integrator.
-inline std::optional<state::Method> room_method(Integrator integrator) {
-  switch (integrator) {
-    case Integrator::kNystrom4:
-      return state::Method::kStandard;
-    case Integrator::kVerletQ:
-      return state::Method::kCheap;
-    case Integrator::kPrecise:
-      return state::Method::kPrecise;
-    default:
-      return std::nullopt;
   }
 }
 

@@ -46,6 +46,20 @@ std::string_view to_text(Integrator integrator);
 std::optional<Equations> equations_from_text(std::string_view text);
 std::optional<Integrator> integrator_from_text(std::string_view text);
 
+/// The method that a room would step with; nothing: no room has that integrator.
+inline std::optional<state::Method> room_method(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::kNystrom4:
+      return state::Method::kStandard;
+    case Integrator::kVerletQ:
+      return state::Method::kCheap;
+    case Integrator::kPrecise:
+      return state::Method::kPrecise;
+    default:
+      return std::nullopt;
+  }
+}
+
 /// One choice of all of them, ready to step lice. One thread at a time.
 class LaboratoryStepper {
  public:
