@@ -2,10 +2,10 @@
 // What the page costs a browser, beside its budgets: bytes, the first picture, frames and script of 200 lice, acks over a line of
 // 150 ms, a recording verified, memory after 500 seeks.
 //
-//   bench/page_cost.mjs BIN [--idle SECONDS]
+//   bench/page_cost.mjs BIN [--idle SECONDS] [bytes | first | frames | acks | recordings | hour | stay ...]
 //
 // BIN is a tree's folder of programs, built with its page. Chromium draws by software (SwiftShader). --idle: how long 100 lice are watched
-// for the memory of a long stay (600; 3600 is the hour of the budget). Needs chromium, and `npm install` in web/tests/browser.
+// for the memory of a long stay (600; 3600 is the hour of the budget), in a small window. Parts by name: those alone. Needs chromium, and `npm install` in web/tests/browser.
 import { spawn } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import os from 'node:os';
@@ -16,6 +16,7 @@ const programs = path.resolve(process.argv[2] ?? 'build/release/bin');
 process.env.WOODLOUSE_BIN = programs;
 const at = process.argv.indexOf('--idle');
 const IDLE_S = at > 0 ? Number(process.argv[at + 1]) : 600;
+const PARTS = ['bytes', 'first', 'frames', 'acks', 'recordings', 'hour', 'stay'], named = PARTS.filter((part) => process.argv.includes(part)), wanted = named.length ? named : PARTS;
 const FIRST_PICTURES = 7, STARTING = 2500, FRAMES_S = 10, PLAY_S = 20, VERIFIED = 7, SEEKS = 500;
 const { browsed, Served, shown, SlowLine, until } = await import('../web/tests/browser/served.mjs');
 
@@ -136,9 +137,12 @@ async function recordings(served) {
   const before = await heap(), seeks = [];
   for (let k = 0; k < SEEKS; k++) {
     seeks.push(await page.evaluate(async (tick) => {
-      const { player } = window.woodlouse, begun = performance.now();
-      player.seek(tick);
-      while (!(Math.abs((player.shown ?? player.tick) - tick) < 1)) await new Promise((resolve) => setTimeout(resolve, 1));
+      const { player } = window.woodlouse, told = player.onSeek, begun = performance.now();
+      await new Promise((resolve) => {
+        player.onSeek = () => { told(); resolve(undefined); };
+        player.seek(tick);
+      });
+      player.onSeek = told;
       return performance.now() - begun;
     }, (k * 977) % 1800));
   }
@@ -148,9 +152,51 @@ async function recordings(served) {
   rmSync(folder, { recursive: true, force: true });
 }
 
+/** An hour of 100 lice: opened, looked at in ten places, verified. */
+async function hour(served) {
+  const folder = mkdtempSync(path.join(os.tmpdir(), 'woodlouse-'));
+  const player = spawn(path.join(programs, 'woodlouse-replay-speed'), [path.join(import.meta.dirname ?? 'bench', '../maps/volcano.json'), folder, '--keep'], { stdio: 'ignore' });
+  await new Promise((resolve) => player.once('exit', resolve));
+  const kept = readFileSync(path.join(folder, 'speed.ndjson.zst'));
+  const context = await browsed(), page = context.pages()[0], session = await context.newCDPSession(page);
+  await page.route('**/hour.ndjson.zst', (route) => route.fulfill({ body: kept }));
+  await shown(page, served.web);
+  const opened = await page.evaluate(async () => {
+    const blob = await (await fetch('/hour.ndjson.zst')).blob(), begun = performance.now();
+    await window.woodlouse.open(blob, 'hour.ndjson.zst');
+    window.woodlouse.player.isPlaying = false;
+    return performance.now() - begun;
+  });
+  const times = [];
+  for (let k = 0; k < 10; k++) {
+    times.push(await page.evaluate(async (tick) => {
+      const { player } = window.woodlouse, told = player.onSeek, begun = performance.now();
+      await new Promise((resolve) => {
+        player.onSeek = () => { told(); resolve(undefined); };
+        player.seek(tick);
+      });
+      player.onSeek = told;
+      return performance.now() - begun;
+    }, (k * 0.618034 % 1) * 216000 | 0));
+  }
+  const [took, ok] = await page.evaluate(async () => {
+    const begun = performance.now();
+    await window.woodlouse.player.verify();
+    return [performance.now() - begun, window.woodlouse.player.verdict.ok];
+  });
+  if (ok !== 1) throw new Error('a good recording was not verified');
+  await session.send('HeapProfiler.collectGarbage');
+  const heap = (await session.send('Runtime.getHeapUsage')).usedSize / 1e6;
+  say(`an hour of 100 lice (${(kept.length / 1e6).toFixed(1)} MB packed) opened [ms]`, opened.toFixed(0));
+  say('  ten places in it [ms]', spread(times));
+  say('  all of it verified [s], and the JS heap then [MB]', `${(took / 1e3).toFixed(1)}, ${heap.toFixed(1)}`, 'heap 45');
+  await context.close();
+  rmSync(folder, { recursive: true, force: true });
+}
+
 async function longStay() {
   const served = await Served.start('--map', 'volcano', '--bots', '100', '--bots-alone', 'play', '--seed', '5');
-  const context = await browsed(), page = context.pages()[0];
+  const context = await browsed({ viewport: { width: 400, height: 260 } }), page = context.pages()[0];
   await shown(page, served.web);
   const session = await context.newCDPSession(page), heaps = [];
   for (let k = 0; k <= 6; k++) {
@@ -164,15 +210,16 @@ async function longStay() {
 }
 
 const served = await Served.start(...CROWD);
-await bytes(served);
-for (const isLoaded of [false, true]) {
+if (wanted.includes('bytes')) await bytes(served);
+for (const isLoaded of wanted.includes('first') ? [false, true] : []) {
   const rest = isLoaded ? load() : () => {}, took = [];
   for (let k = 0; k < FIRST_PICTURES; k++) took.push(await firstPicture(served));
   rest();
   say(`first picture, 200 lice, nothing kept from before, ${isLoaded ? 'both cores taken' : 'idle'} [ms]`, spread(took), isLoaded ? '1000' : '500');
 }
-await frames(served);
-await acks();
-await recordings(served);
+if (wanted.includes('frames')) await frames(served);
+if (wanted.includes('acks')) await acks();
+if (wanted.includes('recordings')) await recordings(served);
+if (wanted.includes('hour')) await hour(served);
 await served.stop();
-await longStay();
+if (wanted.includes('stay')) await longStay();

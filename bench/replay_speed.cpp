@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iostream>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -105,8 +106,9 @@ int time_inspect(const Game& game, const std::filesystem::path& file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::cerr << "usage: woodlouse-replay-speed MAP FOLDER\n";
+  const bool keeps = argc == 4 && std::string_view(argv[3]) == "--keep";
+  if (argc != 3 && !keeps) {
+    std::cerr << "usage: woodlouse-replay-speed MAP FOLDER [--keep]   (--keep: the last of each kind stays there)\n";
     return 2;
   }
   const auto map = map::load_map(argv[1]);
@@ -125,7 +127,7 @@ int main(int argc, char** argv) {
     std::printf("played           %-34s %8.1f s, %.1f MB\n", game.name, seconds_since(start),
                 static_cast<double>(std::filesystem::file_size(file)) / 1e6);
     if (time_verify(game, file) != 0 || time_inspect(game, file) != 0) return 1;
-    std::filesystem::remove(file);
+    if (!keeps) std::filesystem::remove(file);
   }
   return 0;
 }
