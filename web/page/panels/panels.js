@@ -51,6 +51,7 @@ export class Panels {
     const { room, player, source, picture, isPlaying } = page, { camera } = picture, colourOf = (id) => picture.colourOf(id && id === source?.you ? 'you' : id);
     for (const view of ['orbit', 'follow', 'map']) setPressed(view, camera.view === view);
     setPressed('slope', picture.shading === 'slope');
+    this.#legend(picture.legend);
     setPressed('cruise', !!room?.own.steering.isCruising);
     setPressed('pad', document.body.hasAttribute('data-pad'));
     const join = document.querySelector('[data-do=join]');
@@ -86,6 +87,17 @@ export class Panels {
     const high = picture.exaggeration === 1 ? '' : `heights \u00d7${picture.exaggeration.toFixed(1)}`;
     this.top.line([room.trip === null ? '' : `${(room.trip * 1000).toFixed(0)} ms`, high].filter(Boolean).join(', '));
     setHidden(document.querySelector('[data-do=skip]'), !room.door.has('rotation') || room.welcome?.room !== 'rotation');
+  }
+
+  #legend(legend) {
+    const line = byId('legend');
+    setHidden(line, !legend);
+    if (!legend) return;
+    const [colours, steepest] = line.children;
+    setText(steepest, `${Math.round(legend.steepest)}\u00b0`);
+    if (line.dataset.of === legend.gradient) return;
+    line.dataset.of = legend.gradient;
+    colours.style.background = legend.gradient;
   }
 
   #line(room) {

@@ -1,6 +1,7 @@
 // @ts-check
 // How a ground looks before it is painted well: the colours of its grid's points and the light on them, without shadows and grain,
 // as the shader `paint` mixes them (shaders.js). Some 5 ms here; where a processor draws the shader is not even compiled after 100.
+import { STEEPEST } from './shaders.js';
 import { SUN } from './vectors.js';
 
 const SKY_LIGHT = [.30, .38, .52], SUN_LIGHT = [1.18, 1.06, .88];
@@ -19,7 +20,7 @@ export function firstCoat(relief, ramps, slope, sun) {
   for (let k = 0; k < count; k++) {
     const zx = grid[3 * k + 1], zy = grid[3 * k + 2], up = 1 / Math.hypot(zx * E, zy * E, 1);
     const facing = Math.max(0, (SUN[2] - zx * E * SUN[0] - zy * E * SUN[1]) * up);
-    const at = slope ? 1024 + place(Math.hypot(zx, zy) / (relief.steep * 1.25)) : place(relief.isFlat ? .4 : (grid[3 * k] - relief.lowest) / range);
+    const at = slope ? 1024 + place(Math.hypot(zx, zy) / (relief.steep * STEEPEST)) : place(relief.isFlat ? .4 : (grid[3 * k] - relief.lowest) / range);
     for (let c = 0; c < 3; c++) {
       let lit = (ramps[at + c] / 255) ** 2 * (SKY_LIGHT[c] * (.72 + .28 * up) + SUN_LIGHT[c] * facing) * sun;
       if (lit > BRIGHT) lit = BRIGHT + (1 - BRIGHT) * (1 - Math.exp((BRIGHT - lit) / (1 - BRIGHT)));

@@ -7,6 +7,7 @@ import { Drawing } from './drawing.js';
 import { buildScenery } from './marks.js';
 import { Names } from './names.js';
 import { Relief } from './relief.js';
+import { STEEPEST } from './shaders.js';
 import { Staging } from './staging.js';
 
 export class Picture {
@@ -52,6 +53,13 @@ export class Picture {
   /** How many times too high heights are drawn; the page says so where it is not 1. */
   get exaggeration() {
     return this.relief ? this.relief.exaggeration : 1;
+  }
+
+  /** What the colours of slopes mean: the steepest that has one of its own [degrees], and all as a style sheet's gradient; null: they are of heights. */
+  get legend() {
+    if (this.shading !== 'slope' || !this.relief) return null;
+    const colours = THEMES[this.theme].slope.map(([at, colour]) => `${css(colour)} ${at * 100}%`);
+    return { steepest: Math.atan(this.relief.steep * STEEPEST) * 180 / Math.PI, gradient: `linear-gradient(90deg, ${colours})` };
   }
 
   /** Shows another ground. @param {import('./relief.js').GroundData} ground */

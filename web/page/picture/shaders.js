@@ -2,6 +2,9 @@
 // What the graphics processor runs. A ground's light and colours are painted once into a texture (PAINT), which
 // each frame only looks up; contours are drawn by the frame, one pixel wide at any distance.
 
+/** The end of the slopes' colours: so many times what 5 % of the map exceed. */
+export const STEEPEST = 1.25;
+
 const HEAD = '#version 300 es\nprecision highp float;\n';
 
 /** The sky at a place of the picture, 0 to 1. */
@@ -33,7 +36,7 @@ float noise(vec2 p){ vec2 i=floor(p),f=p-i; f=f*f*(3.-2.*f); return mix(mix(rand
 void main(){ vec2 u=t*(points-1.)/points+.5/points, at=t*metres; vec3 s=texture(shape,u).rgb; vec2 l=texture(light,u).rg;
   float grade=length(s.yz), rough=noise(at*1.3)*.6+noise(at*5.3)*.4-.5;
   vec3 n=normalize(vec3(-s.yz*exaggeration+(1.-slope)*.10*vec2(noise(at*2.7)-.5,noise(at*2.7+50.)-.5),1));
-  vec3 c=slope>.5?texture(ramps,vec2(clamp(grade/(steep*1.25),0.,1.),.75)).rgb:texture(ramps,vec2(s.x,.25)).rgb;
+  vec3 c=slope>.5?texture(ramps,vec2(clamp(grade/(steep*${STEEPEST}),0.,1.),.75)).rgb:texture(ramps,vec2(s.x,.25)).rgb;
   c*=c; c*=1.+.11*rough*(1.-slope);
   if(tile>0.){ vec2 k=at/tile; c*=mod(floor(k.x)+floor(k.y),2.)<.5?1.:.8; vec2 g=abs(fract(k+.5)-.5)*tile; c*=.8+.2*smoothstep(.0,.05*tile,min(g.x,g.y)); }
   float d=max(dot(n,toSun),0.)*l.r;
