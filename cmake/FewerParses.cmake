@@ -11,7 +11,7 @@ set(standard_headers
 set(asio_headers
   <boost/asio/io_context.hpp> <boost/asio/ip/tcp.hpp> <boost/asio/post.hpp> <boost/asio/steady_timer.hpp>
   <boost/asio/strand.hpp> <boost/asio/thread_pool.hpp> <boost/asio/write.hpp>)
-set(rooms_without_asio state json terrain physics document map protocol rules match replay follow server_bots client_drawing)
+set(rooms_without_asio state json terrain elevation physics document map protocol rules match replay follow server_bots client_drawing)
 set(rooms_with_asio server_logging server_timing server_frames server_stream server_room server_watchers server_proxies server_web server_net server_access server_admin server_metrics server_commands server
   client_terminal client_net client_play client_watch client)
 

@@ -13,7 +13,7 @@ install(DIRECTORY bots/python DESTINATION ${data_folder}
         FILES_MATCHING PATTERN "*.py" PATTERN "tests" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 
 # For programs of others: woodlouse::match and woodlouse::replay without Boost, woodlouse::bot with its headers.
-set(rooms core state json terrain physics document map protocol rules match replay follow)
+set(rooms core state json terrain elevation physics document map protocol rules match replay follow)
 foreach(room ${rooms})
   set_target_properties(woodlouse_${room} PROPERTIES EXPORT_NAME ${room})
   add_library(woodlouse::${room} ALIAS woodlouse_${room})

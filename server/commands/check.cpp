@@ -42,7 +42,7 @@ std::string remark_on_run_ups(const map::Map& map) {
 
 /// What is to be said of a map that can be read; an error: that it is not fine all the same.
 core::Expected<std::vector<std::string>> remarks_on(const map::Map& map, const std::filesystem::path& file) {
-  std::vector<std::string> remarks = {remark_on(map.definition.physics)};
+  std::vector<std::string> remarks = {map.definition.ground_note, remark_on(map.definition.physics)};
   if (map.definition.modes.race) {
     remarks.push_back(remark_on_run_ups(map));
     auto author_time = judge_author_time(map, file);

@@ -125,4 +125,16 @@ Expected<std::string> InputFile::read_all(std::size_t max_bytes) const {
   }
 }
 
+bool InputFile::read_at(std::span<std::byte> bytes, std::size_t offset) const {
+  assert(descriptor_ >= 0);
+  while (!bytes.empty()) {
+    const ssize_t count = ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+    offset += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
 }  // namespace woodlouse::core

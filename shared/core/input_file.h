@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "shared/core/error.h"
@@ -36,6 +37,9 @@ class InputFile {
 
   /// All of it, from where it stands. Errors: it can't be read, it is longer than max_bytes.
   [[nodiscard]] Expected<std::string> read_all(std::size_t max_bytes) const;
+  /// Fills `bytes` from `offset` [bytes] on, wherever the file stands; false: not all could be read. Any
+  /// thread.
+  [[nodiscard]] bool read_at(std::span<std::byte> bytes, std::size_t offset) const;
 
  private:
   InputFile(int descriptor, std::filesystem::path path) : descriptor_(descriptor), path_(std::move(path)) {}

@@ -19,6 +19,8 @@ void add_heights(json::ObjectText& terrain, const terrain::HeightGrid& grid) {
 
 void add_tiled(json::ObjectText& terrain, const TiledTerrain& tiled) {
   terrain.text("file", tiled.file).number("scale", tiled.scale).number("fill_level", tiled.fill_level);
+  if (tiled.is_in_degrees) terrain.text("unit", "degrees");
+  if (tiled.corner) terrain.pair("corner", *tiled.corner);
   terrain.text("storage", "tiles").hash("fingerprint", tiled.fingerprint);
 }
 

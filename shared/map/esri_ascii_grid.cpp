@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 #include <string>
-#include <system_error>
+#include <utility>
 
 #include "shared/core/joined.h"
-#include "shared/json/decimal_number.h"
+#include "shared/elevation/grid_words.h"
 #include "shared/json/text.h"
 #include "shared/map/esri_header.h"
 #include "shared/map/map_text.h"
@@ -17,56 +17,11 @@
 namespace woodlouse::map {
 namespace {
 
-struct Word {
-  std::string_view text;
-  std::size_t line = 0;
-};
-
-/// Cuts the text at white space; counts lines.
-class Words {
- public:
-  explicit Words(std::string_view text) : text_(text) {}
-
-  /// The next word without taking it; an empty one at the end.
-  const Word& peek() {
-    if (next_.text.empty()) advance();
-    return next_;
-  }
-  Word take() {
-    const Word word = peek();
-    next_ = {};
-    return word;
-  }
-
- private:
-  static bool is_space(char c) {
-    return c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == '\f' || c == '\v';
-  }
-
-  void advance() {
-    while (at_ < text_.size() && is_space(text_[at_])) line_ += text_[at_++] == '\n' ? 1 : 0;
-    const std::size_t begin = at_;
-    while (at_ < text_.size() && !is_space(text_[at_])) ++at_;
-    next_ = {text_.substr(begin, at_ - begin), line_};
-  }
-
-  std::string_view text_;
-  std::size_t at_ = 0;
-  std::size_t line_ = 1;
-  Word next_;
-};
-
-/// The whole word as a number; infinities and NaN included.
-std::optional<double> to_number(std::string_view word) {
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = json::read_decimal(word.data(), word.data() + word.size(), value);
-  if (error != std::errc{} || end != word.data() + word.size()) return std::nullopt;
-  return value;
-}
-
-/// A word of the file within a message, cut to a readable length.
-std::string quoted(std::string_view word) { return core::joined({"\"", json::shown(word, 32), "\""}); }
+using elevation::FileGrid;
+using elevation::quoted;
+using elevation::to_number;
+using elevation::Word;
+using elevation::Words;
 
 struct Entry {
   std::optional<double> value;
@@ -75,7 +30,15 @@ struct Entry {
 
 struct Header {
   Entry ncols, nrows, xllcorner, xllcenter, yllcorner, yllcenter, cellsize, dx, dy, nodata_value;
+  bool has_unknown_key = false;
 
+  [[nodiscard]] bool is_empty() const {
+    for (const Entry* entry : {&ncols, &nrows, &xllcorner, &xllcenter, &yllcorner, &yllcenter, &cellsize, &dx,
+                               &dy, &nodata_value}) {
+      if (entry->line != 0) return false;
+    }
+    return true;
+  }
   Entry* find(std::string_view key) {
     if (key == "ncols") return &ncols;
     if (key == "nrows") return &nrows;
@@ -102,12 +65,12 @@ Header read_header(Words& words, json::Problems& problems) {
     const Word word = words.take();
     const std::string key = lower_case(word.text.substr(0, 32));
     Entry* entry = header.find(key);
-    if (entry == nullptr && problems.is_full()) {
-      problems.leave_out(1);
+    if (entry == nullptr && header.has_unknown_key) {  // one is a slip, more are no header
       if (!begins_like_a_key(words.peek())) words.take();
       continue;
     }
     if (entry == nullptr) {
+      header.has_unknown_key = true;
       problems.add(word.line, quoted(word.text), "is no header key",
                    json::did_you_mean(key, {"ncols", "nrows", "xllcorner", "xllcenter", "yllcorner",
                                             "yllcenter", "cellsize", "dx", "dy", "nodata_value"}));
@@ -124,7 +87,7 @@ Header read_header(Words& words, json::Problems& problems) {
     entry->value = to_number(value.text);
     const bool may_be_anything = key == "nodata_value";  // GDAL writes nan here
     if (!entry->value || (!may_be_anything && !std::isfinite(*entry->value))) {
-      problems.add(value.line, key, quoted(value.text) + " is no number");
+      problems.add(value.line, key, quoted(value.text) + " is no number", elevation::number_hint(value.text));
     }
   }
   return header;
@@ -149,7 +112,7 @@ double checked_spacing(const Entry& entry, std::string_view key, json::Problems&
   return 1.0;
 }
 
-void read_spacings(const Header& header, terrain::HeightGrid& grid, json::Problems& problems) {
+void read_spacings(const Header& header, FileGrid& grid, json::Problems& problems) {
   if (header.cellsize.line != 0) {
     grid.dx = grid.dy = checked_spacing(header.cellsize, "cellsize", problems);
   } else if (header.dx.line == 0 || header.dy.line == 0) {
@@ -179,7 +142,7 @@ std::string cell_name(std::size_t index, std::size_t columns) {
       {"row ", std::to_string(index / columns + 1), ", column ", std::to_string(index % columns + 1)});
 }
 
-void read_heights(Words& words, const Header& header, terrain::HeightGrid& grid, json::Problems& problems) {
+void read_heights(Words& words, const Header& header, FileGrid& grid, json::Problems& problems) {
   const std::size_t total = grid.columns * grid.rows;
   grid.heights.resize(total);
   for (std::size_t index = 0; index < total; ++index) {
@@ -192,21 +155,16 @@ void read_heights(Words& words, const Header& header, terrain::HeightGrid& grid,
       return;
     }
     const std::optional<double> height = to_number(word.text);
-    if (!height) {
-      const bool has_comma = word.text.find(',') != std::string_view::npos;
+    if (!height) {  // the first alone: a file of garbage has as many as cells
       problems.add(word.line, cell_name(index, grid.columns), quoted(word.text) + " is no number",
-                   has_comma ? "the decimal sign is a point" : "");
-      continue;
+                   elevation::number_hint(word.text));
+      return;
     }
-    const bool is_hole = header.nodata_value.value && *height == *header.nodata_value.value;
-    if (is_hole || !std::isfinite(*height)) {
-      problems.add(word.line, cell_name(index, grid.columns),
-                   "no data: a hole in the ground can't be played on",
-                   "fill it, for example with gdal_fillnodata.py, or cut it off with gdal_translate -srcwin");
-      continue;
-    }
+    const bool is_hole = (header.nodata_value.value && *height == *header.nodata_value.value) ||
+                         !(std::fabs(*height) < elevation::kNoHeightFrom);
     const std::size_t row_from_south = grid.rows - 1 - index / grid.columns;
-    grid.heights[row_from_south * grid.columns + index % grid.columns] = *height;
+    grid.heights[row_from_south * grid.columns + index % grid.columns] =
+        is_hole ? std::numeric_limits<double>::quiet_NaN() : *height;
   }
   if (!words.peek().text.empty()) {
     problems.add(words.peek().line, {},
@@ -216,13 +174,20 @@ void read_heights(Words& words, const Header& header, terrain::HeightGrid& grid,
 
 }  // namespace
 
-std::optional<terrain::HeightGrid> parse_esri_ascii_grid(std::string_view text, json::Problems& problems) {
+std::optional<FileGrid> parse_esri_ascii_grid(std::string_view text, json::Problems& problems) {
   const std::size_t problems_before = problems.count();
   if (text.substr(0, 3) == "\xEF\xBB\xBF") text.remove_prefix(3);
   Words words(text);
-  const Header header = read_header(words, problems);
+  json::Problems header_problems(problems.source());
+  const Header header = read_header(words, header_problems);
+  if (header.is_empty()) {
+    problems.add(1, {}, "is no grid of text: its header has ncols, nrows, xllcorner, yllcorner and cellsize",
+                 "gdal_translate -of AAIGrid writes one of most files");
+    return std::nullopt;
+  }
+  problems.take_over(std::move(header_problems));
 
-  terrain::HeightGrid grid;
+  FileGrid grid;
   grid.columns = count_of(header.ncols, "ncols", problems);
   grid.rows = count_of(header.nrows, "nrows", problems);
   read_spacings(header, grid, problems);
@@ -236,6 +201,7 @@ std::optional<terrain::HeightGrid> parse_esri_ascii_grid(std::string_view text, 
   if (problems.count() != problems_before || problems.is_full()) return std::nullopt;
   read_heights(words, header, grid, problems);
   if (problems.count() != problems_before) return std::nullopt;
+  if (header.nodata_value.line == 0) elevation::take_undeclared_mark(grid);
   return grid;
 }
 

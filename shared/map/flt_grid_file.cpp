@@ -1,13 +1,11 @@
 #include "shared/map/flt_grid_file.h"
 
 #include <fcntl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cassert>
-#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -21,18 +19,6 @@ namespace woodlouse::map {
 namespace {
 
 constexpr std::size_t kMaxHeaderBytes = 1u << 16;
-
-/// Whether all of `bytes` could be read from `offset` on.
-bool read_at(int descriptor, std::span<std::byte> bytes, std::size_t offset) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::pread(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(count));
-    offset += static_cast<std::size_t>(count);
-  }
-  return true;
-}
 
 std::uint32_t swapped(std::uint32_t v) {
   return (v >> 24) | ((v >> 8) & 0xff00u) | ((v << 8) & 0xff0000u) | (v << 24);
@@ -97,7 +83,7 @@ void FltGrid::read(std::size_t column, std::size_t row, std::span<double> out) c
   for (std::size_t done = 0; done < out.size(); done += words.size()) {
     const std::span<double> part = out.subspan(done, std::min(words.size(), out.size() - done));
     const std::span<std::uint32_t> raw(words.data(), part.size());
-    const bool ok = read_at(heights_.descriptor(), std::as_writable_bytes(raw), 4 * (first + done));
+    const bool ok = heights_.read_at(std::as_writable_bytes(raw), 4 * (first + done));
     if (!ok) read_failures_.fetch_add(1, std::memory_order_relaxed);
     for (std::size_t k = 0; k < part.size(); ++k) {
       const float height = std::bit_cast<float>(swap ? swapped(raw[k]) : raw[k]);

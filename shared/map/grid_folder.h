@@ -3,10 +3,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "shared/core/error.h"
+#include "shared/core/vec2.h"
 #include "shared/terrain/height_source.h"
 
 namespace woodlouse::map {
@@ -24,9 +26,10 @@ class GridFolder {
   /// A grid of text, whole. Errors: it can't be read, lies elsewhere, or is longer than
   /// a map may be.
   [[nodiscard]] virtual core::Expected<std::string> read_text(const std::string& path) const = 0;
-  /// A grid of floats with its header, read where heights are asked for.
+  /// A grid of floats with its header, or an SRTM tile by its ending .hgt, read where heights are asked for.
+  /// `corner` [degrees]: the tile's south-western one, in place of what its name says.
   [[nodiscard]] virtual core::Expected<std::shared_ptr<const terrain::HeightSource>> open_heights(
-      const std::string& path) const = 0;
+      const std::string& path, std::optional<core::Vec2> corner) const = 0;
 };
 
 }  // namespace woodlouse::map

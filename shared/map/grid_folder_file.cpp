@@ -4,7 +4,10 @@
 #include <cassert>
 #include <utility>
 
+#include "shared/core/input_file.h"
 #include "shared/core/whole_file.h"
+#include "shared/elevation/hgt_grid_file.h"
+#include "shared/map/float_grid_reader.h"
 #include "shared/map/flt_grid_file.h"
 #include "shared/map/map_text.h"
 
@@ -30,7 +33,14 @@ core::Expected<std::string> DiskFolder::read_text(const std::string& path) const
 }
 
 core::Expected<std::shared_ptr<const terrain::HeightSource>> DiskFolder::open_heights(
-    const std::string& path) const {
+    const std::string& path, std::optional<core::Vec2> corner) const {
+  if (is_srtm_tile(path)) {
+    auto file = core::InputFile::open_within(folder_, path);
+    if (!file) return tl::unexpected(file.error());
+    auto tile = elevation::HgtGrid::open(std::move(*file), corner);
+    if (!tile) return tl::unexpected(tile.error());
+    return std::shared_ptr<const terrain::HeightSource>(std::move(*tile));
+  }
   auto grid = FltGrid::open_within(folder_, path);
   if (!grid) return tl::unexpected(grid.error());
   return std::shared_ptr<const terrain::HeightSource>(std::move(*grid));

@@ -16,7 +16,7 @@ class DiskFolder final : public GridFolder {
   [[nodiscard]] core::Expected<std::string> find(std::string_view name) const override;
   [[nodiscard]] core::Expected<std::string> read_text(const std::string& path) const override;
   [[nodiscard]] core::Expected<std::shared_ptr<const terrain::HeightSource>> open_heights(
-      const std::string& path) const override;
+      const std::string& path, std::optional<core::Vec2> corner) const override;
 
  private:
   std::filesystem::path folder_;

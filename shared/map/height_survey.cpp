@@ -66,16 +66,17 @@ core::Expected<HeightSurvey> survey_heights(const terrain::HeightSource& heights
   return survey;
 }
 
-core::Expected<terrain::HeightGrid> read_all_heights(const terrain::HeightSource& heights, double fill_level,
+core::Expected<elevation::FileGrid> read_all_heights(const terrain::HeightSource& heights,
                                                      const std::string& source) {
   const terrain::GridFrame frame = heights.frame();
-  terrain::HeightGrid grid{frame.columns, frame.rows, frame.x_origin, frame.y_origin, frame.dx, frame.dy, {}};
+  elevation::FileGrid grid;
+  static_cast<terrain::HeightGrid&>(grid) = {
+      frame.columns, frame.rows, frame.x_origin, frame.y_origin, frame.dx, frame.dy, {}};
   grid.heights.resize(frame.columns * frame.rows);
   for (std::size_t j = 0; j < frame.rows; ++j) {
     heights.read(0, j, std::span(grid.heights).subspan(j * frame.columns, frame.columns));
   }
   if (auto read = check_read(heights, grid.heights, source); !read) return tl::unexpected(read.error());
-  terrain::fill_missing(grid.heights, grid.columns, fill_level);
   return grid;
 }
 

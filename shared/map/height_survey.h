@@ -13,6 +13,7 @@
 #include <string>
 
 #include "shared/core/error.h"
+#include "shared/elevation/ground.h"
 #include "shared/terrain/height_grid.h"
 #include "shared/terrain/height_source.h"
 
@@ -32,8 +33,8 @@ struct HeightSurvey {
 core::Expected<HeightSurvey> survey_heights(const terrain::HeightSource& heights, double fill_level,
                                             const std::string& source);
 
-/// Every height, filled where there are no data. Errors as above.
-core::Expected<terrain::HeightGrid> read_all_heights(const terrain::HeightSource& heights, double fill_level,
+/// Every height; NaN where there are no data. Errors as above.
+core::Expected<elevation::FileGrid> read_all_heights(const terrain::HeightSource& heights,
                                                      const std::string& source);
 
 }  // namespace woodlouse::map

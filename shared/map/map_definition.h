@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "shared/core/vec2.h"
 #include "shared/map/modes.h"
 #include "shared/physics/ground_steps.h"
 #include "shared/state/parameters.h"
@@ -50,10 +51,12 @@ struct FunctionTerrain {
 
 /// A grid file that is not read whole: a surface is built where lice are (terrain/tiled_bspline.h).
 struct TiledTerrain {
-  std::string file;               ///< as the map names it, in the map's folder
-  double scale = 1.0;             ///< on lengths and heights alike; applied in what follows
-  double fill_level = 0.0;        ///< [m] deep inside regions without data
-  std::uint64_t fingerprint = 0;  ///< height_survey.h
+  std::string file;                  ///< as the map names it, in the map's folder
+  double scale = 1.0;                ///< on lengths and heights alike; applied in what follows
+  bool is_in_degrees = false;        ///< the file's frame; in what follows it is in metres
+  std::optional<core::Vec2> corner;  ///< [degrees] south-western, of a tile whose name does not count
+  double fill_level = 0.0;           ///< [m] deep inside regions without data
+  std::uint64_t fingerprint = 0;     ///< height_survey.h
   std::shared_ptr<const terrain::HeightSource> heights;  ///< any thread may read
   terrain::HeightGrid overview;                          ///< height_survey.h
 };
@@ -66,6 +69,8 @@ struct MapDefinition {
   state::Parameters physics;
   std::vector<SpawnPoint> spawns;  ///< at least one
   Modes modes;
+  /// What was done to its grid file's heights, in one line; empty: nothing. No part of the map.
+  std::string ground_note;
 };
 
 /// How far a map's terrain is the one that is played on.

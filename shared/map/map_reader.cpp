@@ -165,7 +165,7 @@ std::optional<MapDefinition> read_definition(const json::Value& root, const Grid
   const auto terrain_value =
       fields.demand("terrain", "{\"function\": ...}, {\"file\": ...} or {\"heights\": ...}");
   std::optional<TerrainDefinition> terrain;
-  if (terrain_value) terrain = read_terrain(*terrain_value, place, problems);
+  if (terrain_value) terrain = read_terrain(*terrain_value, place, result.ground_note, problems);
   if (terrain) result.terrain = std::move(*terrain);
   if (const auto surface = fields.find("surface")) {
     result.surface = read_surface(*surface, problems);

@@ -16,8 +16,10 @@ namespace woodlouse::map {
 /// whole.
 class ScaledHeights final : public terrain::HeightSource {
  public:
-  ScaledHeights(std::shared_ptr<const terrain::HeightSource> file, double scale, double highest)
-      : file_(std::move(file)), frame_(file_->frame()), scale_(scale), highest_(highest) {
+  /// `metres`: the file's frame in metres.
+  ScaledHeights(std::shared_ptr<const terrain::HeightSource> file, const terrain::GridFrame& metres,
+                double scale, double highest)
+      : file_(std::move(file)), frame_(metres), scale_(scale), highest_(highest) {
     frame_.dx *= scale;
     frame_.dy *= scale;
     frame_.x_origin = -0.5 * (static_cast<double>(frame_.columns - 1) * frame_.dx);

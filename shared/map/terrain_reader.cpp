@@ -7,6 +7,9 @@
 #include <utility>
 
 #include "shared/core/joined.h"
+#include "shared/elevation/file_kind.h"
+#include "shared/elevation/ground.h"
+#include "shared/elevation/surfer_ascii.h"
 #include "shared/map/esri_ascii_grid.h"
 #include "shared/map/float_grid_reader.h"
 #include "shared/map/map_text.h"
@@ -59,28 +62,45 @@ std::optional<std::string> grid_path(const json::Value& name, const GridFolder* 
 }
 
 #ifndef WOODLOUSE_FREESTANDING
-/// An ESRI ASCII grid, its middle laid at the origin: real-world coordinates would cost digits and help
-/// nobody.
-std::optional<HeightGrid> read_ascii_grid(const json::Value& value, const json::Value& name,
-                                          const GridFolder& folder, const std::string& path,
-                                          json::Problems& problems) {
-  const json::Fields fields(value, {"file", "scale"}, problems);
-  const double scale = fields.number_or("scale", kGridScale, 1.0);
+/// The grid of a text, whichever kind it is.
+std::optional<elevation::FileGrid> parse_grid(const std::string& text, const std::string& path,
+                                              json::Problems& problems) {
+  if (auto foreign = elevation::foreign_grid(text, path)) {
+    problems.add(std::move(*foreign));
+    return std::nullopt;
+  }
+  if (elevation::is_surfer_ascii(text)) {
+    auto grid = elevation::parse_surfer_ascii(text, path, kMaxKnots);
+    if (grid) return std::move(*grid);
+    problems.add(std::move(grid.error()));
+    return std::nullopt;
+  }
+  json::Problems grid_problems(path);
+  std::optional<elevation::FileGrid> grid = parse_esri_ascii_grid(text, grid_problems);
+  problems.take_over(std::move(grid_problems));
+  return grid;
+}
+
+/// A grid of text, its middle laid at the origin: real-world coordinates would cost digits and help nobody.
+std::optional<HeightGrid> read_text_grid(const json::Value& value, const json::Value& name,
+                                         const GridFolder& folder, const std::string& path, std::string& note,
+                                         json::Problems& problems) {
+  const json::Fields fields(value, {"file", "scale", "unit", "rim", "fill_level"}, problems);
+  const elevation::GroundOptions options = read_ground_options(fields, problems);
   const core::Expected<std::string> text = folder.read_text(path);
   if (!text) {
     problems.add(name, text.error().text());
     return std::nullopt;
   }
-  json::Problems grid_problems(path);
-  std::optional<HeightGrid> grid = parse_esri_ascii_grid(*text, grid_problems);
-  problems.take_over(std::move(grid_problems));
-  if (!grid) return std::nullopt;
-  grid->dx *= scale;
-  grid->dy *= scale;
-  grid->x_origin = -0.5 * (static_cast<double>(grid->columns - 1) * grid->dx);
-  grid->y_origin = -0.5 * (static_cast<double>(grid->rows - 1) * grid->dy);
-  for (double& height : grid->heights) height *= scale;
-  return grid;
+  std::optional<elevation::FileGrid> file = parse_grid(*text, path, problems);
+  if (!file) return std::nullopt;
+  auto ground = elevation::make_ground(std::move(*file), options, path);
+  if (!ground) {
+    problems.add(std::move(ground.error()));
+    return std::nullopt;
+  }
+  note = std::move(ground->note);
+  return std::move(ground->grid);
 }
 #endif
 
@@ -101,18 +121,21 @@ std::optional<TerrainDefinition> read_overview(const json::Value& value, const H
 }
 
 std::optional<TerrainDefinition> read_grid_file(const json::Value& value, const json::Value& name,
-                                                const GridPlace& place, json::Problems& problems) {
+                                                const GridPlace& place, std::string& note,
+                                                json::Problems& problems) {
   if (const auto* overview = std::get_if<HeightGrid>(&place))
     return read_overview(value, *overview, problems);
   const GridFolder* folder = std::get<const GridFolder*>(place);
   const auto path = grid_path(name, folder, problems);
   if (!path) return std::nullopt;
 #ifdef WOODLOUSE_FREESTANDING
+  static_cast<void>(note);
   assert(false);  // where there are no files there is no folder either
   return std::nullopt;
 #else
-  if (is_float_grid(*path)) return read_float_grid(value, *folder, *path, problems);
-  if (auto grid = read_ascii_grid(value, name, *folder, *path, problems)) return std::move(*grid);
+  if (is_float_grid(*path) || is_srtm_tile(*path))
+    return read_float_grid(value, *folder, *path, note, problems);
+  if (auto grid = read_text_grid(value, name, *folder, *path, note, problems)) return std::move(*grid);
   return std::nullopt;
 #endif
 }
@@ -203,7 +226,7 @@ void check_grid(const json::Value& value, const HeightGrid& grid, json::Problems
 }  // namespace
 
 std::optional<TerrainDefinition> read_terrain(const json::Value& value, const GridPlace& place,
-                                              json::Problems& problems) {
+                                              std::string& note, json::Problems& problems) {
   const std::size_t problems_before = problems.count();
   const auto function = value.find("function");
   const auto file = value.find("file");
@@ -212,7 +235,7 @@ std::optional<TerrainDefinition> read_terrain(const json::Value& value, const Gr
   if (ways != 1) {
     const json::Fields fields(value,
                               {"function", "grid", "scale", "file", "fill_level", "storage", "fingerprint",
-                               "origin", "spacing", "heights"},
+                               "unit", "rim", "corner", "origin", "spacing", "heights"},
                               problems);
     if (value.is(json::Kind::kObject)) {
       problems.add(value, core::joined({"exactly one of function, file and heights is wanted, not ",
@@ -224,7 +247,8 @@ std::optional<TerrainDefinition> read_terrain(const json::Value& value, const Gr
   if (function) {
     result = read_function(value, *function, problems);
   } else {
-    result = file ? read_grid_file(value, *file, place, problems) : read_inline(value, *heights, problems);
+    result =
+        file ? read_grid_file(value, *file, place, note, problems) : read_inline(value, *heights, problems);
     if (!result || problems.count() != problems_before || problems.is_full()) return std::nullopt;
     const auto* grid = std::get_if<HeightGrid>(&*result);
     if (grid != nullptr && !std::holds_alternative<HeightGrid>(place)) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <variant>
 
 #include "shared/json/document.h"
@@ -17,8 +18,9 @@ using TerrainDefinition = std::variant<FunctionTerrain, terrain::HeightGrid, Til
 /// none), or, for a map that came over a wire, in the overview that came with it.
 using GridPlace = std::variant<const GridFolder*, terrain::HeightGrid>;
 
-/// Nothing, and at least one problem, when something is wrong.
+/// Nothing, and at least one problem, when something is wrong. `note`: what was done to a grid file's
+/// heights, if anything was (MapDefinition::ground_note).
 std::optional<TerrainDefinition> read_terrain(const json::Value& value, const GridPlace& place,
-                                              json::Problems& problems);
+                                              std::string& note, json::Problems& problems);
 
 }  // namespace woodlouse::map

@@ -13,10 +13,11 @@ ARROWS = {
     "state": {"core"},
     "json": {"core"},
     "terrain": {"core"},
+    "elevation": {"core", "json", "terrain"},
     "physics": {"core", "state", "terrain"},
     "physics/lanes": {"core", "state", "terrain", "physics"},
     "document": {"core", "state", "terrain", "physics"},
-    "map": {"core", "json", "state", "terrain", "physics", "document"},
+    "map": {"core", "json", "state", "terrain", "elevation", "physics", "document"},
     "protocol": {"core", "json", "state", "terrain"},
     "rules": {"core", "state", "terrain", "physics", "map"},
     "match": {"core", "state", "terrain", "physics", "map", "rules"},
@@ -78,7 +79,7 @@ OUTSIDE = {
 OPERATING_SYSTEM = {"filesystem", "fstream", "thread", "mutex", "chrono"}
 ONLY_WITH_ONE = {"shared/core/clock.h", "shared/core/lock.h", "shared/core/thread_team.h", "shared/replay/parallel_verify.cpp"}
 # Step code must give the same bits everywhere: nothing here but sqrt and fabs.
-STEP_ROOMS = {"core", "state", "terrain", "physics", "physics/lanes", "document", "map", "rules", "match"}
+STEP_ROOMS = {"core", "state", "terrain", "elevation", "physics", "physics/lanes", "document", "map", "rules", "match"}
 # Calls with std::, with :: and with neither, of any precision. (sqrt, floor and the like round exactly everywhere.)
 LIBM = re.compile(r"(?<![\w.>])(?:std::|::)?(?:a?(?:sin|cos|tan)h?|atan2|sincos|exp2?|exp10|expm1|log(?:2|10|1p)?|pow|cbrt|hypot|fma"
                   r"|fmod|remainder|erfc?|[lt]gamma|lerp)[fl]?\s*\(")

@@ -211,13 +211,12 @@ TEST_CASE("check tells every problem of a map and of its grid") {
   for (const core::Error& error : check_map(file)) texts.push_back(error.text());
   const std::string json = file.string();
   const std::string grid = (folder.path() / "hole.asc").string();
-  REQUIRE(texts.size() == 6);
+  REQUIRE(texts.size() == 5);
   CHECK(texts[0] == json + ":1: \"name\" is missing");
-  CHECK(texts[1].find(grid + ":2: row 1, column 3: no data") == 0);
-  CHECK(texts[2].find(grid + ":4: row 3, column 2: \"x\" is no number") == 0);
-  CHECK(texts[3] == json + ":4: physics.gravty: is not known (did you mean \"gravity\"?)");
-  CHECK(texts[4].find(json + ":3: physics.drag: -1 1/s is out of range") == 0);
-  CHECK(texts[5].find(json + ":5: spawns[0].position: a pair [x, y] is wanted") == 0);
+  CHECK(texts[1].find(grid + ":4: row 3, column 2: \"x\" is no number") == 0);
+  CHECK(texts[2] == json + ":4: physics.gravty: is not known (did you mean \"gravity\"?)");
+  CHECK(texts[3].find(json + ":3: physics.drag: -1 1/s is out of range") == 0);
+  CHECK(texts[4].find(json + ":5: spawns[0].position: a pair [x, y] is wanted") == 0);
 }
 
 TEST_CASE("of many faults the first hundred are told, and how many more there are") {
@@ -231,12 +230,10 @@ TEST_CASE("of many faults the first hundred are told, and how many more there ar
   CHECK(errors[100].text() == file.string() + ": and 37 more");
 
   std::string rows;
-  for (int k = 0; k < 15 * 10; ++k) rows += "x ";
+  for (int k = 0; k < 15 * 10; ++k) rows += "7x ";
   folder.write("bad.asc", "ncols 15\nnrows 10\ncellsize 1\nxllcorner 0\nyllcorner 0\n" + rows);
   const auto grid = folder.write("g.json", R"({"nme":"m","terrain":{"file":"bad.asc"}})");
-  const auto bad = check_map(grid);
-  REQUIRE(bad.size() == 101);
-  CHECK(bad[100].text() == grid.string() + ": and 52 more");  // "name" is missing, "nme" is not known
+  CHECK(check_map(grid).size() == 3);  // "name" is missing, "nme" is not known, and one of the grid, not 150
 }
 
 TEST_CASE("a grid file never leaves the map's folder") {
