@@ -108,7 +108,8 @@ int time_inspect(const Game& game, const std::filesystem::path& file) {
 int main(int argc, char** argv) {
   const bool keeps = argc == 4 && std::string_view(argv[3]) == "--keep";
   if (argc != 3 && !keeps) {
-    std::cerr << "usage: woodlouse-replay-speed MAP FOLDER [--keep]   (--keep: the last of each kind stays there)\n";
+    std::cerr << "usage: woodlouse-replay-speed MAP FOLDER [--keep]   (--keep: the last of each kind stays "
+                 "there)\n";
     return 2;
   }
   const auto map = map::load_map(argv[1]);
