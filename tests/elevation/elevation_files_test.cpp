@@ -116,7 +116,7 @@ TEST_CASE("a rim without data is cut off, so that the wall stands where data end
       "is none of its choices (cut (the default) or fill)");
 }
 
-TEST_CASE("-9999 that the file does not declare, half of all heights missing, and a cliff are ground") {
+TEST_CASE("an undeclared -9999, half of all heights missing, and a cliff are ground") {
   const Folder folder("marks");
   has(folder.load("undeclared_9999.asc")->definition.ground_note,
       "1 of 36 heights were filled from their shores, -9999 was taken for no data");
