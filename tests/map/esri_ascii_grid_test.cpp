@@ -110,7 +110,8 @@ TEST_CASE("a cell without data has no height: its declared mark, nan, inf, 1e30 
       parse(header("NODATA_value -9999\n") + "1 2 3 4\n5 -9999.0 7 8\n9 10 11 nan\n13 -3.4e38 15 inf\n");
   REQUIRE(holes);
   CHECK_FALSE(holes->undeclared_mark);
-  for (const auto& [i, j] : {std::pair{1, 2}, {3, 1}, {1, 0}, {3, 0}}) CHECK(std::isnan(holes->at(i, j)));
+  for (const auto& [i, j] : {std::pair<std::size_t, std::size_t>{1, 2}, {3, 1}, {1, 0}, {3, 0}})
+    CHECK(std::isnan(holes->at(i, j)));
   CHECK(std::count_if(holes->heights.begin(), holes->heights.end(), [](double z) { return std::isnan(z); }) ==
         4);
   CHECK(parse(header("NODATA_value nan\n") + kRows));
