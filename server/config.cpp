@@ -10,6 +10,7 @@
 #include "server/admin_options.h"
 #include "server/config_file.h"
 #include "server/limit_options.h"
+#include "server/map_options.h"
 #include "server/option_checks.h"
 #include "server/record_options.h"
 #include "server/records_options.h"
@@ -32,6 +33,7 @@ constexpr const char* kExamples = R"(Examples:
   woodlouse-server verify game.ndjson
   woodlouse-server records verify records/
   woodlouse-server fork game.ndjson --tick 1200 --listen :7778
+  woodlouse-server make-map S37E174.hgt --modes --out my_hill.json
 
 Exit: 0 fine; 1 a recording or a record that differs or is not whole, or what
 can't be read or served; 2 usage.)";
@@ -64,6 +66,7 @@ struct Typed {
   TypedServe fork;
   ForkPoint fork_point;
   CheckConfig check;
+  MakeMapConfig make_map;
   VerifyConfig verify;
   InspectConfig inspect;
   RecordsConfig records;
@@ -304,8 +307,8 @@ core::Expected<Config> parse_config(int argc, const char* const* argv) {
   app.footer(kExamples);
   add_game_options(app, typed.serve);
   add_serve_options(app, typed.serve);
-  CLI::App* check = app.add_subcommand("check", "Say what is wrong with map files");
-  check->add_option("map", typed.check.maps, "Map files")->required();
+  CLI::App* check = add_check(app, typed.check);
+  CLI::App* make_map = add_make_map(app, typed.make_map.request);
   CLI::App* verify = add_verify(app, typed.verify.request);
   CLI::App* inspect = add_inspect(app, typed.inspect.request);
   CLI::App* records = add_records_command(app, typed.records.request);
@@ -318,7 +321,7 @@ core::Expected<Config> parse_config(int argc, const char* const* argv) {
     return Config{PrintConfig{std::string(kServerName) + "\n"}};
   } catch (const CLI::CallForHelp&) {
     CLI::App* shown = &app;
-    for (CLI::App* command : {check, verify, inspect, records, fork, admin})
+    for (CLI::App* command : {check, make_map, verify, inspect, records, fork, admin})
       if (command->parsed())
         shown = command == records || command == admin ? named_command(command) : command;
     return Config{PrintConfig{shown->help()}};
@@ -328,6 +331,7 @@ core::Expected<Config> parse_config(int argc, const char* const* argv) {
     return core::fail({}, error.what(), hint + "--help");
   }
   if (check->parsed()) return Config{typed.check};
+  if (make_map->parsed()) return Config{typed.make_map};
   if (verify->parsed()) return Config{typed.verify};
   if (inspect->parsed()) return Config{typed.inspect};
   if (records->parsed()) return Config{typed.records};

@@ -15,6 +15,7 @@
 #include "server/commands/admin.h"
 #include "server/commands/fork.h"
 #include "server/commands/inspect.h"
+#include "server/commands/make_map.h"
 #include "server/commands/records.h"
 #include "server/commands/verify.h"
 #include "server/log.h"
@@ -61,6 +62,10 @@ struct ServeConfig {
 
 struct CheckConfig {
   std::vector<std::filesystem::path> maps;
+  bool summary = false;
+};
+struct MakeMapConfig {
+  MakeMapRequest request;  ///< crop: none or four numbers; scale: in its range
 };
 struct VerifyConfig {
   VerifyRequest request;  ///< jobs: 1..256
@@ -79,8 +84,8 @@ struct PrintConfig {
   std::string text;
 };
 
-using Config = std::variant<ServeConfig, CheckConfig, VerifyConfig, InspectConfig, RecordsConfig, AdminConfig,
-                            PrintConfig>;
+using Config = std::variant<ServeConfig, CheckConfig, MakeMapConfig, VerifyConfig, InspectConfig,
+                            RecordsConfig, AdminConfig, PrintConfig>;
 
 /// Frames fall on ticks. Of a fork it is known once its recording is read.
 core::Expected<void> check_state_hz(std::uint32_t state_hz, std::uint32_t tick_hz);

@@ -18,6 +18,7 @@
 #include "server/commands/admin.h"
 #include "server/commands/check.h"
 #include "server/commands/inspect.h"
+#include "server/commands/make_map.h"
 #include "server/commands/records.h"
 #include "server/commands/verify.h"
 #include "server/config.h"
@@ -57,7 +58,8 @@ int run(const PrintConfig& config) {
   return printed(kOk);
 }
 
-int run(const CheckConfig& config) { return printed(check_command(config.maps, std::cout)); }
+int run(const CheckConfig& config) { return printed(check_command(config.maps, config.summary, std::cout)); }
+int run(const MakeMapConfig& config) { return printed(make_map_command(config.request, std::cout)); }
 int run(const VerifyConfig& config) { return printed(verify_command(config.request, std::cout)); }
 int run(const RecordsConfig& config) { return printed(records_command(config.request, std::cout)); }
 int run(const AdminConfig& config) { return printed(admin_command(config.errand, std::cout, std::cerr)); }

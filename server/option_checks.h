@@ -38,4 +38,16 @@ inline CLI::Validator seconds() {
           "seconds"};
 }
 
+/// A finite number from `least` to `most`, which are named by `range`. CLI11's own range lets nan through.
+inline CLI::Validator number_within(double least, double most, std::string range) {
+  return {[least, most, range](std::string& text) {
+            double number = 0.0;
+            const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+            const bool is_good =
+                error == std::errc() && end == text.data() + text.size() && number >= least && number <= most;
+            return is_good ? std::string() : "a number " + range + " is wanted, not " + text;
+          },
+          range};
+}
+
 }  // namespace woodlouse::server

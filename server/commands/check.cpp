@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "server/commands/author_time.h"
+#include "server/commands/map_summary.h"
 #include "shared/core/printable.h"
 #include "shared/map/map_file.h"
 #include "shared/physics/central_gravity.h"
@@ -55,7 +56,7 @@ core::Expected<std::vector<std::string>> remarks_on(const map::Map& map, const s
 
 }  // namespace
 
-int check_command(const std::vector<std::filesystem::path>& maps, std::ostream& out) {
+int check_command(const std::vector<std::filesystem::path>& maps, bool summary, std::ostream& out) {
   int exit_code = 0;
   for (const std::filesystem::path& file : maps) {
     const auto map = map::load_map(file);
@@ -73,6 +74,8 @@ int check_command(const std::vector<std::filesystem::path>& maps, std::ostream& 
     const std::string name = core::printable(file.string());
     out << name << ": ok\n";
     for (const std::string& remark : *remarks) out << name << ": note: " << remark << '\n';
+    if (!summary) continue;
+    for (const std::string& line : summary_of(**map)) out << name << ": " << line << '\n';
   }
   return exit_code;
 }

@@ -10,7 +10,7 @@ from wire import MAPS, Server, map_file, run
 
 class CommandLine(unittest.TestCase):
     def test_help_is_printable_and_numbers_are_told_in_words(self):
-        for command in ([], ["check"], ["verify"], ["inspect"], ["fork"]):
+        for command in ([], ["check"], ["make-map"], ["verify"], ["inspect"], ["fork"]):
             code, printed, _ = run(*command, "--help")
             self.assertEqual(code, 0)
             self.assertTrue(all(c.isprintable() or c == "\n" for c in printed), printed)
@@ -19,6 +19,10 @@ class CommandLine(unittest.TestCase):
                                  (("inspect", "x", "--at", "nan"), "not nan"),
                                  (("fork", "x", "--tick", "99999999999999999999"), "not 99999999999999999999"),
                                  (("verify", "x", "--jobs", "0"), "from 1 to 256 is wanted, not 0"),
+                                 (("make-map", "x", "--scale", "0"), "from 1e-6 to 1e6 is wanted, not 0"),
+                                 (("make-map", "x", "--scale", "nan"), "not nan"),
+                                 (("make-map", "x", "--crop", "0,0,nan,1"), "not nan"),
+                                 (("make-map", "x", "--crop=-1,-1,1"), "--crop"),
                                  (("--map", "volcano", "--seed", "-1"), "not -1"),
                                  (("--map", "volcano", "--tick-hz", "60.5"), "not 60.5"),
                                  (("--map", "volcano", "--log-format", "xml"), "xml")):

@@ -41,7 +41,7 @@ struct RingFolder : BoardsFolder {
   [[nodiscard]] std::uint64_t proved_ms() const { return whole_milliseconds(line.run.time, line.tick_hz); }
   [[nodiscard]] std::pair<int, std::string> check() const {
     std::ostringstream out;
-    const int code = check_command({map}, out);
+    const int code = check_command({map}, false, out);
     return {code, out.str()};
   }
   /// What is said of it beside that no gate of the ring wants a run-up. The code is 0.
