@@ -85,7 +85,7 @@ void add_precision(CLI::App& app, Job& job) {
       "-flight as .csv, .svg and .png, -flight-cost "
       "as .csv; orders, of the rooms' methods at walls, seams, flights, stops and thrusts, is printed "
       "alone.\n"
-      "Example:\n  woodlouse-lab precision --quick --out .");
+      "Example:\n  woodlouse-lab precision --quick --only maps --out .");
   command->callback([options, &job] {
     if (!options->only.empty()) options->output.command += " --only " + options->only;
     job = [options] { return run(*options); };

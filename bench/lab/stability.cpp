@@ -312,7 +312,7 @@ void add_stability(CLI::App& app, Job& job) {
       "Writes lab-stability.csv and a heat map per integrator, lab-stability-maps.csv and its picture, "
       "lab-soak.csv, "
       "lab-gains.csv, lab-stability-random.csv, lab-rounding.csv and its picture.\n"
-      "Example:\n  woodlouse-lab stability --quick --integrator nystrom4\n"
+      "Example:\n  woodlouse-lab stability --quick --only crates,soak --integrator nystrom4\n"
       "One of the maps that chance made once more:\n  woodlouse-lab stability --only random --random 1 "
       "--seed 7");
   command->callback([options, &job] {
