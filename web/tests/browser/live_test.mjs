@@ -145,8 +145,7 @@ test('a page that is loaded anew is put back into its louse, and a watcher into 
 test('a server that restarts is waited for', async () => {
   await shown(page, `${served.web}?room=hills`);
   const back = served.restart(2500);
-  await page.waitForSelector('#lost:not([hidden])');
-  assert.match(await page.textContent('#lost p'), /Trying again/);
+  await until(page, () => /Trying again/.test(document.querySelector('#lost:not([hidden]) p')?.textContent ?? ''));
   await back;
   await until(page, () => window.woodlouse.room.welcome && window.woodlouse.room.lice.length === 4);
   await page.waitForSelector('#lost', { state: 'hidden' });
