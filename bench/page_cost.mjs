@@ -10,6 +10,7 @@ import { spawn } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
+import { fileURLToPath } from 'node:url';
 import { gzipSync } from 'node:zlib';
 
 const programs = path.resolve(process.argv[2] ?? 'build/release/bin');
@@ -112,6 +113,17 @@ async function recorded(lice, ticks, folder) {
   return file;
 }
 
+/** Milliseconds until the recording that is open stands at a tick. */
+const sought = (page, to) => page.evaluate(async (tick) => {
+  const { player } = window.woodlouse, told = player.onSeek, begun = performance.now();
+  await new Promise((resolve) => {
+    player.onSeek = () => { told(); resolve(undefined); };
+    player.seek(tick);
+  });
+  player.onSeek = told;
+  return performance.now() - begun;
+}, to);
+
 async function recordings(served) {
   const folder = mkdtempSync(path.join(os.tmpdir(), 'woodlouse-'));
   const file = await recorded(200, 1800, folder);
@@ -135,17 +147,7 @@ async function recordings(served) {
   const session = await context.newCDPSession(page);
   const heap = async () => { await session.send('HeapProfiler.collectGarbage'); return (await session.send('Runtime.getHeapUsage')).usedSize / 1e6; };
   const before = await heap(), seeks = [];
-  for (let k = 0; k < SEEKS; k++) {
-    seeks.push(await page.evaluate(async (tick) => {
-      const { player } = window.woodlouse, told = player.onSeek, begun = performance.now();
-      await new Promise((resolve) => {
-        player.onSeek = () => { told(); resolve(undefined); };
-        player.seek(tick);
-      });
-      player.onSeek = told;
-      return performance.now() - begun;
-    }, (k * 977) % 1800));
-  }
+  for (let k = 0; k < SEEKS; k++) seeks.push(await sought(page, (k * 977) % 1800));
   await page.waitForTimeout(1000);
   say(`JS heap before and after ${SEEKS} seeks [MB]`, `${before.toFixed(1)}, ${(await heap()).toFixed(1)}`, 'flat, 45');
   await context.close();
@@ -155,7 +157,7 @@ async function recordings(served) {
 /** An hour of 100 lice: opened, looked at in ten places, verified. */
 async function hour(served) {
   const folder = mkdtempSync(path.join(os.tmpdir(), 'woodlouse-'));
-  const player = spawn(path.join(programs, 'woodlouse-replay-speed'), [path.join(import.meta.dirname ?? 'bench', '../maps/volcano.json'), folder, '--keep'], { stdio: 'ignore' });
+  const player = spawn(path.join(programs, 'woodlouse-replay-speed'), [path.join(path.dirname(fileURLToPath(import.meta.url)), '../maps/volcano.json'), folder, '--keep'], { stdio: 'ignore' });
   await new Promise((resolve) => player.once('exit', resolve));
   const kept = readFileSync(path.join(folder, 'speed.ndjson.zst'));
   const context = await browsed(), page = context.pages()[0], session = await context.newCDPSession(page);
@@ -168,17 +170,7 @@ async function hour(served) {
     return performance.now() - begun;
   });
   const times = [];
-  for (let k = 0; k < 10; k++) {
-    times.push(await page.evaluate(async (tick) => {
-      const { player } = window.woodlouse, told = player.onSeek, begun = performance.now();
-      await new Promise((resolve) => {
-        player.onSeek = () => { told(); resolve(undefined); };
-        player.seek(tick);
-      });
-      player.onSeek = told;
-      return performance.now() - begun;
-    }, (k * 0.618034 % 1) * 216000 | 0));
-  }
+  for (let k = 0; k < 10; k++) times.push(await sought(page, (k * 0.618034 % 1) * 216000 | 0));
   const [took, ok] = await page.evaluate(async () => {
     const begun = performance.now();
     await window.woodlouse.player.verify();

@@ -196,6 +196,8 @@ int make_map_command(const MakeMapRequest& request, std::ostream& out) {
   const std::string name = core::printable(made->file.string());
   if (!note.empty()) out << core::printable(request.file.string()) << ": " << note << '\n';
   for (const std::string& line : summary_of(map)) out << name << ": " << line << '\n';
+  if (map.definition.modes.forage && !map.definition.modes.race)
+    out << name << ": no race: it wants a map 20 m across or more (--scale)\n";
   out << name << ": thrust " << map.definition.physics.thrust_max << " m/s^2, "
       << map.definition.spawns.size() << " spawns; play it:  woodlouse-server --map " << name
       << " --bots 8\n";

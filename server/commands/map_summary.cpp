@@ -129,8 +129,10 @@ std::vector<std::string> summary_of(const map::Map& map) {
   lines.push_back(fmt::format("steepest slope: {:.3g} m a metre{}", shape.slope, of));
   // The surfaces of the paper are known by their slopes alone.
   if (!map::is_of_document(map.definition.surface))
-    lines.push_back(fmt::format("largest curvature: {:.3g} 1/m, a radius of {:.3g} m{}", shape.curvature,
-                                shape.curvature > 0.0 ? 1.0 / shape.curvature : HUGE_VAL, of));
+    lines.push_back(shape.curvature > 0.0
+                        ? fmt::format("largest curvature: {:.3g} 1/m, a radius of {:.3g} m{}",
+                                      shape.curvature, 1.0 / shape.curvature, of)
+                        : std::string("largest curvature: none"));
   lines.push_back(
       fmt::format("overshoot: at most {:.3g} m beyond the corners of a cell{}", shape.overshoot, of));
   lines.push_back(fmt::format("a louse's step: {:.2f} sub-steps, {:.1f} % of them capped, {:.0f} ns here",

@@ -126,6 +126,12 @@ class MakeMap(unittest.TestCase):
             self.assertEqual(made.stdout.count("\n"), 1, made.stdout)
             self.assertIn(wanted, made.stdout)
 
+    def test_a_small_level_map_has_no_race_and_says_so(self):
+        ascii_grid(self.path / "yard.asc", 5, 5, "xllcorner 0\nyllcorner 0\ncellsize 3", lambda i, j: 3.0)
+        made = self.make("yard.asc", "--modes")
+        self.assertIn("no race: it wants a map 20 m across", made)
+        self.assertIn("largest curvature: none", made)
+
 
 if __name__ == "__main__":
     unittest.main()
