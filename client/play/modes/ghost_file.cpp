@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
 #include <optional>
@@ -50,11 +51,11 @@ std::string_view next_line(std::string_view& text) {
   return line;
 }
 
-/// In a step of its own: a crash leaves the file of before.
-void write_whole(const fs::path& file, std::string_view text) {
-  std::error_code ignored;  // a file that can't be written is none
+/// In a step of its own: a crash leaves the file of before. False: it can't be written.
+bool write_whole(const fs::path& file, std::string_view text) {
+  std::error_code ignored;  // then it can't be written, either
   fs::create_directories(file.parent_path(), ignored);
-  static_cast<void>(core::replace_whole_file(file, text));
+  return core::replace_whole_file(file, text).has_value();
 }
 
 /// Two lines of a drive, as they stand in the file; empty: none follows.
@@ -69,16 +70,18 @@ std::string_view next_drive(std::string_view& text) {
   return drive.ends_with('\n') ? drive : std::string_view();  // one that was cut off is the last
 }
 
-/// Held while a file of the folder is read and written anew. Who has it for long is left alone with it: a
-/// picture waits meanwhile.
+/// Held while a file of the folder is read and written anew: who wrote it without, would write over what
+/// another one adds. Not waited for any longer than a picture may.
 class FolderLock {
  public:
   explicit FolderLock(const fs::path& folder)
       : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     using namespace std::chrono_literals;
     constexpr int kTries = 20;
-    for (int i = 0; descriptor_ >= 0 && i < kTries && ::flock(descriptor_, LOCK_EX | LOCK_NB) != 0; ++i)
-      std::this_thread::sleep_for(5ms);
+    for (int i = 0; descriptor_ >= 0 && !is_held_ && i < kTries; ++i) {
+      is_held_ = ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || (errno != EWOULDBLOCK && errno != EINTR);
+      if (!is_held_) std::this_thread::sleep_for(5ms);
+    }
   }
   ~FolderLock() {
     if (descriptor_ >= 0) ::close(descriptor_);
@@ -86,8 +89,12 @@ class FolderLock {
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
 
+  /// True also where the file system has no locks; false: another one has it, or there is no such folder.
+  [[nodiscard]] bool is_held() const { return is_held_; }
+
  private:
   int descriptor_;
+  bool is_held_ = false;
 };
 
 }  // namespace
@@ -143,22 +150,23 @@ std::vector<OwnDrive> read_ghost_drives(const fs::path& folder, const map::Map& 
   return text ? parse_ghost_drives(*text, map, tick_hz, mode) : std::vector<OwnDrive>();
 }
 
-void keep_ghost_drive(const fs::path& folder, const map::Map& map, std::uint32_t tick_hz, state::Mode mode,
-                      const OwnDrive& drive) {
+bool keep_ghost_drives(const fs::path& folder, const map::Map& map, std::uint32_t tick_hz, state::Mode mode,
+                       const std::vector<OwnDrive>& drives) {
   const fs::path file = file_of(folder, map, mode);
   std::error_code ignored;  // then nothing is kept
   fs::create_directories(file.parent_path(), ignored);
   const FolderLock lock(file.parent_path());
+  if (!lock.is_held()) return false;
   const auto text = core::read_whole_file(file, kMostBytes);
-  std::vector<std::string_view> drives;  // as they are, those of other rates, too
+  if (!text && fs::exists(file, ignored)) return false;  // what stands in it is not to be lost
+  std::vector<std::string> kept;                         // as they are, those of other rates, too
   std::string_view rest = text ? std::string_view(*text) : std::string_view();
-  for (std::string_view old = next_drive(rest); !old.empty(); old = next_drive(rest)) drives.push_back(old);
-  const std::string added = ghost_drives_text({drive}, tick_hz, mode);
-  drives.push_back(added);
-  if (drives.size() > kMostGhostsKept) drives.erase(drives.begin(), drives.end() - kMostGhostsKept);
-  std::string kept;
-  for (const std::string_view one : drives) kept += one;
-  write_whole(file, kept);
+  for (std::string_view old = next_drive(rest); !old.empty(); old = next_drive(rest)) kept.emplace_back(old);
+  for (const OwnDrive& drive : drives) kept.push_back(ghost_drives_text({drive}, tick_hz, mode));
+  if (kept.size() > kMostGhostsKept) kept.erase(kept.begin(), kept.end() - kMostGhostsKept);
+  std::string whole;
+  for (const std::string& one : kept) whole += one;
+  return write_whole(file, whole);
 }
 
 std::optional<protocol::GhostLine> read_author_ghost(const map::Map& map, std::uint32_t tick_hz) {
@@ -184,6 +192,8 @@ bool is_done(const fs::path& folder, std::string_view name) {
   return fs::exists(folder / name, ignored);
 }
 
-void mark_done(const fs::path& folder, std::string_view name) { write_whole(folder / name, "done\n"); }
+void mark_done(const fs::path& folder, std::string_view name) {
+  static_cast<void>(write_whole(folder / name, "done\n"));  // else it is not done the next time
+}
 
 }  // namespace woodlouse::client

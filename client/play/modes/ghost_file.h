@@ -31,10 +31,12 @@ std::vector<OwnDrive> parse_ghost_drives(std::string_view text, const map::Map& 
 
 std::vector<OwnDrive> read_ghost_drives(const std::filesystem::path& folder, const map::Map& map,
                                         std::uint32_t tick_hz, state::Mode mode);
-/// Behind those that stand there now, whoever wrote them; beyond kMostGhostsKept the oldest ones go. Whole,
-/// or not at all.
-void keep_ghost_drive(const std::filesystem::path& folder, const map::Map& map, std::uint32_t tick_hz,
-                      state::Mode mode, const OwnDrive& drive);
+/// Behind those that stand there now, whoever wrote them; beyond kMostGhostsKept the oldest ones go. All of
+/// them, or none: false, with the file as it was, where another one holds the folder for over 0.1 s, or the
+/// file can't be read or written.
+[[nodiscard]] bool keep_ghost_drives(const std::filesystem::path& folder, const map::Map& map,
+                                     std::uint32_t tick_hz, state::Mode mode,
+                                     const std::vector<OwnDrive>& drives);
 
 /// The ghost that came with the shipped map of that name, where it proves its run on this one; none: else.
 /// REQUIRES a map with a race, in full detail.

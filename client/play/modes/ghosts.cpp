@@ -24,6 +24,8 @@ constexpr double kTrailSpacings = 120.0;  ///< of a map's width
 void Ghosts::begin(std::shared_ptr<const map::Map> map, std::uint32_t tick_hz, state::Mode mode) {
   assert(map != nullptr && tick_hz > 0);
   const bool is_same = map_ != nullptr && map_->hash == map->hash && mode_ == mode && tick_hz_ == tick_hz;
+  keep();
+  if (!is_same) unkept_.clear();  // they are of another file
   map_ = std::move(map);
   tick_hz_ = tick_hz;
   mode_ = mode;
@@ -106,8 +108,16 @@ void Ghosts::add_drive(OwnDrive drive) {
     return;
   if (mode_ != state::Mode::kRoam && mode_ != state::Mode::kRace) return;  // others would be in its way
   if (!why_no_drive(*map_, tick_hz_, drive).empty()) return;
-  if (folder_) keep_ghost_drive(*folder_, *map_, tick_hz_, mode_, drive);
+  if (folder_) {
+    unkept_.push_back(drive);
+    if (unkept_.size() > kMostGhostsKept) unkept_.erase(unkept_.begin());
+    keep();
+  }
   take_own(std::move(drive));
+}
+
+void Ghosts::keep() {
+  if (!unkept_.empty() && keep_ghost_drives(*folder_, *map_, tick_hz_, mode_, unkept_)) unkept_.clear();
 }
 
 void Ghosts::take_own(OwnDrive drive) {

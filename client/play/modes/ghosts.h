@@ -22,6 +22,11 @@ enum class GhostChoice : std::uint8_t { kBest, kLast, kOff };
 
 class Ghosts {
  public:
+  Ghosts() = default;
+  ~Ghosts() { keep(); }
+  Ghosts(const Ghosts&) = delete;
+  Ghosts& operator=(const Ghosts&) = delete;
+
   /// Own drives are kept there from now on, and those of before are shown again, beside the author's of a
   /// shipped race (ghost_file.h); else no file is read, and own drives end with the program.
   void keep_in(std::filesystem::path folder) { folder_ = std::move(folder); }
@@ -60,6 +65,8 @@ class Ghosts {
                const protocol::GhostLine& line);
   void mark_doubles();
   void load();
+  /// Tries to, once more, with what could not be kept before.
+  void keep();
 
   std::shared_ptr<const map::Map> map_;
   std::uint32_t tick_hz_ = 60;
@@ -68,6 +75,8 @@ class Ghosts {
   std::optional<std::filesystem::path> folder_;
   std::vector<Record> records_;
   std::optional<GhostRun> last_, best_;
+  std::vector<OwnDrive>
+      unkept_;  ///< of this map, rate and mode, not in the folder yet; kMostGhostsKept at most
   Trail own_trail_{1.0};
 };
 

@@ -1,5 +1,7 @@
 #include "client/play/modes/ghosts.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -158,7 +160,7 @@ TEST_CASE("two clients of one account lose none of each other's drives, of other
   one.add_drive(driven(*map, 4));
   other.add_drive(driven(*map, 5));
   one.add_drive(driven(*map, 6));
-  keep_ghost_drive(folder, *map, 30, state::Mode::kRoam, driven(*map, 4));
+  CHECK(keep_ghost_drives(folder, *map, 30, state::Mode::kRoam, {driven(*map, 4)}));
   std::vector<std::uint32_t> ticks;
   for (const OwnDrive& drive : read_ghost_drives(folder, *map, 60, state::Mode::kRoam))
     ticks.push_back(drive.ticks);
@@ -170,7 +172,9 @@ TEST_CASE("two clients of one account lose none of each other's drives, of other
   constexpr int kClients = 4;
   for (int i = 0; i < kClients; ++i)
     if (fork() == 0) {
-      for (int k = 0; k < 4; ++k) keep_ghost_drive(folder, *map, 60, state::Mode::kRoam, driven(*map, 4));
+      for (int k = 0; k < 4; ++k)
+        while (!keep_ghost_drives(folder, *map, 60, state::Mode::kRoam, {driven(*map, 4)})) {
+        }
       _exit(0);
     }
   for (int i = 0; i < kClients; ++i) {
@@ -186,14 +190,48 @@ TEST_CASE("two clients of one account lose none of each other's drives, of other
   std::filesystem::remove_all(folder);
 }
 
+TEST_CASE("a drive that can't be kept for another client's sake, or the disk's, is kept later") {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("woodlouse-held-" + std::to_string(getpid()));
+  const auto map = map_of("volcano");
+  const auto kept = [&] { return read_ghost_drives(folder, *map, 60, state::Mode::kRoam).size(); };
+  {
+    Ghosts ghosts;
+    ghosts.keep_in(folder);
+    ghosts.begin(map, 60, state::Mode::kRoam);
+    ghosts.add_drive(driven(*map, 4));
+    CHECK(kept() == 1);
+
+    const int held = open((folder / "ghosts").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    REQUIRE(flock(held, LOCK_EX) == 0);
+    ghosts.add_drive(driven(*map, 5));
+    CHECK(kept() == 1);
+    close(held);
+    ghosts.add_drive(driven(*map, 6));
+    CHECK(kept() == 3);
+
+    // A file that can't be read now is not written over.
+    const auto file = std::filesystem::directory_iterator(folder / "ghosts")->path();
+    const std::filesystem::path away = folder / "away";
+    std::filesystem::rename(file, away);
+    std::filesystem::create_directory(file);
+    ghosts.add_drive(driven(*map, 7));
+    std::filesystem::remove(file);
+    std::filesystem::rename(away, file);
+    CHECK(kept() == 3);
+  }
+  CHECK(kept() == 4);  // the game is over: the last try
+  std::filesystem::remove_all(folder);
+}
+
 TEST_CASE("a drive behind a damaged end of the file is kept") {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("woodlouse-damaged-" + std::to_string(getpid()));
   const auto map = map_of("volcano");
-  keep_ghost_drive(folder, *map, 60, state::Mode::kRoam, driven(*map, 4));
+  CHECK(keep_ghost_drives(folder, *map, 60, state::Mode::kRoam, {driven(*map, 4)}));
   for (const auto& entry : std::filesystem::directory_iterator(folder / "ghosts"))
     std::ofstream(entry.path(), std::ios::app) << "{\"type\":\"ack\"";
-  keep_ghost_drive(folder, *map, 60, state::Mode::kRoam, driven(*map, 5));
+  CHECK(keep_ghost_drives(folder, *map, 60, state::Mode::kRoam, {driven(*map, 5)}));
   CHECK(read_ghost_drives(folder, *map, 60, state::Mode::kRoam).size() == 2);
   std::filesystem::remove_all(folder);
 }
