@@ -34,7 +34,7 @@ inline std::vector<std::string> log_levels() { return {"debug", "info", "warning
 class Log {
  public:
   static constexpr std::size_t kMostWaiting = 8192;  ///< lines
-  static constexpr std::chrono::milliseconds kPatience{150};
+  static constexpr std::chrono::milliseconds kPatience{500};
   static constexpr std::chrono::milliseconds kLongest{2000};
 
   explicit Log(LogFormat format);
