@@ -71,12 +71,13 @@ void draw_replay_status_line(const Scene& scene, CellBuffer& cells) {
   Style title = styles.bar;
   title.attributes = kBold;
   int at = cells.text(1, 0, columns < 80 ? "REPLAY" : "WOODLOUSE REPLAY", title);
+  const std::string lice = formatted(scene.hud.players == 1 ? "%d louse" : "%d lice", scene.hud.players);
+  const std::string proof = scene.proof ? proof_text(*scene.proof) : std::string();
+  const int behind = static_cast<int>(lice.size() + proof.size()) + 5;  // and blanks
   at = cells.text(at + 2, 0, printable(scene.replay->file, scene.look.glyphs), styles.bar,
-                  columns < 80 ? 14 : 20);
-  at = cells.text(at + 2, 0, formatted(scene.hud.players == 1 ? "%d louse" : "%d lice", scene.hud.players),
-                  styles.bar);
+                  std::max(columns < 80 ? 14 : 20, columns - at - 2 - behind));
+  at = cells.text(at + 2, 0, lice, styles.bar);
   if (!scene.proof) return;
-  const std::string proof = proof_text(*scene.proof);
   cells.text(std::max(at + 2, columns - 1 - static_cast<int>(proof.size())), 0, proof,
              scene.proof->differs ? styles.warning : styles.bar);
 }

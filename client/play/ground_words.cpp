@@ -42,8 +42,8 @@ namespace words {
 std::string slope_at(const map::Map& map, core::Vec2 place) {
   const core::Vec2 gradient = gradient_at(map, place);
   if (degrees(gradient) < kLevel) return "the ground is level";
-  return "the ground falls " + compass(-1.0 * gradient) + ", " +
-         std::to_string(std::lround(degrees(gradient))) + " degrees";
+  return "downhill is " + compass(-1.0 * gradient) + ", " + std::to_string(std::lround(degrees(gradient))) +
+         " degrees steep";
 }
 
 std::string rim_at(const map::Map& map, state::Mode mode, core::Vec2 place, double reach) {

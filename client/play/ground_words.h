@@ -14,7 +14,7 @@
 namespace woodlouse::client {
 
 namespace words {
-/// "the ground falls south-west, 12 degrees", or "the ground is level".
+/// "downhill is south-west, 12 degrees steep", or "the ground is level".
 std::string slope_at(const map::Map& map, core::Vec2 place);
 /// "a wall 2 m east", the nearest within `reach` [m]; empty where there is none. A mode may
 /// have it fallen over.

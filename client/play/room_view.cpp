@@ -200,7 +200,7 @@ void RoomView::take(const protocol::Event& event, core::Time now) {
   if (welcome_ && rings(event, welcome_->id)) ++bells_;
   roster_.event(event);
   if (protocol::is_of_rules(event.kind) && welcome_) {
-    const std::string told = describe_ruling(event, welcome_->id, welcome_->tick_hz);
+    const std::string told = describe_ruling(event, welcome_->id, welcome_->tick_hz, sight());
     if (!told.empty()) roster_.note(told);
   }
   if (event.kind == protocol::EventKind::kLeft) trails_.erase(event.id);
@@ -264,6 +264,10 @@ Sight RoomView::sight() const {
     const Resident* resident = roster_.find(id);
     return resident != nullptr ? resident->name : core::joined({"#", std::to_string(id)});
   };
+  sight.is_bot = [this](std::uint32_t id) {
+    const Resident* resident = roster_.find(id);
+    return resident != nullptr && resident->role == protocol::Role::kBot;
+  };
   const protocol::Game* const game = view_ ? view_->game() : nullptr;
   if (game == nullptr) return sight;
   sight.ruling = {mode_, game, shown_tick_, tick_hz_, own_game_.author_ms()};
@@ -305,10 +309,13 @@ void RoomView::draw_lice(core::Time now) {
     lice_[id].sample = sample;
   }
   if (pilot_) {
-    if (auto own = pilot_->sample()) {  // what the rules say of it only the server knows
-      const auto newest = view_->newest()->lice.find(pilot_->id());
-      if (newest != view_->newest()->lice.end()) own->standing = newest->second.standing;
-      lice_[pilot_->id()].sample = *own;
+    const auto& newest = view_->newest()->lice;
+    const auto own = newest.find(pilot_->id());
+    if (own == newest.end() && mode_ == state::Mode::kHill) {
+      lice_.erase(pilot_->id());  // it is out, and the World of the prediction knows nothing of that
+    } else if (auto predicted = pilot_->sample()) {  // what the rules say of it only the server knows
+      if (own != newest.end()) predicted->standing = own->second.standing;
+      lice_[pilot_->id()].sample = *predicted;
     }
   }
   const double width = welcome_->extent[2] - welcome_->extent[0];

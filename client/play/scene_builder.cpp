@@ -231,6 +231,7 @@ Scene build_scene(const Session& session, const Interface& interface, const Chat
   if (const auto gate = room.own_game().gate().mark()) {
     scene.course.gates.push_back(*gate);
     scene.course.target = 0.5 * (gate->a + gate->b);
+    scene.course.up = up;
     scene.course.lines.push_back(room.own_game().gate().line(facts.now));
     if (const LouseSample* you = sample_of(room.sight(), own_id))
       scene.course.lines.back().push_back(

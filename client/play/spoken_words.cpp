@@ -91,9 +91,8 @@ std::string keys(const KeyLabels& keys, SteerBy steer, bool plays) {
           ? keys.up + " push north, " + keys.left + " west, " + keys.down + " south, " + keys.right +
                 " east, " + keys.brake + " brake"
           : keys.up + " push, " + keys.down + " brake, " + keys.left + " and " + keys.right + " turn";
-  return "keys: " + driving + ", " + spoken(keys.cruise) + " cruise, " + keys.view +
-         " where the ground falls, " + all + keys.steer + " steer another way, " + keys.respawn +
-         " respawn, " + keys.quit + " quit";
+  return "keys: " + driving + ", " + spoken(keys.cruise) + " cruise, " + keys.view + " where downhill is, " +
+         all + keys.steer + " steer another way, " + keys.respawn + " respawn, " + keys.quit + " quit";
 }
 
 std::vector<std::string> room(const RoomView& view) {
@@ -107,9 +106,12 @@ std::vector<std::string> room(const RoomView& view) {
     }
     ++rank;
     const auto present = view.lice().find(row.id);
-    std::string line = row.rank > 0 ? "number " + std::to_string(row.rank) + ", " : "";
-    line += present != view.lice().end() ? louse(view, present->second) : row.name;
-    if (!row.measure.empty()) line += ", " + (row.measure == "--" ? "no time yet" : row.measure);
+    const std::string place = row.rank > 0 ? "number " + std::to_string(row.rank) : std::string();
+    const bool is_by_way = row.measure.empty();  // then it stands behind the way
+    std::string line = place.empty() || is_by_way ? "" : place + ", ";
+    line += present != view.lice().end() ? louse(view, present->second) : row.is_you ? "you" : row.name;
+    if (is_by_way && !place.empty()) line += ", " + place;
+    if (!is_by_way) line += ", " + (row.measure == "--" ? "no time yet" : row.measure);
     if (row.is_you)
       lines.insert(lines.begin(), std::move(line));
     else

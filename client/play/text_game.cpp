@@ -80,11 +80,14 @@ void TextGame::update() {
   if (now - state_told_ >= kStateEvery && !is_silence_told_ &&
       session_.connection().phase() == Connection::Phase::kJoined) {
     state_told_ = now;
-    for (const std::string& line : words::goal(session_.room())) say(line);
+    std::vector<std::string> standing = words::goal(session_.room());
     const auto lines = words::room(session_.room());
     const bool only_own =
         session_.room().pilot() != nullptr && keys_;  // the others on Tab: a reader reads slowly
-    for (std::size_t i = 0; i < lines.size() && !(only_own && i == 1); ++i) say(lines[i]);
+    for (std::size_t i = 0; i < lines.size() && !(only_own && i == 1); ++i) standing.push_back(lines[i]);
+    for (const std::string& line : standing)  // what is as it was is not told again
+      if (std::find(standing_told_.begin(), standing_told_.end(), line) == standing_told_.end()) say(line);
+    standing_told_ = std::move(standing);
     if (const std::uint64_t keys = session_.room().verifier().verified(); keys > 0)
       say("state ok, " + std::to_string(keys) + (keys == 1 ? " key" : " keys") + " verified");
     if (const std::uint64_t ticks = session_.room().follower().proven();

@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "client/controls/driving.h"
 #include "client/controls/key_bindings.h"
@@ -84,6 +85,7 @@ class TextGame {
   std::optional<std::uint32_t> podium_told_;  ///< of which round
   int losses_told_ = 0;                       ///< of the connection's
   core::Time state_told_{};
+  std::vector<std::string> standing_told_;  ///< the last time
   std::optional<Outcome> outcome_;
 };
 

@@ -40,8 +40,9 @@ struct Sight {
   const Pilot* pilot = nullptr;  ///< of your own louse; null without one
   Ruling ruling{};
   std::function<std::string(std::uint32_t)>
-      name_of{};         ///< of any louse, seen or not; set where there are rules
-  bool is_part = false;  ///< there are lice that are not seen
+      name_of{};                                ///< of any louse, seen or not; set where there are rules
+  std::function<bool(std::uint32_t)> is_bot{};  ///< of any louse, as name_of
+  bool is_part = false;                         ///< there are lice that are not seen
 };
 
 }  // namespace woodlouse::client

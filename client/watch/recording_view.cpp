@@ -76,6 +76,10 @@ Sight RecordingView::sight() const {
     const auto label = labels_.find(id);
     return name_of(label == labels_.end() ? nullptr : &label->second, id);
   };
+  sight.is_bot = [this](std::uint32_t id) {
+    const auto label = labels_.find(id);
+    return label != labels_.end() && label->second.role == protocol::Role::kBot;
+  };
   if (shown_.game)
     sight.ruling = {archive_->header().mode, &*shown_.game, static_cast<double>(tick()),
                     archive_->header().tick_hz, 0};

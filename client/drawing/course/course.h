@@ -78,6 +78,7 @@ struct Course {
   std::vector<RingMark> rings;
   std::vector<GhostMark> ghosts;
   std::optional<core::Vec2> target;  ///< where the arrow points: the next gate, the place, the dearest crumb
+  core::Vec2 up{0.0, 1.0};           ///< what over the map points up in the picture, for the arrow's words
   std::vector<GoalLine> lines;       ///< above the map
   std::vector<GoalLine> lesson;      ///< below the map
   std::vector<std::string> rules;    ///< of the mode, for the help; at most 50 characters each

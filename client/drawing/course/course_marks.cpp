@@ -157,6 +157,12 @@ HeadingGlyph screen_glyph(const Spot& from, const Spot& to, const GroundCanvas& 
   return heading_glyph({to.x - from.x, -down});
 }
 
+/// An arrow as it is written. A slash has no head: between the four it is the keys' two directions.
+std::u32string arrow_text(const HeadingGlyph& arrow) {
+  if (arrow.columns == 0 || arrow.rows == 0) return {static_cast<char32_t>(arrow.glyph)};
+  return {arrow.rows < 0 ? U'N' : U'S', arrow.columns > 0 ? U'E' : U'W'};
+}
+
 void label_gate(const GateMark& gate, GroundCanvas& canvas) {
   const core::Vec2 middle = 0.5 * (gate.a + gate.b);
   const auto at = canvas.spot(middle);
@@ -178,9 +184,11 @@ void label_gate(const GateMark& gate, GroundCanvas& canvas) {
   const auto ahead = canvas.spot(middle + through);
   if (!ahead) return;
   const HeadingGlyph glyph = screen_glyph(*at, *ahead, canvas);
-  const int half = static_cast<int>(text.size() + 1) / 2;
-  canvas.write(column + glyph.columns * (half + 1), row + glyph.rows,
-               std::u32string(1, static_cast<char32_t>(glyph.glyph)), goal_color(canvas.look()));
+  const std::u32string arrow = arrow_text(glyph);
+  const int half = static_cast<int>(text.size() + arrow.size()) / 2;
+  canvas.write(
+      column + glyph.columns * (half + 1) - (glyph.columns < 0 ? static_cast<int>(arrow.size()) - 1 : 0),
+      row + glyph.rows, arrow, goal_color(canvas.look()));
 }
 
 void label_ghost(const GhostMark& ghost, GroundCanvas& canvas) {
@@ -204,7 +212,7 @@ void label_ghost(const GhostMark& ghost, GroundCanvas& canvas) {
 
 /// Beside your louse, towards what is wanted; where that is out of the picture also at its edge, with the
 /// way.
-void draw_pointer(const LouseMark& you, core::Vec2 target, GroundCanvas& canvas) {
+void draw_pointer(const LouseMark& you, core::Vec2 target, core::Vec2 up, GroundCanvas& canvas) {
   const auto here = canvas.spot(you.position);
   const auto there = canvas.spot(target);
   if (!here || !there) return;
@@ -212,8 +220,9 @@ void draw_pointer(const LouseMark& you, core::Vec2 target, GroundCanvas& canvas)
   const double dx = there->x - here->x;
   const double dy = (there->y - here->y) * 2.0 / rows;  // in columns, as dx
   const double length = std::hypot(dx, dy);
-  const HeadingGlyph glyph = screen_glyph(*here, *there, canvas);
-  const std::u32string arrow(1, static_cast<char32_t>(glyph.glyph));
+  const core::Vec2 way = target - you.position;  // named as the line over the map names it
+  const std::u32string arrow =
+      arrow_text(heading_glyph({way.x * up.y - way.y * up.x, way.x * up.x + way.y * up.y}));
   const int column = whole(here->x);
   const int row = whole(here->y) / canvas.dots_per_row();
   constexpr double kReach = 7.0;  ///< [columns] between louse and arrow
@@ -226,9 +235,8 @@ void draw_pointer(const LouseMark& you, core::Vec2 target, GroundCanvas& canvas)
   const int to_column = whole(there->x);
   const int to_row = static_cast<int>(std::floor(there->y / rows));
   if (canvas.viewport().holds(to_column, to_row)) return;
-  const core::Vec2 way = target - you.position;
   const std::u32string metres = wide(formatted("%.0f m", std::hypot(way.x, way.y)));
-  const int text = static_cast<int>(metres.size());
+  const int text = static_cast<int>(metres.size() + arrow.size()) - 1;
   // Where the straight way leaves the picture.
   double t = 1.0;
   const auto limit = [&t](double at, double by, double low, double high) {
@@ -270,7 +278,7 @@ void draw_mark_labels(const Scene& scene, const Badges& badges, GroundCanvas& ca
   for (const GateMark& gate : scene.course.gates)
     if (gate.is_next) label_gate(gate, canvas);
   if (you != scene.lice.end() && you->is_you && scene.course.target)
-    draw_pointer(*you, *scene.course.target, canvas);
+    draw_pointer(*you, *scene.course.target, scene.course.up, canvas);
   for (const GateMark& gate : scene.course.gates)
     if (!gate.is_next) label_gate(gate, canvas);
   if (!scene.labels) return;

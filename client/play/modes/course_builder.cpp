@@ -89,6 +89,19 @@ void measure(const Sight& sight, const Standing& standing, ScoreRow& row) {
   row.share = std::clamp(static_cast<double>(score) / wins, 0.0, 1.0);
 }
 
+/// Who fell, and is not back yet.
+ScoreRow row_of_out(const Sight& sight, const protocol::GameTableRow& out) {
+  const bool is_bot = sight.is_bot && sight.is_bot(out.id);
+  const bool is_you = sight.pilot != nullptr && sight.pilot->id() == out.id;
+  ScoreRow row{out.id, sight.name_of(out.id), is_bot ? LouseKind::kBot : LouseKind::kPlayer, is_you, 0.0,
+               0.0};
+  Standing standing;
+  standing.score = out.score;
+  measure(sight, standing, row);
+  row.measure = "out";
+  return row;
+}
+
 /// Of whom only the mode's table tells.
 std::vector<ScoreRow> rows_of_table(const Sight& sight) {
   std::vector<ScoreRow> rows;
@@ -150,6 +163,7 @@ Course course_of(const GoalFacts& facts) {
   course.lines = goal_lines(facts);
   course.rules = rules_in_words(ruling.mode, modes);
   course.target = goal_of(facts);
+  course.up = facts.up;
   if (ruling.game->phase == protocol::GamePhase::kPodium) add_podium(facts, course);
   return course;
 }
@@ -181,6 +195,12 @@ std::vector<ScoreRow> score_rows(const Sight& sight) {
     }
     order.emplace_back(key, std::move(row));
   }
+  if (has_rules && sight.ruling.mode == state::Mode::kHill && sight.ruling.game->table)
+    for (const protocol::GameTableRow& out : *sight.ruling.game->table) {
+      if (sight.lice.contains(out.id)) continue;
+      order.emplace_back(Order{static_cast<double>(out.score), 0.0, in_table.at(out.id)},
+                         row_of_out(sight, out));
+    }
   std::stable_sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
     return std::tie(b.first.score, b.first.progress, a.first.place) <
            std::tie(a.first.score, a.first.progress, b.first.place);

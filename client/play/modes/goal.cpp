@@ -13,6 +13,7 @@
 #include "shared/core/joined.h"
 #include "shared/json/document.h"
 #include "shared/json/fields.h"
+#include "shared/rules/climb.h"
 
 namespace woodlouse::client {
 namespace {
@@ -70,6 +71,7 @@ void race_line(const GoalFacts& facts, const map::RaceMode& race, GoalLine& line
     const std::int64_t begin =
         facts.run != nullptr && facts.run->run_start() != 0 ? facts.run->run_start() : standing.lap_start;
     const double moments = ruling.tick * kMoments - static_cast<double>(begin);
+    line.push_back({"run ", Tone::kUsual, true});  // of all laps
     line.push_back(
         {span_text(static_cast<std::int64_t>(std::max(0.0, moments)), ruling.tick_hz), Tone::kStrong});
   } else {
@@ -144,6 +146,27 @@ void add_next(const GoalFacts& facts, GoalLine& line) {
   line.push_back({formatted("  moves in %lds", seconds), seconds <= 5 ? Tone::kGoal : Tone::kDim});
 }
 
+/// Whether the next metres straight to that place are steeper than a push climbs from rest.
+bool needs_run_up(const GoalFacts& facts, core::Vec2 place) {
+  constexpr double kLooked = 10.0;  ///< [m]
+  constexpr int kSamples = 20;
+  const map::Map& map = *facts.sight.map;
+  const core::Vec2 here = facts.you->position;
+  const core::Vec2 way = place - here;
+  const double length = std::hypot(way.x, way.y);
+  if (!(length > 0.0)) return false;
+  const core::Vec2 direction = (1.0 / length) * way;
+  const double climbs = rules::climbable_slope(map.definition.physics);
+  const terrain::Rectangle& domain = map.terrain->domain();
+  for (int k = 0; k <= kSamples; ++k) {
+    const core::Vec2 at = here + (std::min(kLooked, length) * k / kSamples) * direction;
+    if (at.x < domain.x_min || at.x > domain.x_max || at.y < domain.y_min || at.y > domain.y_max) break;
+    const terrain::SurfaceSample ground = map.terrain->sample(at.x, at.y);
+    if (ground.zx * direction.x + ground.zy * direction.y > climbs) return true;
+  }
+  return false;
+}
+
 /// "gate 3: NE 27 m": what is aimed at, and from where.
 void add_aim(const GoalFacts& facts, GoalLine& line) {
   const Ruling& ruling = facts.sight.ruling;
@@ -160,7 +183,7 @@ void add_aim(const GoalFacts& facts, GoalLine& line) {
       break;
     }
     case state::Mode::kForage:
-      what = dearest_crumb(facts)->value > 1 ? "* worth 3" : "crumb";
+      what = dearest_crumb(facts)->value > 1 ? "crumb worth 3:" : "crumb:";
       break;
     case state::Mode::kHill:
       what = "place";
@@ -170,6 +193,7 @@ void add_aim(const GoalFacts& facts, GoalLine& line) {
   }
   line.push_back({"  " + what + " " + way_text(*place - facts.you->position, facts.up), Tone::kGoal});
   if (is_flown) line.push_back({", fly through", Tone::kGoal, true});
+  if (facts.is_own && needs_run_up(facts, *place)) line.push_back({", needs a run-up", Tone::kGoal, true});
   if (!facts.is_own) line.push_back({" from " + facts.sight.name_of(facts.id), Tone::kDim, true});
 }
 

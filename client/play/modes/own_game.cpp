@@ -39,7 +39,9 @@ void OwnGame::take(const protocol::Event& event, const protocol::Welcome& welcom
   if (event.id != pilot->id()) return;
   if (event.kind == EventKind::kLapDone)
     pilot->lap(static_cast<std::uint64_t>(std::max<std::int64_t>(0, event.values[1].value_or(0))));
-  if (event.kind != EventKind::kRespawned) return;
+  if (event.kind == EventKind::kFell)
+    pilot->steering().reset();  // a cruise would lead on from the next spawn
+  if (event.kind != EventKind::kRespawned && event.kind != EventKind::kReturned) return;
   pilot->respawned();
   if (auto drive = pilot->take_drive()) ghosts_.add_drive(std::move(*drive));
 }

@@ -1,5 +1,7 @@
 #include "client/play/modes/ruling_words.h"
 
+#include <cassert>
+
 #include "client/drawing/formatted.h"
 #include "client/play/modes/goal.h"
 
@@ -8,9 +10,22 @@ namespace {
 
 constexpr double kMomentsOfTick = 65536.0;
 
+/// Who fell, and by whom: whoever bumped it off has held the place longer for it (rules/hill.h).
+std::string fall_words(const protocol::Event& event, std::uint32_t you, const Sight& sight) {
+  const auto by = static_cast<std::uint32_t>(event.values[0].value_or(0));
+  const bool is_you = event.id == you;
+  if (by == 0) return is_you ? "you fell off" : event.name + " fell off";
+  const protocol::Game* const game = sight.ruling.game;
+  const bool counts = game != nullptr && game->phase == protocol::GamePhase::kPlay;
+  return (by == you ? "you" : sight.name_of(by)) + " pushed " + (is_you ? "you" : event.name) + " off" +
+         (counts ? ": +3 s" : "");
+}
+
 }  // namespace
 
-std::string describe_ruling(const protocol::Event& event, std::uint32_t you, std::uint32_t tick_hz) {
+std::string describe_ruling(const protocol::Event& event, std::uint32_t you, std::uint32_t tick_hz,
+                            const Sight& sight) {
+  assert(sight.name_of && tick_hz > 0);
   using protocol::EventKind;
   const auto value = [&event](std::size_t k) { return event.values[k].value_or(0); };
   const bool is_you = event.id != 0 && event.id == you;
@@ -33,12 +48,12 @@ std::string describe_ruling(const protocol::Event& event, std::uint32_t you, std
     case EventKind::kHarvest:
       return "harvest: crumbs count twice";
     case EventKind::kHolds:
-      return event.id == 0 ? std::string()
-                           : event.name + " holds the place";  // the lines say when nobody does
+      if (event.id == 0) return {};  // the lines say when nobody does
+      return is_you ? "you hold the place" : event.name + " holds the place";
     case EventKind::kMoving:
       return "the place will move";
     case EventKind::kFell:
-      return event.name + " fell";
+      return fall_words(event, you, sight);
     case EventKind::kRound:
       if (event.phase == protocol::GamePhase::kPlay)
         return formatted("round %ld begins", static_cast<long>(value(0)));

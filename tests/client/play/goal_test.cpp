@@ -8,6 +8,7 @@
 #include "client/play/modes/ruling_words.h"
 #include "shared/map/map_file.h"
 #include "shared/map/map_search_file.h"
+#include "shared/rules/climb.h"
 
 using namespace woodlouse;
 using namespace woodlouse::client;
@@ -123,7 +124,7 @@ TEST_CASE("a race's lines say the way to the next gate, the clock and the medal 
   CHECK(text.find(" from ") == std::string::npos);
   const std::string watched = text_of(goal_lines({sight, 2, &you, false, nullptr, 2}));
   CHECK(watched.find(" m from louse2\nlouse2: lap 2/3") != std::string::npos);
-  CHECK(text.find("lap 2/3 0:10.000  #2/1  bronze 1:30.00") != std::string::npos);
+  CHECK(text.find("lap 2/3 run 0:10.000  #2/1  bronze 1:30.00") != std::string::npos);
   const Course course = course_of({sight, 2, &you, true, nullptr, 2});
   REQUIRE(course.gates.size() == 6);
   CHECK(course.gates[3].is_next);
@@ -194,16 +195,82 @@ TEST_CASE("a way is named by the keys that push there, in a picture that is turn
 }
 
 TEST_CASE("the gate where laps begin has the same name in the chat as in the picture") {
+  const SeenRoom room = race();
+  const Sight sight = room.sight();
   protocol::Event event;
   event.kind = protocol::EventKind::kGate;
   event.id = 7;
   event.values = {0, 1, 12 * kSecond, std::nullopt};
-  CHECK(describe_ruling(event, 7, 60) == "gate S 0:12.000");
+  CHECK(describe_ruling(event, 7, 60, sight) == "gate S 0:12.000");
   event.values = {3, 1, 12 * kSecond, -kSecond / 2};
-  CHECK(describe_ruling(event, 7, 60) == "gate 3 0:12.000 -0.50 s");
-  CHECK(describe_ruling(event, 8, 60).empty());
+  CHECK(describe_ruling(event, 7, 60, sight) == "gate 3 0:12.000 -0.50 s");
+  CHECK(describe_ruling(event, 8, 60, sight).empty());
   event.values = {0, 0, 0, std::nullopt};
-  CHECK(describe_ruling(event, 7, 60) == "through S: the clock runs");
+  CHECK(describe_ruling(event, 7, 60, sight) == "through S: the clock runs");
+}
+
+TEST_CASE("who fell is told with who pushed it, and what that brought") {
+  SeenRoom room = race();
+  room.mode = state::Mode::kHill;
+  protocol::Event event;
+  event.kind = protocol::EventKind::kFell;
+  event.id = 7;
+  event.name = "gauss";
+  const auto told = [&](std::int64_t by, std::uint32_t you) {
+    event.values[0] = by;
+    return describe_ruling(event, you, 60, room.sight());
+  };
+  CHECK(told(0, 2) == "gauss fell off");
+  CHECK(told(0, 7) == "you fell off");
+  CHECK(told(2, 2) == "you pushed gauss off: +3 s");
+  CHECK(told(3, 2) == "louse3 pushed gauss off: +3 s");
+  CHECK(told(3, 7) == "louse3 pushed you off: +3 s");
+  room.game.phase = protocol::GamePhase::kCountdown;  // nothing counts
+  CHECK(told(2, 2) == "you pushed gauss off");
+}
+
+TEST_CASE("who is out stays in the table of a hill, and says so") {
+  SeenRoom room = race();
+  room.mode = state::Mode::kHill;
+  room.map = shipped_map("table");
+  room.add(2, 60, 10.0, true);
+  room.add(3, 30, 90.0);
+  room.game.table = {{5, 120}, {2, 60}, {3, 30}};
+  Sight sight = room.sight();
+  sight.is_bot = [](std::uint32_t id) { return id == 5; };
+  const auto rows = score_rows(sight);
+  REQUIRE(rows.size() == 3);
+  CHECK(rows[0].name == "louse5");
+  CHECK(rows[0].measure == "out");
+  CHECK(rows[0].kind == LouseKind::kBot);
+  CHECK(rows[0].rank == 1);
+  CHECK(rows[0].share == 120.0 / (30 * 60));
+  CHECK(rows[1].is_you);
+  CHECK(rows[1].measure == "1.0 s");
+}
+
+TEST_CASE("a way that is too steep for a push is said to need a run-up") {
+  SeenRoom room{shipped_map("picnic"), {}, {}, {}, state::Mode::kForage};
+  room.game.phase = protocol::GamePhase::kPlay;
+  room.game.until = 12'000;
+  room.add(2, 0, 10.0, true);
+  LouseSample& you = room.lice.at(2).sample;
+  const double climbs = rules::climbable_slope(room.map->definition.physics);
+  const terrain::Rectangle& domain = room.map->terrain->domain();
+  int steep = 0, gentle = 0;
+  for (double x = domain.x_min + 5.0; x < domain.x_max - 6.0; x += 3.0) {
+    you.position = {x, 0.5 * (domain.y_min + domain.y_max)};
+    room.game.crumbs = {{0, you.position + core::Vec2{1.0, 0.0}, 1}};
+    double most = -1.0;
+    for (int k = 0; k <= 100; ++k)
+      most = std::max(most, room.map->terrain->sample(x + 0.01 * k, you.position.y).zx);
+    if (std::abs(most - climbs) < 0.02) continue;
+    const std::string text = text_of(goal_lines({room.sight(), 2, &you, true, nullptr, 1}));
+    CHECK((text.find("needs a run-up") != std::string::npos) == (most > climbs));
+    ++(most > climbs ? steep : gentle);
+  }
+  CHECK(gentle > 0);
+  CHECK(steep > 0);
 }
 
 TEST_CASE("a split is told in figures with its sign, for two seconds") {

@@ -28,8 +28,8 @@ TEST_CASE("it is told where the ground falls, and where the map ends") {
   const terrain::Rectangle& domain = pot->terrain->domain();
   const core::Vec2 middle{0.5 * (domain.x_min + domain.x_max), 0.5 * (domain.y_min + domain.y_max)};
   CHECK(words::slope_at(*pot, middle) == "the ground is level");
-  CHECK(words::slope_at(*pot, {domain.x_max - 2.0, middle.y}).starts_with("the ground falls west, "));
-  CHECK(words::slope_at(*pot, {middle.x, domain.y_min + 2.0}).starts_with("the ground falls north, "));
+  CHECK(words::slope_at(*pot, {domain.x_max - 2.0, middle.y}).starts_with("downhill is west, "));
+  CHECK(words::slope_at(*pot, {middle.x, domain.y_min + 2.0}).starts_with("downhill is north, "));
   CHECK(words::rim_at(*pot, state::Mode::kRoam, {domain.x_max - 2.0, middle.y}, 3.0) == "a wall 2 m east");
   CHECK(words::rim_at(*pot, state::Mode::kRoam, {domain.x_max - 2.0, middle.y}, 1.0).empty());
   const auto table = map_of("table");

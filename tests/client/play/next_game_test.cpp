@@ -9,6 +9,7 @@
 
 #include "client/play/room_view.h"
 #include "client/play/roster.h"
+#include "client/play/spoken_words.h"
 #include "staged_room.h"
 
 namespace woodlouse::client {
@@ -76,6 +77,53 @@ TEST_CASE("/skip is a vote and no chat, and the chat tells of others' votes") {
   event.name = "gauss";
   event.values = {1, 3};
   CHECK(describe(event) == "gauss votes for the next game (/skip): 1 of 3");
+}
+
+TEST_CASE("who fell off a hill is not there until it is back, and cruises no more") {
+  auto loaded = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/table.json");
+  REQUIRE(loaded);
+  const auto map = *loaded;
+  RoomView room;
+  protocol::Welcome message = welcome(*map, 3);
+  message.mode = "hill";
+  REQUIRE(room.on_message(message, kStart));
+  REQUIRE(room.on_message(protocol::MapMessage{map->definition.name, map->hash, map->canonical}, kStart));
+  const auto shown = [&](std::uint64_t tick, std::vector<double> lice, core::Time now) {
+    protocol::Frame frame = key(tick, std::move(lice));
+    frame.game.emplace();
+    frame.game->phase = protocol::GamePhase::kPlay;
+    REQUIRE(room.on_message(frame, now));
+  };
+  shown(60, {3, 1, 1, 0, 0, 1, 0, 5, 0}, kStart);
+  protocol::Ack ack;
+  ack.tick = 60;
+  ack.you.emplace();
+  ack.you->louse.id = 3;
+  REQUIRE(room.on_message(ack, kStart));
+  room.update(kStart + 10ms);
+  REQUIRE(room.pilot()->sample());
+  REQUIRE(room.lice().contains(3));
+  room.pilot()->steering().toggle_cruise();
+
+  protocol::Event event;
+  event.kind = protocol::EventKind::kFell;
+  event.id = 3;
+  event.name = "ada";
+  REQUIRE(room.on_message(event, kStart + 50ms));
+  CHECK_FALSE(room.pilot()->steering().cruising());
+  CHECK(room.roster().chat().back().text == "you fell off");
+  shown(63, {}, kStart + 60ms);
+  room.update(kStart + 70ms);
+  CHECK_FALSE(room.lice().contains(3));
+  REQUIRE_FALSE(words::goal(room).empty());
+  CHECK(words::goal(room).back().find("out: back at a spawn soon") != std::string::npos);
+
+  event.kind = protocol::EventKind::kReturned;
+  REQUIRE(room.on_message(event, kStart + 90ms));
+  CHECK_FALSE(room.pilot()->sample());  // the next ack says where
+  shown(66, {3, 4, 4, 0, 0, 1, 0, 5, 0}, kStart + 110ms);
+  room.update(kStart + 120ms);
+  CHECK(room.lice().contains(3));
 }
 
 TEST_CASE("who loses the line sees what the rules showed last, and where the louse headed") {

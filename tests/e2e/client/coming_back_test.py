@@ -111,7 +111,7 @@ class ComingBack(InATerminal):
     def test_as_text_it_is_read_out(self):
         line = self.line()
         self.terminal.run(f"{BIN}/woodlouse {line.address} --glyphs text --name mara")
-        self.terminal.shows(r"number \d, you: [\d.]+ m (east|west)")
+        self.terminal.shows(r"you: [\d.]+ m (east|west)")
         line.reset()
         self.terminal.shows(r"connection lost: .+; coming back")
         self.terminal.shows(r"back in your louse")

@@ -124,7 +124,7 @@ class Watching(InATerminal):
         lines = []
         for line in client.stdout:
             lines.append(line.rstrip("\n"))
-            if len(between.joins) == 2 and line.startswith("number 2"):
+            if len(between.joins) == 2 and line.rstrip().endswith("number 2"):
                 break
         said = "\n".join(lines)
         self.assertRegex(said, r"(?m)^state DIFFERS at tick \d+: .*")
