@@ -86,7 +86,7 @@ class Player:
 
     def note(self, lines):
         """Counts what was achieved."""
-        goal = re.search(r"  (gate \w+:|crumb|\* worth 3|place) (?:N|S|E|W)", lines[1])
+        goal = re.search(r"  (gate \w+:|crumb(?: worth 3)?:|place) (?:N|S|E|W)", lines[1])
         if goal and goal.group(1) != self.goal:
             self.gates += self.goal.startswith("gate") and goal.group(1).startswith("gate")
             self.goal = goal.group(1)
