@@ -47,6 +47,10 @@ std::from_chars_result read_decimal(const char* first, const char* last, double&
   double nearest = 0.0;
   const auto [end, error] = fast_float::from_chars(first, last, nearest);
   if (error != std::errc{}) return {end, error};
+  if (nearest != 0.0 && !std::isinf(nearest)) {
+    value = nearest;
+    return {end, error};
+  }
   std::string_view digits(first, static_cast<std::size_t>(end - first));
   if (digits.starts_with('-')) digits.remove_prefix(1);
   const bool is_written_in_digits = digits.front() == '.' || (digits.front() >= '0' && digits.front() <= '9');

@@ -98,9 +98,10 @@ bool InputQueue::wait(const AppliedInput& input) {
   spare_.pop_back();
   node.key() = key;
   node.mapped() = input;
-  auto inserted = waiting_.insert(std::move(node));
-  if (!inserted.inserted) spare_.push_back(std::move(inserted.node));
-  return inserted.inserted;
+  waiting_.insert(waiting_.end(), std::move(node));  // a recording's come in their order
+  const bool is_there_already = !node.empty();
+  if (is_there_already) spare_.push_back(std::move(node));
+  return !is_there_already;
 }
 
 void InputQueue::take(std::uint64_t tick, std::vector<AppliedInput>& out) {

@@ -5,6 +5,7 @@
 #include <ios>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #ifdef WOODLOUSE_FREESTANDING
@@ -33,6 +34,10 @@ class StreamBuffer {
   StreamBuffer& operator=(const StreamBuffer&) = delete;
   virtual ~StreamBuffer() = default;
 
+  int_type sgetc() {
+    if (next_ == end_ && underflow() == traits_type::eof()) return traits_type::eof();
+    return traits_type::to_int_type(*next_);
+  }
   int_type sbumpc() {
     if (next_ == end_ && underflow() == traits_type::eof()) return traits_type::eof();
     return traits_type::to_int_type(*next_++);
@@ -56,6 +61,7 @@ class StreamBuffer {
   [[nodiscard]] char* eback() const { return begin_; }
   [[nodiscard]] char* gptr() const { return next_; }
   [[nodiscard]] char* egptr() const { return end_; }
+  void gbump(int count) { next_ += count; }
   void setg(char* begin, char* next, char* end) {
     begin_ = begin;
     next_ = next;
@@ -101,6 +107,21 @@ class InputStream {
   bool has_failed_ = false;
 };
 #endif
+
+/// A buffer's bytes many at a time, without a copy: a line's end is looked for among them.
+class GetArea : private StreamBuffer {
+ public:
+  /// Those that lie there, read anew where there are none; empty at the end. Until the buffer's next read.
+  static std::string_view of(StreamBuffer& buffer) {
+    if (buffer.sgetc() == traits_type::eof()) return {};
+    const char* const next = (buffer.*&GetArea::gptr)();
+    return {next, static_cast<std::size_t>((buffer.*&GetArea::egptr)() - next)};
+  }
+  /// Takes so many of them, at most 2^30.
+  static void take(StreamBuffer& buffer, std::size_t count) {
+    (buffer.*&GetArea::gbump)(static_cast<int>(count));
+  }
+};
 
 /// Says why its bytes ended: a read error, damage, a bomb. A std::filebuf throws instead, out of whoever
 /// reads it without a stream's own guard.

@@ -121,19 +121,20 @@ StepLine read_step(const json::Value& root, Problems& problems) {
 
 state::Louse read_louse(const json::Value& row, Problems& problems) {
   state::Louse louse;
-  const std::vector<json::Value> values = row.children();
   const std::size_t wanted = state::kLouseFields.size();
-  if (!row.is(json::Kind::kArray) || values.size() != wanted) {
+  if (!row.is(json::Kind::kArray) || row.size() != wanted) {
     problems.add(row, joined({"a row of ", std::to_string(wanted), " numbers is wanted"}));
     return louse;
   }
-  for (std::size_t k = 0; k < wanted; ++k) {
-    const state::LouseField& field = state::kLouseFields[k];
+  std::size_t k = 0;
+  row.for_each([&](const json::Value& number) {
+    const state::LouseField& field = state::kLouseFields[k++];
     const double value = state::holds_integer(field)
-                             ? as<std::uint32_t>(json::integer_in(values[k], 0, field.largest, problems))
-                             : json::number_in(values[k], kCoordinate, problems).value_or(0.0);
+                             ? as<std::uint32_t>(json::integer_in(number, 0, field.largest, problems))
+                             : json::number_in(number, kCoordinate, problems).value_or(0.0);
     state::set_field(louse, field, value);
-  }
+    return true;
+  });
   return louse;
 }
 
@@ -254,22 +255,24 @@ core::Expected<bool> ReplayReader::read_line() {
   line_offset_ += line_.empty() ? 0 : line_.size() + 1;
   line_.clear();
   StreamBuffer& bytes = *in_.rdbuf();
-  for (int c = bytes.sbumpc(); c != std::char_traits<char>::eof(); c = bytes.sbumpc()) {
-    if (c == '\n') {
-      ++line_number_;
-      return true;
-    }
-    if (line_.size() >= longest_line_) {
+  const auto fail = [this](std::string what) {
+    return core::fail(joined({source_, ":", std::to_string(line_number_ + 1)}), std::move(what));
+  };
+  for (std::string_view some = GetArea::of(bytes); !some.empty(); some = GetArea::of(bytes)) {
+    some = some.substr(0, longest_line_ - line_.size() + 1);  // the last one is the newline, or too much
+    const std::size_t size = std::min(some.find('\n'), some.size());
+    if (line_.size() + size > longest_line_) {
       wants_longer_lines_ = longest_line_ < kMaxReplayLineBytes;
-      return core::fail(joined({source_, ":", std::to_string(line_number_ + 1)}),
-                        joined({"a line longer than ", std::to_string(longest_line_ >> 20), " MiB"}));
+      return fail(joined({"a line longer than ", std::to_string(longest_line_ >> 20), " MiB"}));
     }
-    line_ += static_cast<char>(c);
+    line_ += some.substr(0, size);
+    GetArea::take(bytes, std::min(size + 1, some.size()));
+    if (size == some.size()) continue;
+    ++line_number_;
+    return true;
   }
-  if (const std::string fault = fault_of(in_); !fault.empty())
-    return core::fail(joined({source_, ":", std::to_string(line_number_ + 1)}), fault);
-  if (order_.is_over() && !line_.empty())
-    return core::fail(joined({source_, ":", std::to_string(line_number_ + 1)}), "stands after the end");
+  if (std::string fault = fault_of(in_); !fault.empty()) return fail(std::move(fault));
+  if (order_.is_over() && !line_.empty()) return fail("stands after the end");
   cut_off_ = cut_off_ || !line_.empty() || replay::is_cut_off(in_);
   return false;
 }

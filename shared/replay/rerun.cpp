@@ -47,22 +47,9 @@ std::string too_many_lice() {
   return joined({"more than ", std::to_string(kMaxLice), " lice: no server plays so many"});
 }
 
-struct FieldText {
-  std::string_view name;
-  std::uint64_t bits = 0;
-  std::string text;
-};
-
-std::vector<FieldText> field_texts(const state::Louse& louse) {
-  std::vector<FieldText> result;
-  for (const state::LouseField& field : state::kLouseFields) {
-    const double value = state::field_value(louse, field);
-    const bool is_integer = state::holds_integer(field);
-    result.push_back(
-        {field.name, std::bit_cast<std::uint64_t>(value),
-         is_integer ? std::to_string(static_cast<std::uint32_t>(value)) : json::double_text(value)});
-  }
-  return result;
+std::string field_text(const state::LouseField& field, double value) {
+  return state::holds_integer(field) ? std::to_string(static_cast<std::uint32_t>(value))
+                                     : json::double_text(value);
 }
 
 bool is_before(const match::AppliedInput& a, const match::AppliedInput& b) {
@@ -120,12 +107,11 @@ std::string unlike_labels(const match::PlayerLabels& recorded, const match::Play
 std::string first_difference(std::span<const state::Louse> recorded, std::span<const state::Louse> rerun) {
   std::size_t k = 0;
   for (; k < recorded.size() && k < rerun.size() && recorded[k].id == rerun[k].id; ++k) {
-    const std::vector<FieldText> a = field_texts(recorded[k]);
-    const std::vector<FieldText> b = field_texts(rerun[k]);
-    for (std::size_t f = 0; f < a.size(); ++f) {
-      if (a[f].bits == b[f].bits) continue;
-      return joined(
-          {"louse ", std::to_string(recorded[k].id), ", ", a[f].name, ": ", both(a[f].text, b[f].text)});
+    for (const state::LouseField& field : state::kLouseFields) {
+      const double a = state::field_value(recorded[k], field), b = state::field_value(rerun[k], field);
+      if (std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b)) continue;
+      return joined({"louse ", std::to_string(recorded[k].id), ", ", field.name, ": ",
+                     both(field_text(field, a), field_text(field, b))});
     }
   }
   if (k == recorded.size() && k == rerun.size()) return {};

@@ -82,6 +82,9 @@ std::optional<StepLine> scan_step(std::string_view text) {
   if (!begins) return std::nullopt;
   auto key = scanner.text();
   if (key && *key == "inputs") {
+    constexpr std::size_t kInputBytes = 16;  // of most at least: none of them makes the lists grow
+    line.step.inputs.reserve(text.size() / kInputBytes);
+    line.margins_ms.reserve(text.size() / kInputBytes);
     if (!scanner.take(':') || !scanner.take('[')) return std::nullopt;
     do {
       if (!take_input(scanner, line)) return std::nullopt;
