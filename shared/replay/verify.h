@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -34,6 +35,24 @@ struct Verification {
 /// recording, of another version or behavior, or damaged before its last line. parallel_verify.h: by several
 /// threads.
 core::Expected<Verification> verify(const ReplaySource& source);
+
+/// The same a few seconds of the game at a time, for who tells meanwhile how far it is.
+class Verifier {
+ public:
+  explicit Verifier(const ReplaySource& source);
+  ~Verifier();
+  Verifier(const Verifier&) = delete;
+  Verifier& operator=(const Verifier&) = delete;
+
+  /// On to the next keyframe. False: that was the last step. REQUIRES that it gave true so far.
+  core::Expected<bool> advance();
+  /// Whole once advance() gave false.
+  [[nodiscard]] const Verification& verification() const;
+
+ private:
+  struct Work;
+  std::unique_ptr<Work> work_;
+};
 
 /// One or two lines for people, newline included: `ok ticks 0 to 400`, and what of it is not proven, or where
 /// and how it differs.

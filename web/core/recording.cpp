@@ -24,6 +24,7 @@ struct OpenRecording {
 };
 
 Handles<OpenRecording> recordings;
+Handles<replay::Verifier> verifications;
 
 replay::Playback& playback(Handle handle) { return *recordings.at(handle).playback; }
 
@@ -147,16 +148,30 @@ WOODLOUSE_EXPORT(recording_standings) void recording_standings(Handle handle) {
   answer_standings(&playback(handle).match());
 }
 
-/// All of a recording re-run from its first line. Answers with what `woodlouse-server verify` says of it,
-/// newline included; 1: the same bits throughout, 0: it differs, -1: it is no recording, or damaged.
-WOODLOUSE_EXPORT(recording_verify) int recording_verify(const char* bytes, std::size_t size) {
-  const auto verification = replay::verify(source_of(bytes, size));
-  if (!verification) {
-    answer() = verification.error().text() + "\n";
+/// A file's bytes, which are copied, to be re-run from its first line by verification_advance().
+WOODLOUSE_EXPORT(verification_open) Handle verification_open(const char* bytes, std::size_t size) {
+  return verifications.add(std::make_unique<replay::Verifier>(source_of(bytes, size)));
+}
+WOODLOUSE_EXPORT(verification_close) void verification_close(Handle handle) { verifications.close(handle); }
+
+/// On to the next keyframe. 2: there is more; else the end, of which nothing comes after, and it answers with
+/// what `woodlouse-server verify` says, newline included; 1: the same bits throughout, 0: it differs, -1: it
+/// is no recording, or damaged.
+WOODLOUSE_EXPORT(verification_advance) int verification_advance(Handle handle) {
+  replay::Verifier& verifier = verifications.at(handle);
+  const auto goes_on = verifier.advance();
+  if (!goes_on) {
+    answer() = goes_on.error().text() + "\n";
     return -1;
   }
-  answer() = replay::to_text(*verification);
-  return verification->ok() ? 1 : 0;
+  if (*goes_on) return 2;
+  answer() = replay::to_text(verifier.verification());
+  return verifier.verification().ok() ? 1 : 0;
+}
+
+/// Steps that were re-run so far.
+WOODLOUSE_EXPORT(verification_ticks) double verification_ticks(Handle handle) {
+  return static_cast<double>(verifications.at(handle).verification().ticks);
 }
 
 }  // namespace woodlouse::web

@@ -1,9 +1,9 @@
 // @ts-check
 // The server's own C++ in the page. web/core says what each of its functions does.
-import { Follower } from "./follower.js";
-import { Ground } from "./ground.js";
-import { Instance } from "./instance.js";
-import { LouseRows } from "./lice.js";
+import { Follower } from './follower.js';
+import { Ground } from './ground.js';
+import { Instance } from './instance.js';
+import { LouseRows } from './lice.js';
 
 export class Core {
   /**
@@ -22,8 +22,8 @@ export class Core {
   constructor(instance) {
     this.instance = instance;
     /** The server's number of the same name: only where they are equal the same inputs give the same bits. */
-    this.behavior = instance.call("behavior");
-    this.rows = new LouseRows(instance.json("louse_fields"));
+    this.behavior = instance.call('behavior');
+    this.rows = new LouseRows(instance.json('louse_fields'));
   }
 
   get fields() {
@@ -36,7 +36,7 @@ export class Core {
    * @param {number} hz ticks a second of its worlds
    */
   openMap(definition, hz) {
-    return this.#opened(this.instance.withBytes(definition, (at, size) => this.instance.call("ground_open", at, size)), hz);
+    return this.#opened(this.instance.withBytes(definition, (at, size) => this.instance.call('ground_open', at, size)), hz);
   }
 
   /**
@@ -45,7 +45,7 @@ export class Core {
    * @param {number} hz
    */
   openMapLine(line, hz) {
-    return this.#opened(this.instance.withBytes(line, (at, size) => this.instance.call("ground_open_line", at, size)), hz);
+    return this.#opened(this.instance.withBytes(line, (at, size) => this.instance.call('ground_open_line', at, size)), hz);
   }
 
   /**
@@ -59,12 +59,12 @@ export class Core {
 
   /** Watches a room by inputs. */
   follower() {
-    return new Follower(this, this.instance.call("follower_open"));
+    return new Follower(this, this.instance.call('follower_open'));
   }
 
   /**
    * Lice that lie in the core's memory.
-   * @param {string} what "world", "follower" or "recording"
+   * @param {string} what 'world', 'follower' or 'recording'
    * @param {number} handle
    */
   liceOf(what, handle) {

@@ -1,6 +1,6 @@
 // @ts-check
 // An instance of core.wasm: its functions, its memory, its texts.
-import { wasi } from "./wasi.js";
+import { wasi } from './wasi.js';
 
 const decoder = new TextDecoder();
 const encoder = new TextEncoder();
@@ -13,10 +13,10 @@ export class CoreEnded extends Error {}
  * @returns {Promise<WebAssembly.Module>}
  */
 async function compiled(source) {
-  if (typeof source !== "string" && !(source instanceof URL)) return WebAssembly.compile(source);
+  if (typeof source !== 'string' && !(source instanceof URL)) return WebAssembly.compile(source);
   const response = await fetch(source);
   if (!response.ok) throw new Error(`the server answers with ${response.status}`);
-  if (response.headers.get("content-type") === "application/wasm") return WebAssembly.compileStreaming(response);
+  if (response.headers.get('content-type') === 'application/wasm') return WebAssembly.compileStreaming(response);
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
@@ -30,7 +30,7 @@ export class Instance {
     const made = new Instance(module);
     const instance = await WebAssembly.instantiate(module, wasi(module, () => made.view(), words => { made.lastWords += words; }));
     /** @type {any} */ (made.functions) = instance.exports;
-    made.call("_initialize");
+    made.call('_initialize');
     return made;
   }
 
@@ -39,7 +39,7 @@ export class Instance {
     this.module = module;
     /** @type {Record<string, any>} */
     this.functions = {};
-    this.lastWords = "";
+    this.lastWords = '';
     this.isEnded = false;
   }
 
@@ -84,8 +84,8 @@ export class Instance {
 
   /** @param {number} size */
   allocate(size) {
-    const at = this.call("allocate", size) >>> 0;
-    if (at === 0) throw new Error("there is no memory left for it");
+    const at = this.call('allocate', size) >>> 0;
+    if (at === 0) throw new Error('there is no memory left for it');
     return at;
   }
 
@@ -101,7 +101,7 @@ export class Instance {
     try {
       return use(at);
     } finally {
-      if (!this.isEnded) this.call("release", at);
+      if (!this.isEnded) this.call('release', at);
     }
   }
 
@@ -113,7 +113,7 @@ export class Instance {
    * @returns {T}
    */
   withBytes(content, use) {
-    if (typeof content === "string") {
+    if (typeof content === 'string') {
       return this.withMemory(3 * content.length, at => {
         const room = new Uint8Array(this.functions.memory.buffer, at, 3 * content.length);
         return use(at, encoder.encodeInto(content, room).written);
@@ -127,8 +127,8 @@ export class Instance {
 
   /** The last answer's text. */
   answer() {
-    const at = this.call("answer_at") >>> 0;
-    return decoder.decode(new Uint8Array(this.functions.memory.buffer, at, this.call("answer_size")));
+    const at = this.call('answer_at') >>> 0;
+    return decoder.decode(new Uint8Array(this.functions.memory.buffer, at, this.call('answer_size')));
   }
 
   /**

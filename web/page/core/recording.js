@@ -2,8 +2,8 @@
 // A recording for who shows it: opened, sought in and verified in workers, so that no file stops the page.
 
 /**
- * @typedef {import("./recording_desk.js").Moment} Moment
- * @typedef {import("./recording_desk.js").Info} Info
+ * @typedef {import('./recording_desk.js').Moment} Moment
+ * @typedef {import('./recording_desk.js').Info} Info
  */
 
 class Desk {
@@ -13,13 +13,16 @@ class Desk {
     /** @type {Map<number, {resolve: (result: any) => void, reject: (error: Error) => void}>} */
     this.waiting = new Map();
     this.calls = 0;
+    /** How far a verification is. @type {(ticks: number) => void} */
+    this.onTicks = () => {};
     this.worker.onmessage = ({ data }) => {
+      if (data.ticks !== undefined) return this.onTicks(data.ticks);
       const call = this.waiting.get(data.number);
       this.waiting.delete(data.number);
       if (data.error === undefined) call?.resolve(data.result);
       else call?.reject(new Error(data.error));
     };
-    this.worker.onerror = event => this.end(event.message || "the recording's worker can't be loaded");
+    this.worker.onerror = event => this.end(event.message || 'the recording\'s worker can\'t be loaded');
   }
 
   /**
@@ -44,7 +47,7 @@ class Desk {
 
 export class Recording {
   /**
-   * @param {import("./core.js").Core} core whose code the workers run
+   * @param {import('./core.js').Core} core whose code the workers run
    * @param {Blob | Uint8Array} file plain or packed
    * @param {() => Worker} worker begins one that runs recording_worker.js
    * @returns {Promise<Recording>} rejects with words for people
@@ -53,16 +56,16 @@ export class Recording {
     const blob = file instanceof Blob ? file : new Blob([/** @type {BlobPart} */ (file)]);
     const desk = new Desk(worker());
     try {
-      await desk.ask("begin", { module: core.instance.module });
-      return new Recording(core, blob, desk, await desk.ask("open", { blob }), worker);
+      await desk.ask('begin', { module: core.instance.module });
+      return new Recording(core, blob, desk, await desk.ask('open', { blob }), worker);
     } catch (error) {
-      desk.end("closed");
+      desk.end('closed');
       throw error;
     }
   }
 
   /**
-   * @param {import("./core.js").Core} core
+   * @param {import('./core.js').Core} core
    * @param {Blob} blob
    * @param {Desk} desk
    * @param {Info} info
@@ -86,28 +89,29 @@ export class Recording {
 
   /** @param {number} tick from info.first to info.last @returns {Promise<Moment>} */
   seek(tick) {
-    return this.desk.ask("seek", { tick: Math.min(Math.max(Math.round(tick), this.info.first), this.info.last) });
+    return this.desk.ask('seek', { tick: Math.min(Math.max(Math.round(tick), this.info.first), this.info.last) });
   }
 
   /** @param {number} steps fewer at its end @returns {Promise<Moment>} */
   advance(steps) {
-    return this.desk.ask("advance", { steps });
+    return this.desk.ask('advance', { steps });
   }
 
-  /** All of it, beside what is shown; as RecordingDesk.verify(). @returns {Promise<{ok: number, text: string}>} */
-  async verify() {
+  /** All of it, beside what is shown; as RecordingDesk.verify(). @param {(ticks: number) => void} onTicks @returns {Promise<{ok: number, text: string}>} */
+  async verify(onTicks) {
     const desk = new Desk(this.worker());
+    desk.onTicks = onTicks;
     this.verifier = desk;
     try {
-      await desk.ask("begin", { module: this.core.instance.module });
-      return await desk.ask("verify", { blob: this.blob });
+      await desk.ask('begin', { module: this.core.instance.module });
+      return await desk.ask('verify', { blob: this.blob });
     } finally {
-      desk.end("closed");
+      desk.end('closed');
     }
   }
 
   close() {
-    this.desk.end("closed");
-    this.verifier?.end("closed");
+    this.desk.end('closed');
+    this.verifier?.end('closed');
   }
 }

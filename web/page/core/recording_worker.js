@@ -1,6 +1,6 @@
 // @ts-check
 // A recording's desk in a thread of its own: calls in, what they give or throw out.
-import { RecordingDesk } from "./recording_desk.js";
+import { RecordingDesk } from './recording_desk.js';
 
 /** @type {RecordingDesk | null} */
 let desk = null;
@@ -17,12 +17,12 @@ const calls = {
   seek: ({ tick }) => at().seek(tick),
   /** @param {{steps: number}} of */
   advance: ({ steps }) => at().advance(steps),
-  /** @param {{blob: Blob}} of */
-  verify: async ({ blob }) => at().verify(new Uint8Array(await blob.arrayBuffer())),
+  /** @param {{blob: Blob, number: number}} of */
+  verify: async ({ blob, number }) => at().verify(new Uint8Array(await blob.arrayBuffer()), ticks => self.postMessage({ number, ticks })),
 };
 
 function at() {
-  if (!desk) throw new Error("no core yet");
+  if (!desk) throw new Error('no core yet');
   return desk;
 }
 

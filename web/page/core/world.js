@@ -3,32 +3,32 @@
 
 export class World {
   /**
-   * @param {import("./core.js").Core} core
+   * @param {import('./core.js').Core} core
    * @param {number} handle
    */
   constructor(core, handle) {
     this.core = core;
     this.handle = handle;
-    core.instance.keep(this, "world_close", handle);
+    core.instance.keep(this, 'world_close', handle);
   }
 
-  /** In place of the one of its id. @param {import("./lice.js").Louse} louse */
+  /** In place of the one of its id. @param {import('./lice.js').Louse} louse */
   put(louse) {
     const { instance, rows } = this.core;
     const isTaken = instance.withMemory(rows.size, at => {
       rows.write(instance.view(at), [louse]);
-      return instance.call("world_put", this.handle, at);
+      return instance.call('world_put', this.handle, at);
     });
-    if (!isTaken) throw new Error("no louse can be like that");
+    if (!isTaken) throw new Error('no louse can be like that');
   }
 
   /** @param {number} id */
   erase(id) {
-    return this.core.instance.call("world_erase", this.handle, id) === 1;
+    return this.core.instance.call('world_erase', this.handle, id) === 1;
   }
 
   clear() {
-    this.core.instance.call("world_clear", this.handle);
+    this.core.instance.call('world_clear', this.handle);
   }
 
   /**
@@ -40,29 +40,29 @@ export class World {
    * @param {number} ticks 4294967295: until another
    */
   thrust(id, kind, tx, ty, ticks) {
-    return this.core.instance.call("world_thrust", this.handle, id, kind, tx, ty, ticks) === 1;
+    return this.core.instance.call('world_thrust', this.handle, id, kind, tx, ty, ticks) === 1;
   }
 
   step(ticks = 1) {
-    this.core.instance.call("world_step", this.handle, ticks);
+    this.core.instance.call('world_step', this.handle, ticks);
   }
 
   /** All, by ascending id. */
   lice() {
-    return this.core.liceOf("world", this.handle);
+    return this.core.liceOf('world', this.handle);
   }
 
   /**
    * @param {number} id
-   * @returns {import("./lice.js").Louse | null}
+   * @returns {import('./lice.js').Louse | null}
    */
   find(id) {
     const { instance, rows } = this.core;
-    const at = instance.call("world_find", this.handle, id) >>> 0;
+    const at = instance.call('world_find', this.handle, id) >>> 0;
     return at === 0 ? null : rows.read(instance.view(at, rows.size), 1)[0];
   }
 
   close() {
-    this.core.instance.close(this, "world_close", this.handle);
+    this.core.instance.close(this, 'world_close', this.handle);
   }
 }

@@ -25,6 +25,7 @@ export class Player {
   /** The table of scores, as it was made last. @type {ReturnType<import('./goal.js').scoreRows>} */ rows = [];
   /** The first tick that differs, and how; null. @type {{tick: number, what: string}|null} */ difference = null;
   /** Of a whole verification: {ok, text}. @type {any} */ verdict = null;
+  /** How many steps of one that is under way were re-run; null: none is. @type {number|null} */ verified = null;
   /** What was said, the newest last. @type {any[]} */ lines = []; said = 0;
 
   /** @param {import('../core/recording.js').Recording} recording @param {(text: string, tone?: string) => void} onNotice */
@@ -50,6 +51,7 @@ export class Player {
   get steps() { return this.info.last - this.info.first; }
 
   get proof() {
+    if (this.verified !== null) return { text: `verifying: ${Math.floor(100 * this.verified / Math.max(1, this.steps))} %`, tone: '' };
     if (this.verdict) return { text: this.verdict.text, tone: this.verdict.ok === 1 ? 'ok' : 'bad' };
     if (this.difference) return { text: `differs at tick ${this.difference.tick}`, tone: 'bad' };
     return { text: `state ok ${this.proven}/${this.steps}`, tone: 'ok' };
@@ -76,9 +78,11 @@ export class Player {
     this.isPlaying = !this.isPlaying;
   }
 
-  /** All of it, re-run at once. */
+  /** All of it, re-run at once; asked for again meanwhile, it goes on. */
   async verify() {
-    const begun = performance.now(), { ok, text } = await this.recording.verify();
+    if (this.verified !== null) return;
+    this.verified = 0;
+    const begun = performance.now(), { ok, text } = await this.recording.verify((ticks) => { this.verified = ticks; }).finally(() => { this.verified = null; });
     const tick = /differs at tick (\d+)/.exec(text)?.[1];
     if (tick) this.difference ??= { tick: Number(tick), what: text };  // marked on the track, too
     this.verdict = { ok, text: `${text.trim()} (${(performance.now() - begun).toFixed(0)} ms)` };
