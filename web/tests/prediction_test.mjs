@@ -42,6 +42,14 @@ test('every ack is what the page already had, to the bit, at 150 ms with 40 ms o
   }
 });
 
+test('every ack is what the page already had, to the bit, after a pause, too', () => {
+  for (const seed of [1, 2, 3, 4, 5]) {
+    const { exact, corrected } = play({ openWorld: () => new LevelWorld(), begin: BEGIN, delay: 0.075, jitter: 0.04, seconds: 20, seed, hands: busy, pause: [9.9 + seed / 30, 13] });
+    assert.ok(exact > 50, `${exact} acks`);
+    assert.deepEqual([seed, corrected], [seed, 0]);
+  }
+});
+
 test('an input that came too late is put right by its ack, and the louse goes on from there', () => {
   const world = new LevelWorld(), steering = new Steering(HZ), clock = new ServerClock(HZ);
   const pilot = new Pilot({ hz: HZ, id: 7, steering, ways: new Ways(), world });

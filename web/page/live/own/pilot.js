@@ -127,10 +127,10 @@ export class Pilot {
     if (Math.hypot(...this.ways.way(row.x, row.y, believed.x, believed.y)) > STRAY) this.#wantsState = true;
   }
 
-  /** What was predicted is worth nothing, the server having stood still. */
+  /** What was predicted is worth nothing, the server having stood still. The inputs that wait there have their ticks: others come behind them. */
   beginAnew() {
     this.prediction?.forget();
-    this.#ahead = this.#lastTick = 0;
+    this.#ahead = 0;
     this.#wantsState = true;
     this.#askedAt = -Infinity;
     this.#correction = [0, 0];

@@ -75,12 +75,11 @@ export class Prediction {
     while (this.#louse && this.tick < tick) this.#step();
   }
 
-  /** A respawn, a new session: the next ack begins anew. */
+  /** A respawn, a pause: the next ack begins anew. What was sent is still on its way, and will act. */
   forget() {
     this.#world.clear();
     this.#louse = null;
     this.tick = 0;
-    this.#pending = [];
     this.#history.clear();
     this.#correction = [0, 0];
   }
