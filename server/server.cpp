@@ -134,7 +134,7 @@ core::Expected<void> Server::open_ports(const ServeConfig& config) {
   if (config.web) {
     const auto web = acceptor_.open_web(*config.web);
     if (!web) return tl::unexpected(web.error());
-    environment_.web_url = core::joined({"http://", to_text(*web), "/"});
+    environment_.web_url = core::joined({"http://", to_text(reachable(*web)), "/"});
   }
   if (const auto passwords = use_passwords(config); !passwords) return passwords;
   if (config.admin || config.ban_file || config.password_file) ban_desk_.emplace(doorman_, config.ban_file);

@@ -59,4 +59,11 @@ std::string to_text(const boost::asio::ip::tcp::endpoint& endpoint) {
   return to_text(ListenAddress{endpoint.address().to_string(), endpoint.port()});
 }
 
+boost::asio::ip::tcp::endpoint reachable(const boost::asio::ip::tcp::endpoint& endpoint) {
+  using namespace boost::asio::ip;
+  if (!endpoint.address().is_unspecified()) return endpoint;
+  const bool is_v6 = endpoint.address().is_v6();
+  return {is_v6 ? address(address_v6::loopback()) : address(address_v4::loopback()), endpoint.port()};
+}
+
 }  // namespace woodlouse::server

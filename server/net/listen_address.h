@@ -29,5 +29,7 @@ core::Expected<ListenAddress> parse_listen_address(std::string_view text,
 /// `host:port`, `[host]:port` for IPv6.
 std::string to_text(const ListenAddress& address);
 std::string to_text(const boost::asio::ip::tcp::endpoint& endpoint);
+/// Where a browser on this machine finds what listens there: at an address, where it listens at every one.
+boost::asio::ip::tcp::endpoint reachable(const boost::asio::ip::tcp::endpoint& endpoint);
 
 }  // namespace woodlouse::server

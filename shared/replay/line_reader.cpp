@@ -285,6 +285,9 @@ core::Expected<Header> ReplayReader::read_header() {
     return core::fail(source_, is_empty ? "is empty" : "has no whole line: it was cut off in the header");
   }
   const auto document = json::parse_file(line_, source_, {kMaxDepth, kMaxValues}, line_number_);
+  if (!document && !line_.starts_with('{'))
+    return core::fail(place(), "not JSON, and so no recording",
+                      "one is .ndjson or .ndjson.zst, as a server's --record writes it");
   if (!document) return tl::unexpected(document.error());
   Problems problems(source_);
   Header header = replay::read_header(document->root(), problems);

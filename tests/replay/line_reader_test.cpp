@@ -327,7 +327,11 @@ TEST_CASE("another format, version or behavior is refused and both are named") {
   CHECK(header_error("") == "r: is empty");
   CHECK(header_error(header.substr(0, header.size() - 1)) ==
         "r: has no whole line: it was cut off in the header");
-  CHECK(header_error("#!/bin/sh\n").find("r:1: not JSON") == 0);
+  const std::string picture = GENERATE("#!/bin/sh\n", "\x89PNG\r\n\x1a\n", "\n");
+  CHECK(
+      header_error(picture) ==
+      "r:1: not JSON, and so no recording (one is .ndjson or .ndjson.zst, as a server's --record writes it)");
+  CHECK(header_error("{\"format\":\n").find("r:1: not JSON: ") == 0);
 }
 
 TEST_CASE("a line past the bound is an error, not memory") {

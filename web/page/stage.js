@@ -170,7 +170,7 @@ export class Stage {
     });
     addEventListener('keydown', (event) => { if (event.key === 'Escape' && event.target !== byId('say') && !document.querySelector('dialog[open]')) this.teacher.dismiss(); });
     onName();
-    onPalette((palette) => this.picture.setPalette(palette));
+    onPalette(params.get('palette'), (palette) => this.picture.setPalette(palette));
     onSystemTheme(() => this.picture.setTheme(theme()));
     document.addEventListener('visibilitychange', () => {
       clearTimeout(this.#hiding);

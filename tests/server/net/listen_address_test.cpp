@@ -35,3 +35,12 @@ TEST_CASE("an address says by which option it was given, and has the port of tha
   REQUIRE_FALSE(address);
   CHECK(address.error().where == "--web host:x");
 }
+
+TEST_CASE("what listens at every address is opened at this machine's own") {
+  const auto [text, opened] = GENERATE(table<std::string, std::string>({
+      {"0.0.0.0", "127.0.0.1:7778"},
+      {"::", "[::1]:7778"},
+      {"192.0.2.1", "192.0.2.1:7778"},
+  }));
+  CHECK(to_text(reachable({boost::asio::ip::make_address(text), 7778})) == opened);
+}

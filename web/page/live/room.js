@@ -3,7 +3,7 @@
 // drawn now. No DOM.
 import { Door, Link } from './link.js';
 import { OwnGame } from './own/own_game.js';
-import { Pings } from './word.js';
+import { Pings, SILENCE } from './word.js';
 import { Roster } from './roster.js';
 import { factsOf, marksIn } from './goal.js';
 import { Stream } from './stream.js';
@@ -51,8 +51,8 @@ export class Room {
   get hz() { return this.#time.hz; }
   /** The server's tick, as of the last update. */
   get tick() { return this.#time.tick; }
-  /** No tick passes: the room is paused. */
-  get stands() { return this.#time.word.stands; }
+  /** No tick passes, and not because a machine is busy: the room is paused. */
+  get stands() { return this.#time.word.stoodFor(seconds()) > SILENCE; }
   get you() { return this.shown?.id ?? 0; }
   get mode() { return this.shown?.mode ?? 'roam'; }
   get game() { return this.#time.game; }

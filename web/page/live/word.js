@@ -39,6 +39,8 @@ export class ServerWord {
   silence(now) { return this.#heard === null || now - this.#heard < SILENCE ? null : now - this.#heard; }
   /** No tick passes. */
   get stands() { return this.#stands; }
+  /** For how long none has [s]; 0: they do. */
+  stoodFor(now) { return this.#stands && this.#moved !== null ? now - this.#moved : 0; }
   /** Whether what was last shown can be thought on to now. */
   goesOn(now) { return this.#moved !== null && !this.#stands && now - this.#moved < SILENCE + this.#late; }
 }

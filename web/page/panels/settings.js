@@ -50,13 +50,14 @@ export function onName() {
   input.onchange = () => keep('name', input.value = shortName(input.value));
 }
 
-/** Tells which palette is chosen, now and whenever another one is. @param {(palette: any) => void} then */
-export function onPalette(then) {
+/** Tells which palette is chosen, now and whenever another one is. @param {string|null} wanted by the address @param {(palette: any) => void} then */
+export function onPalette(wanted, then) {
   const select = byId('palette');
-  select.value = kept('palette') || 'default';
+  for (const palette of ['default', kept('palette'), wanted])
+    if ([...select.options].some(({ value }) => value === palette)) select.value = palette;
   select.onchange = () => {
     keep('palette', select.value);
     then(select.value);
   };
-  then(select.value || 'default');
+  then(select.value);
 }

@@ -1,5 +1,5 @@
 // @ts-check
-// Curves over time, of two runs side by side: told by colour, by dashes, and by the names at their ends.
+// Curves over time, of two runs side by side: told by colour, by dashes, and by the names above them.
 import { roundStep } from './relief.js';
 
 /** A curve; values that are no numbers leave a gap. @typedef {{name: string, x: ArrayLike<number>, y: ArrayLike<number>, tone?: 'usual' | 'document' | 'exact'}} Series */
@@ -10,6 +10,7 @@ const TONES = {
   document: { dark: '#ff9d5c', light: '#b34700', dash: [7, 4] },
   exact: { dark: '#6ec6ff', light: '#005f9e', dash: [] },
 };
+const SAMPLE = 22;  // px of a curve beside its name
 const FONT = '11px system-ui, "Segoe UI", "DejaVu Sans", sans-serif';
 
 export class Curves {
@@ -24,7 +25,7 @@ export class Curves {
     const { canvas, context } = this, ratio = Math.min(2, devicePixelRatio || 1), width = canvas.clientWidth, height = canvas.clientHeight;
     if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) canvas.width = Math.round(width * ratio), canvas.height = Math.round(height * ratio);
     const { x0, x1, y0, y1 } = extentOf(series), ink = getComputedStyle(canvas).color, theme = isDark(ink) ? 'light' : 'dark';
-    const left = 40, right = width - 8, top = 8, bottom = height - 18;
+    const left = 40, right = width - 8, top = 22, bottom = height - 18;
     const X = x => left + (right - left) * (x - x0) / (x1 - x0), Y = y => bottom - (bottom - top) * (y - y0) / (y1 - y0);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, width, height);
@@ -43,30 +44,25 @@ export class Curves {
     }
     context.textAlign = 'center';
     for (const x of ticks(x0, x1, width / 70)) context.fillText(`${wordOf(x)} s`, Math.min(X(x), right - 10), bottom + 10);
-    let last = -Infinity;
-    for (const { name, x, y, tone = 'usual' } of [...series].sort((a, b) => b.y[b.y.length - 1] - a.y[a.y.length - 1])) {
+    context.textAlign = 'left';
+    let place = left;
+    for (const { name, x, y, tone = 'usual' } of series) {
       const look = TONES[tone] ?? TONES.usual, count = Math.min(x.length, y.length);
       context.strokeStyle = context.fillStyle = look[theme];
       context.lineWidth = 2;
       context.setLineDash(look.dash);
       context.beginPath();
-      let isGap = true, end = 0;
+      let isGap = true;
       for (let k = 0; k < count; k++) {
         if (!Number.isFinite(y[k])) isGap = true;
-        else if (isGap) context.moveTo(X(x[k]), Y(y[k])), isGap = false, end = k;
-        else context.lineTo(X(x[k]), Y(y[k])), end = k;
+        else if (isGap) context.moveTo(X(x[k]), Y(y[k])), isGap = false;
+        else context.lineTo(X(x[k]), Y(y[k]));
       }
       context.stroke();
-      if (!count || !Number.isFinite(y[end])) continue;
-      // its name above its end, below the one before
-      last = Math.max(last + 13, Math.min(bottom - 6, Math.max(top + 6, Y(y[end]) - 9)));
-      context.textAlign = X(x[end]) > (left + right) / 2 ? 'right' : 'left';
-      context.setLineDash([]);
-      context.lineWidth = 4;
-      context.lineJoin = 'round';
-      context.strokeStyle = theme === 'dark' ? '#12151fe0' : '#ffffffe8';
-      context.strokeText(name, X(x[end]), last);
-      context.fillText(name, X(x[end]), last);
+      // its name above all curves, behind a piece of it
+      line(place, 8, place + SAMPLE, 8);
+      context.fillText(name, place + SAMPLE + 5, 8);
+      place += SAMPLE + 5 + context.measureText(name).width + 14;
     }
   }
 }
