@@ -73,6 +73,9 @@ test('what happened is told in words, of gates only your own', () => {
   assert.equal(told({ kind: 'gate', id: 7, name: 'ann', gate: 2, lap: 0, split: 3 * SECOND, delta: -SECOND / 2 }, 7, HZ), 'gate 2 0:03.000 \u22120.50 s');
   assert.equal(told({ kind: 'gate', id: 8, name: 'bob', gate: 2, lap: 0, split: SECOND, delta: null }, 7, HZ), '');
   assert.equal(told({ kind: 'joined', id: 8, name: 'bob', role: 'bot' }, 7, HZ), 'bot bob joined');
+  assert.equal(told({ kind: 'fell', id: 8, name: 'bob', by: 7 }, 7, HZ), 'you pushed bob off: +3 s');
+  assert.equal(told({ kind: 'fell', id: 7, name: 'ann', by: 8 }, 7, HZ, () => 'bob', false), 'bob pushed you off');
+  assert.equal(told({ kind: 'fell', id: 8, name: 'bob', by: 0 }, 7, HZ), 'bob fell off');
   assert.equal(told({ kind: 'something new', id: 8, name: 'bob' }, 7, HZ), '');
   assert.match(farewell({ code: 'banned', reason: 'until noon' }), /You are banned: until noon/);
 });

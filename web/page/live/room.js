@@ -120,7 +120,7 @@ export class Room {
       case 'key': case 'delta': return this.#frame(message, now);
       case 'map': return this.#map(line);
       case 'event':
-        this.roster.event(message, this.you, this.hz);
+        this.roster.event(message, this.you, this.hz, this.game?.phase === 'play');
         if (this.welcome) this.own.event(message, this.welcome, now);
         return;
       case 'ack': return this.own.pilot?.acknowledge(message);

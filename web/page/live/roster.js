@@ -18,11 +18,11 @@ export class Roster {
     this.spectators = welcome.spectators ?? 0;
   }
 
-  event(event, you, hz) {
+  event(event, you, hz, isPlayed = true) {
     if (event.id !== 0 && event.kind === 'joined') this.#residents.set(event.id, { name: event.name, role: event.role ?? 'player' });
     if (event.id !== 0 && event.kind === 'left') this.#residents.delete(event.id);
     if (event.kind === 'chat') this.say(event.name, event.text ?? '', event.id);
-    else this.note(told(event, you, hz));
+    else this.note(told(event, you, hz, (id) => this.nameOf(id), isPlayed));
   }
 
   note(text) { if (text) this.say('', text, 0); }

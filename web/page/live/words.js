@@ -57,8 +57,15 @@ export function medalToWin(authorMs, best, hz) {
   return next ? `${next[0]} ${spanText(next[1] / 1000 * hz * MOMENTS, hz).slice(0, -1)}` : 'all medals won';
 }
 
-/** What an event is told as in the chat; '': not worth a line. you: your louse, or 0. */
-export function told(event, you, hz) {
+/** Who fell, and by whom: whoever bumped it off has held the place longer for it, where the round is played. */
+function fallWords({ id, name, by }, you, nameOf, isPlayed) {
+  const whom = id === you ? 'you' : name;
+  return by ? `${by === you ? 'you' : nameOf(by)} pushed ${whom} off${isPlayed ? ': +3 s' : ''}` : `${whom} fell off`;
+}
+
+/** What an event is told as in the chat; '': not worth a line. you: your louse, or 0.
+ * @param {(id: number) => string} [nameOf] @param {boolean} [isPlayed] what it does counts */
+export function told(event, you, hz, nameOf = String, isPlayed = true) {
   const { kind, name } = event, isYou = event.id !== 0 && event.id === you;
   switch (kind) {
     case 'joined': return event.role === 'spectator' ? `${name} watches` : `${event.role === 'bot' ? 'bot ' : ''}${name} joined`;
@@ -73,9 +80,9 @@ export function told(event, you, hz) {
     case 'run': return `${name} ran ${spanText(event.time, hz)}, #${event.rank}`;
     case 'record': return `${name} drove a record: ${spanText(event.time, hz)}`;
     case 'harvest': return 'harvest: crumbs count twice';
-    case 'holds': return event.id === 0 ? '' : `${name} holds the place`;
+    case 'holds': return event.id === 0 ? '' : isYou ? 'you hold the place' : `${name} holds the place`;
     case 'moving': return 'the place will move';
-    case 'fell': return `${name} fell`;
+    case 'fell': return fallWords(event, you, nameOf, isPlayed);
     case 'round': return event.phase === 'play' ? `round ${event.round} begins` : event.phase === 'podium' ? `round ${event.round} is over` : '';
     default: return '';
   }

@@ -87,7 +87,7 @@ export class OwnGame {
     if (!this.pilot || event.id !== welcome.id) return;
     this.run.event(event, welcome.tick_hz, now);
     if (event.kind === 'lap') this.pilot.log.lap(event.time);
-    if (event.kind !== 'respawned') return;
+    if (event.kind !== 'respawned' && event.kind !== 'returned') return;  // back at a spawn
     const drive = this.pilot.respawned();
     if (drive) this.ghosts.addDrive(drive);
   }
