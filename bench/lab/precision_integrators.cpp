@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/lab/methods/constrained.h"
 #include "bench/lab/methods/laboratory.h"
 #include "bench/lab/problems/motion.h"
 #include "bench/lab/problems/reference_motion.h"
@@ -57,10 +58,21 @@ physics::Motion reference_end(const document::AnySurface& surface, const physics
 }
 
 struct Measured {
-  Integrator integrator;
+  std::string method;
   double rate;
   double median_error, worst_error, sub_steps;
 };
+
+Measured judged(std::string method, double rate, double sub_steps, const std::vector<core::Vec2>& places,
+                const std::vector<physics::Motion>& ends) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double error = distance(places[i], ends[i].position);
+    errors.push_back(std::isfinite(error) ? error : 1e300);
+  }
+  std::sort(errors.begin(), errors.end());
+  return {std::move(method), rate, errors[errors.size() / 2], errors.back(), sub_steps};
+}
 
 /// The errors after kSeconds of all starts.
 core::Expected<Measured> measure(const Ground& ground, Integrator integrator, double rate,
@@ -69,28 +81,38 @@ core::Expected<Measured> measure(const Ground& ground, Integrator integrator, do
   const auto stepper =
       make_stepper(ground.surface, Equations::kSurface, integrator, free_motion(), kNowhere, 1.0 / rate);
   if (!stepper) return tl::unexpected(stepper.error());
-  std::vector<double> errors;
+  std::vector<core::Vec2> places;
   physics::StepCounters counters;
   for (std::size_t i = 0; i < from.size(); ++i) {
     state::Louse louse = louse_at(from[i].position, from[i].velocity);
     for (long tick = 0; tick < std::lround(kSeconds * rate); ++tick)
       (*stepper)->advance({&louse, 1}, counters);
-    const double error = distance(louse.position, ends[i].position);
-    errors.push_back(std::isfinite(error) ? error : 1e300);
+    places.push_back(louse.position);
   }
-  std::sort(errors.begin(), errors.end());
-  return Measured{integrator, rate, errors[errors.size() / 2], errors.back(),
-                  static_cast<double>(counters.sub_steps) / static_cast<double>(counters.louse_steps)};
+  return judged(std::string(to_text(integrator)), rate,
+                static_cast<double>(counters.sub_steps) / static_cast<double>(counters.louse_steps), places,
+                ends);
+}
+
+Measured measure(const Ground& ground, Constrained method, double rate,
+                 const std::vector<physics::Motion>& from, const std::vector<physics::Motion>& ends) {
+  std::vector<core::Vec2> places;
+  for (const physics::Motion& start : from) {
+    const auto motion = make_constrained(ground.surface, method, free_motion().gravity, start, 1.0 / rate);
+    for (long tick = 0; tick < std::lround(kSeconds * rate); ++tick) motion->step();
+    places.push_back(motion->position());
+  }
+  return judged(std::string(to_text(method)), rate, 1.0, places, ends);
 }
 
 /// One simulated second of all starts, over and over.
-core::Expected<Contestant> runner(const Ground& ground, const Measured& m,
+core::Expected<Contestant> runner(const Ground& ground, Integrator integrator, double rate,
                                   const std::vector<physics::Motion>& from) {
   auto stepper =
-      make_stepper(ground.surface, Equations::kSurface, m.integrator, free_motion(), kNowhere, 1.0 / m.rate);
+      make_stepper(ground.surface, Equations::kSurface, integrator, free_motion(), kNowhere, 1.0 / rate);
   if (!stepper) return tl::unexpected(stepper.error());
   const auto run = [shared = std::shared_ptr<const LaboratoryStepper>(std::move(*stepper)), &from,
-                    ticks = std::lround(m.rate)] {
+                    ticks = std::lround(rate)] {
     physics::StepCounters counters;
     for (const physics::Motion& start : from) {
       state::Louse louse = louse_at(start.position, start.velocity);
@@ -98,15 +120,37 @@ core::Expected<Contestant> runner(const Ground& ground, const Measured& m,
       keep(louse);
     }
   };
-  return Contestant{std::string(to_text(m.integrator)), run, static_cast<double>(from.size())};
+  return Contestant{std::string(to_text(integrator)), run, static_cast<double>(from.size())};
+}
+
+/// The same, each second behind the one before: nobody begins anew in a game.
+Contestant runner(const Ground& ground, Constrained method, double rate,
+                  const std::vector<physics::Motion>& from) {
+  std::vector<std::shared_ptr<ConstrainedMotion>> motions;
+  for (const physics::Motion& start : from)
+    motions.push_back(make_constrained(ground.surface, method, free_motion().gravity, start, 1.0 / rate));
+  const auto run = [motions = std::move(motions), ticks = std::lround(rate)] {
+    for (const auto& motion : motions) {
+      for (long tick = 0; tick < ticks; ++tick) motion->step();
+      keep(motion->position());
+    }
+  };
+  return Contestant{std::string(to_text(method)), run, static_cast<double>(from.size())};
+}
+
+std::vector<std::string> names_of_methods() {
+  std::vector<std::string> names;
+  for (const Integrator integrator : kIntegrators) names.emplace_back(to_text(integrator));
+  for (const Constrained method : kConstrained) names.emplace_back(to_text(method));
+  return names;
 }
 
 std::string picture(const Table& table, const std::vector<Ground>& all) {
   std::vector<Panel> panels;
   for (const Ground& ground : all) {
     Panel panel{ground.name, "position error after 10 s [m]", {}};
-    for (const Integrator integrator : kIntegrators) {
-      Curve curve{std::string(to_text(integrator)), {}};
+    for (const std::string& name : names_of_methods()) {
+      Curve curve{name, {}};
       for (const auto& row : table.rows()) {
         if (std::get<std::string>(row[0]) != ground.name || std::get<std::string>(row[1]) != curve.name)
           continue;
@@ -146,15 +190,23 @@ core::Expected<void> measure_integrators(terrain::FunctionName function, const O
     std::vector<Measured> measured;
     std::vector<Contestant> contestants;
     {
-      Progress progress("errors on " + ground.name, kIntegrators.size() * rates.size());
+      Progress progress("errors on " + ground.name,
+                        (kIntegrators.size() + kConstrained.size()) * rates.size());
       for (const Integrator integrator : kIntegrators) {
         for (const double rate : rates) {
           auto one = measure(ground, integrator, rate, from, ends);
           if (!one) return tl::unexpected(one.error());
-          auto contestant = runner(ground, *one, from);
+          auto contestant = runner(ground, integrator, rate, from);
           if (!contestant) return tl::unexpected(contestant.error());
-          measured.push_back(*one);
+          measured.push_back(std::move(*one));
           contestants.push_back(std::move(*contestant));
+          progress.advance();
+        }
+      }
+      for (const Constrained method : kConstrained) {
+        for (const double rate : rates) {
+          measured.push_back(measure(ground, method, rate, from, ends));
+          contestants.push_back(runner(ground, method, rate, from));
           progress.advance();
         }
       }
@@ -162,8 +214,8 @@ core::Expected<void> measure_integrators(terrain::FunctionName function, const O
     const std::vector<Timing> times = race(contestants, effort, "times on " + ground.name);
     for (std::size_t i = 0; i < measured.size(); ++i) {
       const Measured& m = measured[i];
-      table.add({ground.name, std::string(to_text(m.integrator)), m.rate, m.sub_steps, times[i].median_ns,
-                 times[i].best_ns, m.median_error, m.worst_error, uncertainty});
+      table.add({ground.name, m.method, m.rate, m.sub_steps, times[i].median_ns, times[i].best_ns,
+                 m.median_error, m.worst_error, uncertainty});
     }
   }
   std::cout << "Integrators on " << to_text(function) << ", gravity and curvature alone, " << kSeconds

@@ -248,8 +248,7 @@ class Parser {
     return !open_.empty() && document_.nodes_[open_.back()].kind == kind;
   }
 
-  // ---- the document
-  // ----------------------------------------------------------------------------------------
+  // ---- the document -------------------------------------------------------------------------------------
 
   Characters keep(std::string_view value) {
     const std::size_t begin = document_.strings_.size();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "bench/lab/methods/constrained.h"
 #include "bench/lab/methods/laboratory.h"
 #include "tests/support/csv.h"
 #include "tests/support/motion.h"
@@ -53,6 +54,45 @@ TEST_CASE("each integrator converges with its order on a smooth surface") {
         apart(rolled(surface, Equations::kSurface, integrator, p, kStart, 4 * coarse_rate, 2), exact);
     INFO(to_text(integrator) << ": " << coarse << " -> " << fine);
     CHECK(std::log2(coarse / fine) / 2 == Approx(order).margin(0.3));
+  }
+}
+
+TEST_CASE("each method for constrained motion converges with its order to where the exact equations lead") {
+  const AnySurface surface = FunctionSurface(FunctionName::kHills, 1.0);
+  const state::Louse exact =
+      rolled(surface, Equations::kSurface, Integrator::kDormandPrince5, kFree, kStart, 6400, 2);
+  const auto error = [&](Constrained method, double rate) {
+    const auto motion =
+        make_constrained(surface, method, kFree.gravity, {kStart.position, kStart.velocity}, 1.0 / rate);
+    for (long tick = 0; tick < std::lround(2 * rate); ++tick) motion->step();
+    return std::hypot(motion->position().x - exact.position.x, motion->position().y - exact.position.y);
+  };
+  const std::map<Constrained, double> orders = {
+      {Constrained::kRattle, 2}, {Constrained::kRattle4, 4}, {Constrained::kSymmetric4, 4}};
+  for (const auto& [method, order] : orders) {
+    const double coarse = error(method, 100), fine = error(method, 400);
+    INFO(to_text(method) << ": " << coarse << " -> " << fine);
+    CHECK(std::log2(coarse / fine) / 2 == Approx(order).margin(0.3));
+  }
+}
+
+TEST_CASE("methods for constrained motion keep to a level circle in the pot for good") {
+  const AnySurface surface = FunctionSurface(FunctionName::kParabolicPot, 1.0);
+  const auto ground = std::get<FunctionSurface>(surface).sample(0.5, 0.0);
+  const double speed = std::sqrt(kFree.gravity * 0.5 * ground.zx);  // what a circle of that radius takes
+  for (const Constrained method : kConstrained) {
+    const auto motion =
+        make_constrained(surface, method, kFree.gravity, {{0.5, 0.0}, {0.0, speed}}, 1.0 / 60);
+    double least = 1.0, most = 0.0;
+    for (int tick = 0; tick < 60 * 300; ++tick) {
+      motion->step();
+      const double radius = std::hypot(motion->position().x, motion->position().y);
+      least = std::fmin(least, radius);
+      most = std::fmax(most, radius);
+    }
+    INFO(to_text(method) << ": " << least << " to " << most);
+    CHECK(least > 0.499);
+    CHECK(most < 0.501);
   }
 }
 

@@ -26,5 +26,8 @@ std::unique_ptr<Rival> gsl_three_calls(const terrain::HeightGrid& grid);
 /// ALGLIB's spline2ddiff over spline2dbuildbicubicv: z and gradient (and the mixed derivative). Null: not
 /// built.
 std::unique_ptr<Rival> alglib_differentiation(const terrain::HeightGrid& grid);
+/// vspline's evaluators of a natural cubic b-spline (vspline_sum.h): z, gradient and Hessian. The grid
+/// outlives it. REQUIRES blocks of points that vectors fill. Null: not built, or no AVX2.
+std::unique_ptr<Rival> vspline_six_evaluators(const terrain::HeightGrid& grid);
 
 }  // namespace woodlouse::lab

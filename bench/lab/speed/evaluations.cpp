@@ -85,7 +85,7 @@ struct Field {
   document::Biquadratic biquadratic;
   document::Blended blended;
   document::GaussGradient gauss;
-  std::unique_ptr<Rival> gsl_six, gsl_three, alglib;
+  std::unique_ptr<Rival> gsl_six, gsl_three, alglib, vspline;
 
   explicit Field(std::size_t g)
       : grid(terrain::sample_function(terrain::FunctionName::kVolcano, 1.0, g)),
@@ -97,7 +97,8 @@ struct Field {
         gauss(grid),
         gsl_six(gsl_six_calls(grid)),
         gsl_three(gsl_three_calls(grid)),
-        alglib(alglib_differentiation(grid)) {}
+        alglib(alglib_differentiation(grid)),
+        vspline(vspline_six_evaluators(grid)) {}
 };
 
 /// One line of the table; no contestant: `note` says why.
@@ -147,6 +148,7 @@ std::vector<Entry> entries_of(const Field& f) {
   result.push_back(rival("GSL spline2d", "z+G+H", f.gsl_six));
   result.push_back(rival("GSL spline2d", "z+G", f.gsl_three));
   result.push_back(rival("ALGLIB spline2ddiff", "z+G", f.alglib));
+  result.push_back(rival("vspline", "z+G+H", f.vspline));
   result.push_back(ours<Wanted::kGradient>("the document's", f.papers, 32));
   return result;
 }
@@ -214,12 +216,13 @@ core::Expected<void> measure_evaluations(const Output& output) {
       const Measured m = measure(*field, knots, order, output.effort(), table);
       add_ratio(ratios, m, "spline z+G+H", "GSL spline2d z+G+H", knots, order);
       add_ratio(ratios, m, "spline z+G", "ALGLIB spline2ddiff z+G", knots, order);
+      add_ratio(ratios, m, "spline avx2 z+G+H", "vspline z+G+H", knots, order);
       add_ratio(ratios, m, "spline z+G", "the document's z+G", knots, order);
       add_ratio(ratios, m, "spline avx512 z+G+H", "spline z+G+H", knots, order);
     }
   }
-  std::cout
-      << "Evaluations of volcano's knots (natural ends: GSL, ALGLIB, the document's; not-a-knot: ours)\n";
+  std::cout << "Evaluations of volcano's knots (natural ends: GSL, ALGLIB, vspline, the document's; "
+               "not-a-knot: ours)\n";
   table.print(std::cout);
   std::cout << '\n';
   ratios.print(std::cout);
