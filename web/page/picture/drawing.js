@@ -62,7 +62,7 @@ export class Drawing {
     });
     /** Where a graphics card draws: the picture, with several samples a pixel. @type {Surface | null} */
     this.surface = null;
-    /** Where a processor draws: the ground before a camera that stands. @type {Surface | null} */
+    /** Where a processor draws: the ground before a camera that stands; else the whole picture. @type {Surface | null} */
     this.still = null;
     this.key = '';
     this.kept = 0;
@@ -107,7 +107,11 @@ export class Drawing {
       this.surface = this.fitted(this.surface ?? null, width, height, 4);
       this.drawGround(look, this.surface.frame, width, height, false);
       this.drawScene(look, staging, this.surface.frame, width, height, false, false);
-      this.surface.copyTo(null, false);
+      // Not onto the canvas: several samples go into the same format alone, and which one a canvas has, each browser chooses.
+      this.still = this.fitted(this.still ?? null, width, height, 0);
+      this.surface.copyTo(this.still, false);
+      this.showStill(this.still, width, height);
+      this.still.show(false);
     } else {
       const hides = this.copyGround(look, width, height, now);
       this.drawScene(look, staging, null, width, height, hides, !hides && look.resolution.at > 1);
@@ -158,6 +162,14 @@ export class Drawing {
       smooth.free();
       this.kept = 2;
     }
+    this.showStill(still, width, height);
+    return true;
+  }
+
+  /** A surface's colours onto the canvas; its depths are to be had, too, until it is shown no more. @private
+   * @param {Surface} still @param {number} width @param {number} height */
+  showStill(still, width, height) {
+    const { gl } = this;
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, width, height);
     gl.depthMask(true);
@@ -168,7 +180,6 @@ export class Drawing {
     if (this.copy) use(gl, this.copy, { picture: COLOURS });
     gl.bindVertexArray(null);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
-    return true;
   }
 
   /** All but the ground: what is solid, what lies on the ground, lice, what one looks through.

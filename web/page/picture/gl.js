@@ -132,11 +132,11 @@ export class Surface {
     }
   }
 
-  /** Copies into another one of the same size, or (null) onto the canvas. @param {Surface | null} to @param {boolean} depth its depth, too */
+  /** Copies into another one of the same size. @param {Surface} to @param {boolean} depth its depth, too */
   copyTo(to, depth) {
     const { gl, width: w, height: h } = this;
     gl.bindFramebuffer(gl.READ_FRAMEBUFFER, this.frame);
-    gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, to && to.frame);
+    gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, to.frame);
     gl.blitFramebuffer(0, 0, w, h, 0, 0, w, h, gl.COLOR_BUFFER_BIT | (depth ? gl.DEPTH_BUFFER_BIT : 0), gl.NEAREST);
   }
 

@@ -57,6 +57,17 @@ test('ground, sky and your louse are in the picture, in every view, without an e
   }
 });
 
+test('as a graphics card draws it, with several samples a pixel, it is the same picture', async () => {
+  await press('orbit');
+  const usual = await looked();
+  await page.evaluate(() => { window.woodlouse.picture.drawing.isSoftware = false; });
+  const seen = await looked();
+  await page.evaluate(() => { window.woodlouse.picture.drawing.isSoftware = true; });
+  assert.equal(seen.error, 0);
+  assert.ok(seen.colours > 60, `${seen.colours} colours`);
+  assert.ok(Math.abs(seen.brightness - usual.brightness) < 10, `${seen.brightness}, ${usual.brightness}`);
+});
+
 test('shadows come from their worker', async () => {
   await until(page, () => window.woodlouse.picture.drawing.light !== null, 30000);
 });
