@@ -30,6 +30,12 @@ async function picture(name, make) {
   if (wanted.length && !wanted.includes(name)) return;
   const { page, context, served } = await make();
   const file = path.join(out, `page-${name}.png`);
+  // Where a processor draws, what is shown lags by seconds: the last frame is waited for.
+  await page.evaluate(() => {
+    window.woodlouse.frame = () => {};
+    window.woodlouse.picture.drawing.gl.readPixels(0, 0, 1, 1, WebGL2RenderingContext.RGBA, WebGL2RenderingContext.UNSIGNED_BYTE, new Uint8Array(4));
+  });
+  await page.waitForTimeout(2000);
   await page.screenshot({ path: file });
   await context.close();
   await served?.stop();
