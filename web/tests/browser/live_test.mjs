@@ -89,6 +89,27 @@ test('at 150 ms with 40 ms of jitter every ack is what the page already had', as
   }
 });
 
+test('after a pause, too, every ack is what the page already had', async () => {
+  const watched = await Served.start('--map', 'hills', '--admin', 'admin.sock');
+  try {
+    await shown(page, `${watched.web}?play`);
+    await until(page, () => window.woodlouse.room.own.pilot?.louse);
+    for (let k = 0; k < 3; k++) {
+      await page.keyboard.down('w');
+      await drive(page, 1, 3);
+      await watched.admin('pause', 'hills');
+      await until(page, () => window.woodlouse.room.stands && document.querySelector('#lost').textContent.includes('paused'));
+      await watched.admin('resume', 'hills');
+      await until(page, () => !window.woodlouse.room.stands);
+      await drive(page, 2, 5);
+      await page.keyboard.up('w');
+    }
+    assert.equal((await counts(page)).corrected, 0);
+  } finally {
+    await watched.stop();
+  }
+});
+
 test('a player who looks away for a while keeps the louse', async () => {
   await shown(page, `${served.web}?room=hills&play`);
   const you = await known(page, () => window.woodlouse.room.you);

@@ -44,6 +44,12 @@ export class Served {
     await this.begin(`127.0.0.1:${this.port}`);
   }
 
+  /** A command of the operator's; of a server that was started with `--admin admin.sock`. @param {string[]} command */
+  admin(...command) {
+    const said = spawn(path.join(binaries, 'woodlouse-server'), ['admin', '--socket', path.join(this.folder, 'admin.sock'), ...command], { stdio: 'inherit' });
+    return new Promise((resolve, reject) => said.once('exit', (status) => (status === 0 ? resolve(undefined) : reject(new Error(`admin ${command.join(' ')}: ${status}`)))));
+  }
+
   async stop() {
     this.process.kill('SIGTERM');
     await this.ended;

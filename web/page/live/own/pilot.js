@@ -25,6 +25,11 @@ export class Lead {
     this.#trips.push(seconds);
     if (this.#trips.length > 8) this.#trips.shift();
   }
+  /** The server's ticks are counted anew: what was needed before the pause says nothing. */
+  beginAnew() {
+    this.#needs = [];
+    this.#now = null;
+  }
   /** Whether enough is known to begin. */
   get isKnown() { return this.#trips.length >= 4; }
 
@@ -130,6 +135,8 @@ export class Pilot {
   /** What was predicted is worth nothing, the server having stood still. The inputs that wait there have their ticks: others come behind them. */
   beginAnew() {
     this.prediction?.forget();
+    this.lead.beginAnew();
+    this.#leads.clear();  // what waited there says nothing of the line
     this.#ahead = 0;
     this.#wantsState = true;
     this.#askedAt = -Infinity;
