@@ -221,8 +221,7 @@ class Parser {
     return add_number(kind, std::string_view(begin, static_cast<std::size_t>(read_ - begin)));
   }
 
-  /// How many there were.
-  std::ptrdiff_t take_digits() {
+  std::ptrdiff_t take_digits() {  // how many there were
     const char* at = read_;
     while (at != end() && is_digit(*at)) ++at;
     return at - std::exchange(read_, at);
