@@ -211,6 +211,8 @@ CLI::App* add_inspect(CLI::App& app, InspectRequest& request) {
   inspect->add_flag(
       "--rulings", request.rulings,
       "What the rules of play said, re-run, a line each: moment (1/65536 of a tick), kind, louse, values");
+  inspect->add_flag("--error", request.error,
+                    "How far its steps err, re-run, and how far it goes astray in 10 s");
   inspect->add_flag("--summary", request.summary,
                     "Players, inputs, events, and who was late; also without an option");
   return inspect;

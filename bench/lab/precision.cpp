@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "bench/lab/game/local_error.h"
 #include "bench/lab/game/precision.h"
 #include "bench/lab/job.h"
 #include "bench/lab/precision_flight.h"
@@ -27,8 +28,8 @@ struct PrecisionOptions {
   std::filesystem::path maps;  ///< empty: the project's own
 };
 
-constexpr std::array<std::string_view, 6> kProblems = {"maps",   "integrators", "surfaces",
-                                                       "kepler", "orders",      "flight"};
+constexpr std::array<std::string_view, 7> kProblems = {"maps",   "integrators", "surfaces", "kepler",
+                                                       "orders", "flight",      "local"};
 
 std::string problem_names() {
   std::string names;
@@ -64,8 +65,9 @@ core::Expected<void> run(const PrecisionOptions& options) {
   }
   if (wanted("flight")) {
     if (auto done = measure_flight(options.output); !done) return done;
-    return measure_flight_cost(options.output);
+    if (auto done = measure_flight_cost(options.output); !done) return done;
   }
+  if (wanted("local")) return measure_local_error(options.maps, options.output);
   return {};
 }
 
@@ -81,9 +83,10 @@ void add_precision(CLI::App& app, Job& job) {
       ->check(CLI::ExistingDirectory);
   add_output_options(*command, options->output);
   command->footer(
-      "Writes lab-precision-maps (the shipped maps as they are played), -integrators, -surfaces, -kepler and "
-      "-flight as .csv, .svg and .png, -flight-cost "
-      "as .csv; orders, of the rooms' methods at walls, seams, flights, stops and thrusts, is printed "
+      "Writes lab-precision-maps (the shipped maps as they are played), -integrators, -surfaces, -kepler, "
+      "-flight and lab-local-error (what is told of a tick's error against the true one) as .csv, .svg and "
+      ".png, -flight-cost as .csv; orders, of the rooms' methods at walls, seams, flights, stops and "
+      "thrusts, is printed "
       "alone.\n"
       "Example:\n  woodlouse-lab precision --quick --only maps --out .");
   command->callback([options, &job] {

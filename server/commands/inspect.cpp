@@ -3,6 +3,7 @@
 #include <cmath>
 #include <ostream>
 
+#include "server/commands/error_report.h"
 #include "shared/core/joined.h"
 #include "shared/json/text.h"
 #include "shared/replay/inspect.h"
@@ -22,7 +23,7 @@ int inspect_command(const InspectRequest& request, std::ostream& out, std::ostre
   const auto archive = replay::ReplayArchive::open(replay::source_of_file(request.file, request.maps));
   if (!archive) return report(archive.error(), errors);
   const bool wants_state = request.tick || request.seconds;
-  if (request.summary || (!wants_state && !request.rulings)) {
+  if (request.summary || (!wants_state && !request.rulings && !request.error)) {
     const core::Expected<std::string> summary = replay::inspect_summary(**archive);
     if (!summary) return report(summary.error(), errors);
     out << *summary;
@@ -31,6 +32,11 @@ int inspect_command(const InspectRequest& request, std::ostream& out, std::ostre
     const auto told =
         replay::inspect_rulings(**archive, [&](const std::string& ruling) { out << ruling << '\n'; });
     if (!told) return report(told.error(), errors);
+  }
+  if (request.error) {
+    const core::Expected<std::string> table = error_report(**archive);
+    if (!table) return report(table.error(), errors);
+    out << *table;
   }
   if (!wants_state) return 0;
   const double at = request.seconds.value_or(0.0) * (*archive)->header().tick_hz;

@@ -14,6 +14,7 @@ struct InspectRequest {
   std::optional<std::uint64_t> tick;
   std::optional<double> seconds;  ///< since tick 0; >= 0
   bool rulings = false;           ///< what the rules of play said
+  bool error = false;             ///< how far its steps err
   bool summary = false;           ///< also when neither tick nor seconds are asked for
 };
 

@@ -90,15 +90,18 @@ std::unique_ptr<physics::World> world_of(const map::Map& map, Integrator integra
                                           exact_steps(*spline, integrator, {parameters, walls, tick}));
 }
 
-void play_on(physics::World& world, Play play, int rate, std::uint64_t first_tick, std::uint64_t ticks) {
+void steer(physics::World& world, Play play, int rate, std::uint64_t tick) {
   const std::uint64_t part = ticks_of_part(play, rate);
+  if (tick % part != 0) return;
+  for (std::size_t i = 0; i < world.lice().size(); ++i) {
+    const state::LouseId id = world.lice()[i].id;
+    world.set_thrust(id, thrust_in(play, id, tick / part), state::kHeld);
+  }
+}
+
+void play_on(physics::World& world, Play play, int rate, std::uint64_t first_tick, std::uint64_t ticks) {
   for (std::uint64_t tick = first_tick; tick < first_tick + ticks; ++tick) {
-    if (tick % part == 0) {
-      for (std::size_t i = 0; i < world.lice().size(); ++i) {
-        const state::LouseId id = world.lice()[i].id;
-        world.set_thrust(id, thrust_in(play, id, tick / part), state::kHeld);
-      }
-    }
+    steer(world, play, rate, tick);
     world.step();
   }
 }

@@ -57,7 +57,10 @@ bool is_measured(const map::Map& map);
 /// The world of a map by one of the lab's methods; null: the method is not for its ground.
 std::unique_ptr<physics::World> world_of(const map::Map& map, Integrator integrator, int rate);
 
-/// Moves a world on that was made for `rate`; lice are told what `play` says, from the louse's id as seed.
+/// Tells lice what `play` says at that tick, where it changes; from the louse's id as seed.
+void steer(physics::World& world, Play play, int rate, std::uint64_t tick);
+
+/// Moves a world on that was made for `rate`, steered so.
 void play_on(physics::World& world, Play play, int rate, std::uint64_t first_tick, std::uint64_t ticks);
 
 /// Where a louse is after `seconds`, a multiple of 0.4; rate: only of plays of ticks.

@@ -21,10 +21,14 @@ constexpr Real kFirstMoment = 1e-10L;
 Motion::Motion(const terrain::Terrain& terrain, const state::Parameters& parameters,
                const state::Louse& start, const Care& care)
     : ground_(terrain), parameters_(parameters), care_(care) {
-  assert(parameters.edges != state::Edges::kOpen && start.phase != state::Phase::kFlying);
+  assert(parameters.edges != state::Edges::kOpen);
   at_ = {start.position.x, start.position.y, start.velocity.x,
          start.velocity.y, start.heading.x,  start.heading.y};
   cell_ = ground_.cell_at(at_[kX], at_[kY]);
+  thrust_ = thrust_of({start.thrust_kind, start.thrust}, {at_[kHx], at_[kHy]}, parameters_);
+  flies_ = start.phase == state::Phase::kFlying;
+  z_ = start.flight_z;
+  climb_ = start.flight_vz;
 }
 
 void Motion::advance(Real seconds, const state::Thrust& thrust) {

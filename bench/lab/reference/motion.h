@@ -33,7 +33,8 @@ struct Care {
 /// One louse on one map. One thread at a time.
 class Motion {
  public:
-  /// REQUIRES a ground that Ground::knows, no open edges, and a louse on the ground; both must outlive this.
+  /// REQUIRES a ground that Ground::knows, and no open edges; both must outlive this. The louse's own thrust
+  /// says whether its heading is a state of its own.
   Motion(const terrain::Terrain& terrain, const state::Parameters& parameters, const state::Louse& start,
          const Care& care = {});
 

@@ -1,0 +1,180 @@
+#include "bench/lab/game/local_error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "bench/lab/report/progress.h"
+#include "bench/lab/speed/maps.h"
+#include "shared/map/map_world.h"
+#include "shared/match/step_error.h"
+
+namespace woodlouse::lab {
+namespace {
+
+constexpr std::array kRates = {15, 60, 240, 1000};
+constexpr std::uint32_t kFineParts = 64 * match::StepError::kParts;
+
+double at(std::vector<double> values, double share) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+/// A tick's end by the reference, as a louse of doubles plus what they leave out.
+class Truth {
+ public:
+  Truth(const map::Map& map, double tick)
+      : map_(map),
+        physics_(map::physics_of(map.definition, state::Mode::kRoam)),
+        tick_(tick),
+        is_measured_(is_measured(map)),
+        fine_(map, tick, state::Mode::kRoam, kFineParts) {}
+
+  /// How far `end` is from where the tick should have led `start`; nothing: the reference does not know.
+  std::optional<double> error(const state::Louse& start, const state::Louse& end) {
+    if (!is_measured_) {
+      const state::Louse& fine = fine_.run({&start, 1})[0];
+      return match::distance_apart(end, fine, map_.terrain->domain(), physics_.edges);
+    }
+    reference::Motion motion(*map_.terrain, physics_, start);
+    motion.advance(tick_, {start.thrust_kind, start.thrust});
+    if (motion.gave_up()) return std::nullopt;
+    const auto v = motion.velocity();
+    return error_of(map_, end, motion) +
+           match::kAhead * static_cast<double>(std::hypot(end.velocity.x - v.x, end.velocity.y - v.y));
+  }
+
+ private:
+  const map::Map& map_;
+  state::Parameters physics_;
+  double tick_;
+  bool is_measured_;
+  match::PartedTick fine_;
+};
+
+/// Both panels' rows of one rate: place on the axis, share too small, ratio at 1, 50 and 99 of 100.
+struct Drawn {
+  std::string name;
+  std::ostringstream rows;
+};
+
+std::string picture(const std::vector<std::string>& maps, const std::vector<Drawn>& rates) {
+  constexpr std::array kColours = {"#0072B2", "#E69F00", "#009E73", "#CC79A7"};
+  std::ostringstream script;
+  for (std::size_t i = 0; i < rates.size(); ++i)
+    script << "$r" << i << " << EOD\n" << rates[i].rows.str() << "EOD\n";
+  script << "set xtics noenhanced rotate by -35 font ',9' (";
+  for (std::size_t i = 0; i < maps.size(); ++i) script << (i == 0 ? "" : ", ") << "'" << maps[i] << "' " << i;
+  script << ")\nset xrange [-0.6:" << static_cast<double>(maps.size()) - 0.4
+         << "]\nset grid y lc rgb '#dddddd'\nset key outside top horizontal\nset multiplot layout 2,1\n"
+         << "set title 'Ticks whose bound is below the true local error [%]; at most 1'\n"
+         << "set yrange [0:1.2]\nplot 1 lc rgb 'black' dt 2 notitle";
+  for (std::size_t i = 0; i < rates.size(); ++i)
+    script << ", $r" << i << " using 1:(100*$2) with points pt " << 4 + i << " lc rgb '" << kColours[i]
+           << "' title '" << rates[i].name << "'";
+  script << "\nset title 'Bound / true local error: the median of all ticks, from 1 to 99 of 100; the median "
+            "at most 100'\nset logscale y\nset format y '10^{%L}'\nset yrange [0.1:1e5]\n"
+         << "plot 1 lc rgb 'black' dt 2 notitle, 100 lc rgb 'black' dt 2 notitle";
+  for (std::size_t i = 0; i < rates.size(); ++i)
+    script << ", $r" << i << " using 1:3:4:5 with yerrorbars pt " << 4 + i << " lc rgb '" << kColours[i]
+           << "' notitle";
+  script << "\nunset multiplot\n";
+  return script.str();
+}
+
+}  // namespace
+
+void LocalErrors::add(const LocalErrors& others) {
+  unforeseen += others.unforeseen;
+  bounds.insert(bounds.end(), others.bounds.begin(), others.bounds.end());
+  truths.insert(truths.end(), others.truths.begin(), others.truths.end());
+}
+
+double LocalErrors::too_small() const {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < bounds.size(); ++i) count += bounds[i] < truths[i] ? 1 : 0;
+  return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(1, bounds.size()));
+}
+
+double LocalErrors::ratio_at(double share) const {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    if (truths[i] > 0.0) ratios.push_back(bounds[i] / truths[i]);
+  }
+  return at(std::move(ratios), share);
+}
+
+LocalErrors local_errors(const map::Map& map, const std::vector<state::Louse>& lice, Play play, int rate,
+                         std::size_t ticks, std::size_t stride) {
+  const double tick_seconds = 1.0 / rate;
+  physics::World world = map::make_world(map, tick_seconds);
+  world.restore(lice);
+  match::StepError error(map, tick_seconds, state::Mode::kRoam);
+  Truth truth(map, tick_seconds);
+  LocalErrors result;
+  for (std::uint64_t tick = 0; tick < ticks * stride; ++tick) {
+    steer(world, play, rate, tick);
+    if (tick % stride == 0) {
+      const std::vector<state::Louse> start(world.lice().begin(), world.lice().end());
+      error.observe(start, tick);
+      for (std::size_t i = 0; i < start.size(); ++i) {
+        const bool rests = start[i].phase == state::Phase::kResting;
+        if (rests && error.stepped()[i].phase == state::Phase::kResting) continue;
+        const auto is = truth.error(start[i], error.stepped()[i]);
+        if (!is) {
+          ++result.unforeseen;
+          continue;
+        }
+        result.bounds.push_back(error.bounds()[i]);
+        result.truths.push_back(*is);
+      }
+    }
+    world.step();
+  }
+  return result;
+}
+
+core::Expected<void> measure_local_error(const std::filesystem::path& folder, const Output& output) {
+  const auto maps = maps_of(folder);
+  if (!maps) return tl::unexpected(maps.error());
+  const bool quick = output.effort() == Effort::kQuick;
+  const std::size_t count = quick ? 4 : 12, ticks = quick ? 40 : 240;
+  constexpr double kSeconds = 4.0;
+  Table table({"map", "rate", "ticks", "unforeseen", "too_small", "ratio_1_of_100", "ratio_median",
+               "ratio_99_of_100", "bound_median", "truth_median", "truth_worst"});
+  std::vector<Drawn> drawn(kRates.size());
+  std::vector<std::string> names;
+  Progress progress("local errors", maps->size() * kRates.size());
+  for (const auto& map : *maps) {
+    const std::vector<state::Louse> lice = starting_lice(*map, count, 5);
+    for (std::size_t r = 0; r < kRates.size(); ++r) {
+      const int rate = kRates[r];
+      const auto stride =
+          static_cast<std::size_t>(std::max(1.0, std::round(kSeconds * rate / static_cast<double>(ticks))));
+      LocalErrors all;
+      for (const Play play : kPlays) all.add(local_errors(*map, lice, play, rate, ticks, stride));
+      const double low = all.ratio_at(0.01), median = all.ratio_at(0.5), high = all.ratio_at(0.99);
+      table.add({map->definition.name, static_cast<double>(rate), static_cast<double>(all.bounds.size()),
+                 static_cast<double>(all.unforeseen), all.too_small(), low, median, high, at(all.bounds, 0.5),
+                 at(all.truths, 0.5), at(all.truths, 1.0)});
+      drawn[r].name = std::to_string(rate) + " Hz";
+      const double place = static_cast<double>(names.size()) + 0.16 * (static_cast<double>(r) - 1.5);
+      drawn[r].rows << place << ' ' << all.too_small() << ' ' << median << ' ' << low << ' ' << high << '\n';
+      progress.advance();
+    }
+    names.push_back(map->definition.name);
+  }
+  table.print(std::cout);
+  if (auto done = output.write(table, "lab-local-error"); !done) return done;
+  return output.draw(picture(names, drawn), "lab-local-error", 1300, 1000);
+}
+
+}  // namespace woodlouse::lab
