@@ -64,6 +64,8 @@ class StepError {
 
   /// tick: the room's [s], > 0. REQUIRES a map in full detail, which has the mode.
   StepError(const map::Map& map, double tick, state::Mode mode);
+  StepError(const StepError&) = delete;
+  StepError& operator=(const StepError&) = delete;
 
   /// The lice as the step of number `tick` finds them, by ascending id: with this step's inputs, not yet
   /// moved. Costs 1 + kParts steps and more memory only for lice not seen before.

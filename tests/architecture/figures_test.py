@@ -47,6 +47,9 @@ QUOTED = (
     ("docs/physics.md", r"3e-5 \| ([\de.-]+); pushed ever so little, so not projected, ([\de.-]+) \|", "lab-goals.txt",
      r"120 Hz, nystrom4 +([\de.-]+) (?s:.*)not projected +([\de.-]+)"),
     ("docs/physics.md", r"`verlet_q` \| 5e-4 \| ([\de.-]+) \|", "lab-goals.txt", r"verlet_q +([\de.-]+)"),
+    ("docs/physics.md", rf"\| {NUMBER} \(`wavy_pot`\) \|", "lab-local-error.csv", rf"\nwavy_pot,15,\d+,\d+,{NUMBER},"),
+    ("docs/physics.md", rf"\| {NUMBER} \(`maunga_climb`\) \|", "lab-local-error.csv", rf"\nmaunga_climb,60,\d+,\d+,{NUMBER},"),
+    ("docs/physics.md", rf"\(`jumps`\) \| 1.97 to {NUMBER} \|", "lab-local-error.csv", rf"\nlong_jump,1000,\d+,\d+,[\de.-]+,[\de.-]+,{NUMBER},"),
     *(row_of_orders(event) for event in (
         "none", "none, energy kept", "a wall", "a seam", "a take-off", "a landing", "along the heading, from rest",
         "from rest under friction", "a thrust that changes", "a stop", "hardly moving under friction")),

@@ -264,6 +264,8 @@ TEST_CASE("check and verify take their files, help and version are texts") {
   CHECK(inspect.request.file == "game.ndjson");
   CHECK(inspect.request.seconds == 41.7);
   CHECK_FALSE(inspect.request.tick);
+  CHECK_FALSE(inspect.request.error);
+  CHECK(std::get<InspectConfig>(*parse({"inspect", "game.ndjson", "--error"})).request.error);
   CHECK_THAT(std::get<PrintConfig>(*parse({"--help"})).text, Catch::Contains("--state-hz"));
   CHECK_THAT(std::get<PrintConfig>(*parse({"--version"})).text, Catch::Contains("woodlouse-server"));
   CHECK_FALSE(parse({"verify"}));

@@ -126,6 +126,10 @@ class Recording(unittest.TestCase):
         self.assertEqual((state["keyframe"], len(state["lice"])), (tick, 3))
         code, summary, errors = run("inspect", file, "--summary")
         self.assertEqual(code, 0, errors)
+        code, table, errors = run("inspect", file, "--error")
+        self.assertEqual(code, 0, errors)
+        self.assertEqual([line.split()[0] for line in table.splitlines()[3:]], ["1", "2", "3", "all"], table)
+        self.assertTrue(0.0 < float(table.splitlines()[-1].split()[2]) < 1e-3, table)
         mara = next(line.split() for line in summary.splitlines() if line.endswith("mara"))
         self.assertEqual((mara[1], mara[4], mara[5]), ("player", "29", "4"), summary)
 
