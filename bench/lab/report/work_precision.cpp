@@ -1,10 +1,18 @@
 #include "bench/lab/report/work_precision.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <sstream>
 
 namespace woodlouse::lab {
+namespace {
+
+/// As many as there are methods in one picture.
+constexpr std::array kColours = {"#9400d3", "#009e73", "#56b4e9", "#e69f00", "#c8b400", "#0072b2",
+                                 "#e51e10", "#000000", "#8b8b8b", "#a0522d", "#ff69b4"};
+
+}  // namespace
 
 std::string work_precision_picture(const std::vector<Panel>& panels) {
   constexpr double kLowest = 1e-14;
@@ -25,8 +33,9 @@ std::string work_precision_picture(const std::vector<Panel>& panels) {
       if (points.str().empty()) continue;
       const std::string block = "$d" + std::to_string(index);
       script << block << " << EOD\n" << points.str() << "EOD\n";
-      plots << (plots.str().empty() ? "plot " : ", ") << block << " with linespoints lw 1.5 lc " << index
-            << " pt " << index + 3 << " ps 0.6 title '" << curve.name << "' noenhanced";
+      plots << (plots.str().empty() ? "plot " : ", ") << block << " with linespoints lw 1.5 lc rgb '"
+            << kColours[(index - 1) % kColours.size()] << "' pt " << index + 3 << " ps 0.6 title '"
+            << curve.name << "' noenhanced";
     }
     script << "set title '" << panel.title << "' noenhanced\nset ylabel '" << panel.error << "'\n"
            << plots.str() << '\n';
