@@ -4,6 +4,8 @@
 #include <cmath>
 #include <variant>
 
+#include "bench/lab/methods/integrators.h"
+
 namespace woodlouse::lab {
 namespace {
 
@@ -62,9 +64,7 @@ class Rattle {
   }
 
   void step4(double h) {
-    constexpr double kOuter = 0.41449077179437573714;
-    constexpr double kInner = -0.65796308717750294856;
-    for (const double part : {kOuter, kOuter, kInner, kOuter, kOuter}) step(part * h);
+    for (const double part : kPartsOfOrder4) step(part * h);
   }
 
   [[nodiscard]] Space place() const { return q_; }

@@ -2,23 +2,28 @@
 // and what it is given. Orders are for smooth surfaces.
 #pragma once
 
+#include <array>
+
 #include "shared/physics/integrators.h"
 
 namespace woodlouse::lab {
 
-/// VerletQ composed to order 4 (M. Suzuki, Phys. Lett. A 146, 1990): five sub-steps of p, p, 1 - 4p, p, p,
-/// p = 1 / (4 - 4^(1/3)).
+/// A symmetric method of order 2 composed to order 4 (M. Suzuki, Phys. Lett. A 146, 1990): five sub-steps of
+/// p, p, 1 - 4p, p, p, p = 1 / (4 - 4^(1/3)).
+inline constexpr double kOuterPart = 0.41449077179437573714;
+inline constexpr double kInnerPart = -0.65796308717750294856;
+inline constexpr std::array kPartsOfOrder4 = {kOuterPart, kOuterPart, kInnerPart, kOuterPart, kOuterPart};
+
+/// VerletQ composed to order 4.
 struct VerletQ4 {
   static constexpr int kSamples = 10;
   static constexpr bool kSubSteps = true;
   static constexpr bool kKeepsEnergy = false;
   template <typename Start, typename Field>
   physics::StepResult step(const Start& start, const Field& field, double h) const {
-    constexpr double kOuter = 0.41449077179437573714;
-    constexpr double kInner = -0.65796308717750294856;
     physics::Motion at = start.at;
     core::Vec2 a = start.acceleration;
-    for (const double part : {kOuter, kOuter, kInner, kOuter, kOuter}) {
+    for (const double part : kPartsOfOrder4) {
       const double k = 0.5 * part * h;
       const core::Vec2 half = at.velocity + k * a;
       at.position += (part * h) * half;

@@ -17,6 +17,19 @@ namespace {
 
 using namespace std::chrono_literals;
 
+/// As louse 3; what the welcome was.
+protocol::Welcome join_hill(RoomView& room, std::uint32_t tick_hz) {
+  auto loaded = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/table.json");
+  REQUIRE(loaded);
+  const map::Map& map = **loaded;
+  protocol::Welcome message = welcome(map, 3);
+  message.mode = "hill";
+  message.tick_hz = tick_hz;
+  REQUIRE(room.on_message(message, kStart));
+  REQUIRE(room.on_message(protocol::MapMessage{map.definition.name, map.hash, map.canonical}, kStart));
+  return message;
+}
+
 }  // namespace
 
 TEST_CASE("a second welcome is another game of the room: its map is asked for, and inputs are counted on") {
@@ -80,14 +93,8 @@ TEST_CASE("/skip is a vote and no chat, and the chat tells of others' votes") {
 }
 
 TEST_CASE("who fell off a hill is not there until it is back, and cruises no more") {
-  auto loaded = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/table.json");
-  REQUIRE(loaded);
-  const auto map = *loaded;
   RoomView room;
-  protocol::Welcome message = welcome(*map, 3);
-  message.mode = "hill";
-  REQUIRE(room.on_message(message, kStart));
-  REQUIRE(room.on_message(protocol::MapMessage{map->definition.name, map->hash, map->canonical}, kStart));
+  join_hill(room, 60);
   const auto shown = [&](std::uint64_t tick, std::vector<double> lice, core::Time now) {
     protocol::Frame frame = key(tick, std::move(lice));
     frame.game.emplace();
@@ -127,15 +134,8 @@ TEST_CASE("who fell off a hill is not there until it is back, and cruises no mor
 }
 
 TEST_CASE("who loses the line sees what the rules showed last, and where the louse headed") {
-  auto loaded = map::load_map(WOODLOUSE_SOURCE_DIR "/maps/table.json");
-  REQUIRE(loaded);
-  const auto map = *loaded;
   RoomView room;
-  protocol::Welcome message = welcome(*map, 3);
-  message.mode = "hill";
-  message.tick_hz = 30;
-  REQUIRE(room.on_message(message, kStart));
-  REQUIRE(room.on_message(protocol::MapMessage{map->definition.name, map->hash, map->canonical}, kStart));
+  protocol::Welcome message = join_hill(room, 30);
   protocol::Frame frame = key(60, {3, 1, 1, 0, 0, 1, 0, 5, 0});
   frame.game.emplace();
   frame.game->phase = protocol::GamePhase::kPlay;
