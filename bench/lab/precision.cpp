@@ -28,8 +28,8 @@ struct PrecisionOptions {
   std::filesystem::path maps;  ///< empty: the project's own
 };
 
-constexpr std::array<std::string_view, 7> kProblems = {"maps",   "integrators", "surfaces", "kepler",
-                                                       "orders", "flight",      "local"};
+constexpr std::array<std::string_view, 8> kProblems = {"maps",   "integrators", "surfaces", "kepler",
+                                                       "orders", "flight",      "local",    "tolerance"};
 
 std::string problem_names() {
   std::string names;
@@ -67,7 +67,10 @@ core::Expected<void> run(const PrecisionOptions& options) {
     if (auto done = measure_flight(options.output); !done) return done;
     if (auto done = measure_flight_cost(options.output); !done) return done;
   }
-  if (wanted("local")) return measure_local_error(options.maps, options.output);
+  if (wanted("local")) {
+    if (auto done = measure_local_error(options.maps, options.output); !done) return done;
+  }
+  if (wanted("tolerance")) return measure_tolerance(options.maps, options.output);
   return {};
 }
 
@@ -85,7 +88,8 @@ void add_precision(CLI::App& app, Job& job) {
   command->footer(
       "Writes lab-precision-maps (the shipped maps as they are played), -integrators, -surfaces, -kepler, "
       "-flight and lab-local-error (what is told of a tick's error against the true one) as .csv, .svg and "
-      ".png, -flight-cost as .csv; orders, of the rooms' methods at walls, seams, flights, stops and "
+      ".png, -flight-cost and lab-tolerance (maps that bear only so much of error) as .csv; orders, of the "
+      "rooms' methods at walls, seams, flights, stops and "
       "thrusts, is printed "
       "alone.\n"
       "Example:\n  woodlouse-lab precision --quick --only maps --out .");

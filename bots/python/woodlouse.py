@@ -104,8 +104,8 @@ class Game(Session):
     physics: gravity [m/s^2], drag [1/s], friction (Coulomb's), thrust_max [m/s^2], edge_restitution (0 to 1); equations
     ("exact", "local_plane", "as_printed"), method ("standard", "cheap", "precise", "false_euler"), contact ("bilateral",
     "unilateral"), edges ("walls", "wrap", "open"), central_gravity (k of k / r^2 [m^3/s^2]; 0: none), core_radius (within
-    which that pull is smooth [m]; 0 where there is none). Of a server that does not send the last six they are there once
-    map() has asked for the map, from its definition."""
+    which that pull is smooth [m]; 0 where there is none), tolerance (how far astray its steps may lead [m/s of play]; 0:
+    no step asks). Of a server that does not send the last seven they are there once map() has asked for the map, from its definition."""
 
     def __init__(self, door, name, verify=False, fields=None):
         super().__init__(door)

@@ -3,7 +3,7 @@
 import math
 
 _MAP_DEFAULTS = {"equations": "exact", "method": "standard", "contact": "bilateral", "edges": "walls",
-                 "central_gravity": 0}
+                 "central_gravity": 0, "tolerance": 0}
 
 
 class Ground:

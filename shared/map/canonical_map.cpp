@@ -49,6 +49,7 @@ void add_physics(json::ObjectText& text, const state::Parameters& physics) {
   if (physics.central_gravity > 0.0 &&
       physics.core_radius != physics::default_core_radius(physics.central_gravity))
     text.number("core_radius", physics.core_radius);
+  if (physics.tolerance != usual.tolerance) text.number("tolerance", physics.tolerance);
   if (physics.contact != usual.contact) text.text("contact", state::to_text(physics.contact));
   if (physics.equations != usual.equations) text.text("equations", state::to_text(physics.equations));
   if (physics.method != usual.method) text.text("method", state::to_text(physics.method));

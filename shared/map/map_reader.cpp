@@ -24,6 +24,7 @@ constexpr json::Range kThrustMax{0.0, 1000.0, "m/s^2"};
 constexpr json::Range kEdgeRestitution{0.0, 1.0, ""};
 constexpr json::Range kCentralGravity{0.0, 1e6, "m^3/s^2"};
 constexpr json::Range kCoreRadius{1e-3, 1e6, "m"};
+constexpr json::Range kTolerance{0.0, 1.0, "m/s of play"};
 constexpr json::Range kCoordinate{-1e12, 1e12, "m"};
 constexpr std::size_t kMaxNameBytes = 64;
 constexpr std::size_t kMaxDocumentSplineKnots = 64;  ///< each way: 1.3 us a look, of which a step takes one
@@ -71,6 +72,9 @@ void check_equations(const json::Value& physics, const state::Parameters& p, jso
     problems.add(physics, "false_euler goes with the paper's equations",
                  "add \"equations\": \"local_plane\" or \"as_printed\"");
   }
+  if (!is_exact && p.tolerance > 0.0)
+    problems.add(physics, "the paper's own method has steps of one length, whatever they err",
+                 "leave tolerance out");
   if (!is_exact && p.central_gravity > 0.0) {
     problems.add(physics, "the paper's equations of the surface know no central gravity", "leave it out");
   }
@@ -82,7 +86,7 @@ void check_equations(const json::Value& physics, const state::Parameters& p, jso
 state::Parameters read_physics(const json::Value& value, json::Problems& problems) {
   const json::Fields fields(value,
                             {"gravity", "drag", "friction", "thrust_max", "edge_restitution",
-                             "central_gravity", "core_radius", "contact", "equations", "method"},
+                             "central_gravity", "core_radius", "tolerance", "contact", "equations", "method"},
                             problems);
   state::Parameters result;
   result.gravity = fields.number_or("gravity", kGravity, result.gravity);
@@ -99,6 +103,7 @@ state::Parameters read_physics(const json::Value& value, json::Problems& problem
     problems.add(*radius, "there is no central gravity to have a core",
                  "leave it out, or add central_gravity");
   }
+  result.tolerance = fields.number_or("tolerance", kTolerance, result.tolerance) + 0.0;
   read_choice(fields, "contact", result.contact, state::contact_from_text, "bilateral or unilateral",
               problems);
   read_choice(fields, "equations", result.equations, state::equations_from_text,

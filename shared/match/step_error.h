@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "shared/map/map_definition.h"
+#include "shared/physics/nystrom.h"
 #include "shared/physics/world.h"
 #include "shared/state/louse.h"
 #include "shared/state/mode.h"
@@ -40,7 +41,7 @@ double distance_over_map(core::Vec2 a, core::Vec2 b, const terrain::Rectangle& d
 
 /// How far apart two states of a louse are [m]: their places over the map, and as far as their velocities
 /// lead apart in kAhead, if nothing else does.
-inline constexpr double kAhead = 1.0;  // [s]
+inline constexpr double kAhead = physics::kAhead;  // [s]
 double distance_apart(const state::Louse& a, const state::Louse& b, const terrain::Rectangle& domain,
                       state::Edges edges);
 

@@ -11,6 +11,7 @@
 #include "shared/physics/central_gravity.h"
 #include "shared/physics/nystrom.h"
 #include "shared/physics/rim.h"
+#include "shared/physics/sub_step_rules.h"
 #include "shared/physics/surface_motion.h"
 #include "shared/physics/walls.h"
 #include "shared/state/parameters.h"
@@ -96,6 +97,16 @@ class Ground {
     if (!contact.any()) return implicit_kick<F>(s, v, k, drive_at(s, drive), parameters_, 0.0);
     const double carried = wall_load(s, contact, frictionless(s, v, drive));
     return bounced(s, contact, implicit_kick<F>(s, v, k, drive_at(s, drive), parameters_, carried), 0.0);
+  }
+
+  /// Whether the rules ask for a sub-step shorter than h.
+  [[nodiscard]] bool is_too_long(const SubStepRules& rules, const Start& start, const Drive& drive,
+                                 double h) const {
+    if constexpr (F::central) {
+      if (SubStepRules::swings_too_far(central_pull(start.at.position, parameters_), h)) return true;
+    }
+    if (kTurns && drive.turns && heading_turns_too_far(start.at.velocity, start.acceleration, h)) return true;
+    return rules.too_long(start.sample, start.speed2, h);
   }
 
   /// What pulls at v = 0, and what friction can hold there.
@@ -240,6 +251,25 @@ struct Field {
   [[nodiscard]] core::Vec2 kick(const typename Ground::Site& s, core::Vec2 v, double k,
                                 core::Vec2 heading) const {
     return ground.kick(s, v, k, along(heading), start.contact);
+  }
+
+  /// How far astray a step over h led [m]; a heading that turns did so as the cubic through both of its ends.
+  [[nodiscard, gnu::noinline]] double astray(const StepResult& result, double h) const {
+    const Motion& from = start.at;
+    if (!turns()) {
+      return physics::astray(from, start.acceleration, result.end, h, [&](double, const Motion& at) {
+        return accelerate(sample(at.position), at.velocity);
+      });
+    }
+    const core::Vec2 from_heading = heading();
+    const core::Vec2 turned = result.heading - from_heading;
+    const core::Vec2 r0 = h * heading_rate(from_heading, from.velocity);
+    const core::Vec2 r1 = h * heading_rate(result.heading, result.end.velocity);
+    return physics::astray(from, start.acceleration, result.end, h, [&](double s, const Motion& at) {
+      const core::Vec2 h_s =
+          from_heading + s * (r0 + s * (3.0 * turned - 2.0 * r0 - r1 + s * (r0 + r1 - 2.0 * turned)));
+      return accelerate(sample(at.position), at.velocity, h_s);
+    });
   }
 
  private:

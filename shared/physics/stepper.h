@@ -1,12 +1,12 @@
-// One louse through one tick: an integrator's steps (integrators.h, precise.h) with the sub-step rules
-// (sub_step_rules.h), the friction stop (halt.h), the walls (rim.h, walls.h) and flight (flight.h). ground.h:
-// what acts on the louse.
+// One louse through one tick: an integrator's steps (integrators.h, precise.h) by the sub-step rules
+// (sub_step_rules.h), friction stop (halt.h), walls (rim.h, walls.h), flight (flight.h); ground.h: what acts.
 //
 // A sub-step is halved at most to 1/256 of the tick; one that wanted to be shorter still is counted. After
 // kMaxSubSteps sub-steps and pieces of flight, or kMaxEvents walls, stops, take-offs and landings, what is
-// left of the tick is one such step. No step makes energy (bounded_energy.h). The moment of an event is
-// located within its sub-step, and the rest of the tick goes on from there; after kMaxBounces in a tick a
-// louse keeps no velocity into a wall. Over a seam a sub-step runs on, then the louse is at the other rim.
+// left of the tick is one such step. No step makes energy (bounded_energy.h), or errs beyond a map's
+// tolerance: it is tried again over less. The moment of an event is located within its sub-step, and the rest
+// of the tick goes on from there; after kMaxBounces in a tick a louse keeps no velocity into a wall. Over a
+// seam a sub-step runs on, then the louse is at the other rim.
 #pragma once
 
 #include <cmath>
@@ -74,8 +74,7 @@ class Stepper {
   static constexpr bool kTurns = kRules && F::thrust;
   /// On flat ground the steps themselves are exact where nothing but gravity acts.
   static constexpr bool kMayKeepEnergy = E::kExact && I::kKeepsEnergy && (kCurved || F::central);
-  static constexpr int kMaxBounces = 8;
-  static constexpr int kMaxEvents = 64;
+  static constexpr int kMaxBounces = 8, kMaxEvents = 64;
 
   /// A louse on its way through the rest of a tick: the locals of run(), which so can stay in registers.
   struct Way {
@@ -175,8 +174,9 @@ class Stepper {
   /// The longest of h, its half, its quarter ... that the rules allow.
   [[nodiscard, gnu::always_inline]] inline SubStep choose(const Start& start, const Drive& drive,
                                                           double h) const {
-    while (kRules && h > rules_.shortest() && is_too_long(start, drive, h)) h = rules_.halved(h);
-    const bool capped = kRules && h <= rules_.shortest() && is_too_long(start, drive, h);
+    const auto too_long = [&] { return ground_.is_too_long(rules_, start, drive, h); };
+    while (kRules && h > rules_.shortest() && too_long()) h = rules_.halved(h);
+    const bool capped = kRules && h <= rules_.shortest() && too_long();
     return {h, std::sqrt(start.speed2), capped};
   }
 
@@ -205,8 +205,17 @@ class Stepper {
   [[gnu::always_inline]] inline void integrate(const Field& field, const Way& way, SubStep step) const {
     StepResult result = take_step(field, way, step.h);
     step.h = step.h == result.used ? step.h : result.used;
+    double next = tick_;
+    if (kRules && rules_.has_tolerance() && !step.capped) {
+      way.counters.samples += kLobattoSamples;
+      const double error = field.astray(result, step.h);
+      const bool borne = rules_.bears(error, step.h);
+      if (!borne || way.longest < tick_) next = rules_.borne_length(error, step.h, tick_);
+      way.longest = next;
+      if (!borne) return;
+    }
     const Verdict verdict = judge(field, way, step, result);
-    way.longest = verdict == Verdict::kRefused ? rules_.halved(step.h) : tick_;
+    way.longest = verdict == Verdict::kRefused ? rules_.halved(step.h) : next;
     if (verdict == Verdict::kRefused) return;
     const bool hits = meets_wall(field, way, step, result);
     bool flies = false;
@@ -305,14 +314,6 @@ class Stepper {
     }
     ++way.counters.samples;
     return start;
-  }
-
-  [[nodiscard]] bool is_too_long(const Start& start, const Drive& drive, double h) const {
-    if constexpr (F::central) {
-      if (SubStepRules::swings_too_far(central_pull(start.at.position, parameters_), h)) return true;
-    }
-    if (kTurns && drive.turns && heading_turns_too_far(start.at.velocity, start.acceleration, h)) return true;
-    return rules_.too_long(start.sample, start.speed2, h);
   }
 
   /// Whether a louse with that drive keeps its energy.

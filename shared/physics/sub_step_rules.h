@@ -13,6 +13,9 @@
 // |v|)^4, which may be kAstray; a thrust that changes with every tick then costs a few sub-steps and not a
 // dozen.
 //
+// A map with a tolerance has its steps halved besides until three times what they err (astray(), nystrom.h)
+// is at most tolerance times h.
+//
 // The comparisons are between squares and higher powers: no roots. T is double, or several at once.
 #pragma once
 
@@ -42,7 +45,8 @@ class SubStepRules {
         inverse_way2_(1.0 / (way * way)),
         swing_factor_(p.gravity * p.gravity / (kSwing * kSwing * kSwing * kSwing)),
         grip_(p.friction * p.gravity),
-        astray_factor_(grip_ / kAstray) {}
+        astray_factor_(grip_ / kAstray),
+        tolerance_(p.tolerance) {}
 
   /// No sub-step is halved further [s].
   [[nodiscard, gnu::always_inline]] inline double shortest() const { return shortest_; }
@@ -107,7 +111,40 @@ class SubStepRules {
     return squared(T(0.5 * kTurn) * (T(grip_) + core::select(along < T(0.0), -along, T(0.0))));
   }
 
+  /// Whether the map bears only so much of error.
+  [[nodiscard, gnu::always_inline]] inline bool has_tolerance() const { return tolerance_ > 0.0; }
+
+  /// Whether the map bears what a step over h errs, or none shorter may be tried. error: astray() [m].
+  template <typename T>
+  [[gnu::always_inline, nodiscard]] inline auto bears(T error, T h) const {
+    return (T(kSafety) * error <= T(tolerance_) * h) | (h <= T(kShortestErring * shortest_));
+  }
+
+  /// How long the next step of a tick may be, once one was refused for its error: halves or doubles of h, of
+  /// which order 4 lets expect that they are borne; at most `tick` [s].
+  [[nodiscard]] double borne_length(double error, double h, double tick) const {
+    constexpr double kFifth = 32.0;  // by which a step's error shrinks with half of it
+    if (bears(error, h)) {
+      while (2.0 * h <= tick && bears(kDoubt * kFifth * error, 2.0 * h)) {
+        h *= 2.0;
+        error *= kFifth;
+      }
+    } else {
+      do {
+        h *= 0.5;
+        error *= 1.0 / kFifth;
+      } while (!bears(error, h));
+    }
+    return h;
+  }
+
  private:
+  /// What astray() may leave out, and how much of it a longer step is trusted with.
+  static constexpr double kSafety = 3.0;
+  static constexpr double kDoubt = 2.0;
+  /// Steps are shortened for their error to twice the shortest: so those that were refused find room too
+  /// among the sub-steps of a tick.
+  static constexpr double kShortestErring = 2.0;
   static constexpr double kBend = 0.15;
   static constexpr double kSwing = 0.20;
   static constexpr double kDecay = 0.25;
@@ -123,6 +160,7 @@ class SubStepRules {
   double swing_factor_;
   double grip_;  ///< what friction can hold on the level [m/s^2]
   double astray_factor_;
+  double tolerance_;  ///< [m/s of play]
 };
 
 }  // namespace woodlouse::physics

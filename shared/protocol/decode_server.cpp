@@ -121,6 +121,7 @@ Decoded read_welcome(FieldReader& reader, const Context&) {
     constexpr Presence kNewer = Presence::kOptional;
     physics.number("central_gravity", welcome.physics.central_gravity, kNewer);
     physics.number("core_radius", welcome.physics.core_radius, kNewer);
+    physics.number("tolerance", welcome.physics.tolerance, kNewer);
     physics.choice("equations", welcome.physics.equations, "exact, local_plane or as_printed",
                    state::equations_from_text, kNewer);
     physics.choice("method", welcome.physics.method, "standard, cheap, precise or false_euler",

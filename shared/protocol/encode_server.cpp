@@ -44,6 +44,7 @@ void append_line(std::string& out, const Welcome& welcome) {
     physics.number("edge_restitution", welcome.physics.edge_restitution);
     physics.number("central_gravity", welcome.physics.central_gravity);
     physics.number("core_radius", welcome.physics.core_radius);
+    physics.number("tolerance", welcome.physics.tolerance);
     physics.text("equations", state::to_text(welcome.physics.equations));
     physics.text("method", state::to_text(welcome.physics.method));
     physics.text("contact", state::to_text(welcome.physics.contact));

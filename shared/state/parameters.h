@@ -96,6 +96,9 @@ struct Parameters {
   /// Within it the pull is smooth and ends at the origin (physics/central_gravity.h) [m]. REQUIRED > 0 where
   /// there is central gravity; counts nowhere else.
   double core_radius = 0.0;
+  /// How far astray its steps may lead a louse [m/s of play], >= 0: they are shortened until they bear it, in
+  /// a tick down to a 128th (physics/sub_step_rules.h). 0: no step asks, and it costs nothing.
+  double tolerance = 0.0;
   Edges edges = Edges::kWalls;
   SurfaceContact contact = SurfaceContact::kBilateral;
   Equations equations = Equations::kExact;

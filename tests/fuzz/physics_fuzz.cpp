@@ -38,13 +38,15 @@ constexpr std::uint64_t kMaxPieces = static_cast<std::uint64_t>(physics::kMaxSub
 
 /// Likewise of looks: each piece's start and step; what ends in an event (at most 64 do) repeats its step to
 /// find a wall (60 times) and the moment of a take-off (51). The air has no samples.
-constexpr std::uint64_t most_samples(state::Method method) {
+constexpr std::uint64_t most_samples(const state::Parameters& parameters) {
+  const state::Method method = parameters.method;
   const auto step =
       static_cast<std::uint64_t>(method == state::Method::kCheap     ? physics::VerletQ::kSamples
                                  : method == state::Method::kPrecise ? physics::Precise::kSamples
                                                                      : physics::Nystrom4::kSamples);
   constexpr std::uint64_t kMaxEvents = 64, kWallSearch = 60, kTakeOffSearch = 51;
-  return kMaxPieces * (1 + step) + kMaxEvents * (kWallSearch + kTakeOffSearch) * step;
+  const std::uint64_t asked = parameters.tolerance > 0.0 ? physics::kLobattoSamples : 0;
+  return kMaxPieces * (1 + step + asked) + kMaxEvents * (kWallSearch + kTakeOffSearch) * step;
 }
 
 bool same_bytes(const state::Louse& a, const state::Louse& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
@@ -196,7 +198,7 @@ class Table {
     const std::uint64_t pieces = alone_.counters().sub_steps - earlier.sub_steps;
     const std::uint64_t samples = alone_.counters().samples - earlier.samples;
     if (pieces > kMaxPieces) demand(false, "a tick's pieces are few", count_text(pieces, before, after));
-    if (samples > most_samples(parameters().method))
+    if (samples > most_samples(parameters()))
       demand(false, "a tick's samples are few", count_text(samples, before, after));
   }
 

@@ -3,9 +3,9 @@
 //
 // The bytes' order; physics_seeds.py writes the same:
 // - terrain (%5: GameGround), method (%3: standard, cheap, precise), bits (1 unilateral, 2 wrap, 4 central
-//   gravity, 8 the default core, 16 open edges), ticks a second less 1 (a pair, %1000)
+//   gravity, 8 the default core, 16 open edges, 32 a tolerance), ticks a second less 1 (a pair, %1000)
 // - gravity, drag, friction, thrust_max (numbers), edge_restitution (a byte of 255), central_gravity,
-//   core_radius (numbers)
+//   core_radius (numbers); with a tolerance that (number, of 1)
 // - of a function: which (%5), grid less 2 (%4), scale (number)
 // - of heights: columns less 4 (%9), rows less 4 (%9), dx, dy (numbers; 0: dx), steepness (halvings, %32), a
 //   signed byte a height; a plane has two, its slopes
@@ -205,6 +205,7 @@ inline std::string read_map(Bytes& bytes, double& step) {
   const double core = bytes.number(1e-3, 1e6);
   if (central) add("central_gravity", pull);
   if (central && pull > 0.0 && (bits & 8u) == 0) add("core_radius", core);
+  if ((bits & 32u) != 0) add("tolerance", bytes.number(0.0, 1.0));
 
   const bool is_function = ground == GameGround::kFunction || ground == GameGround::kFunctionSpline;
   const std::string terrain = is_function ? read_function(bytes, wraps) : read_heights(bytes, ground, wraps);

@@ -10,7 +10,7 @@ import random
 
 FUNCTION, FUNCTION_SPLINE, SPLINE, NATURAL_SPLINE, PLANE = range(5)
 STANDARD, CHEAP, PRECISE = range(3)
-UNILATERAL, WRAP, CENTRAL, DEFAULT_CORE, OPEN = 1, 2, 4, 8, 16
+UNILATERAL, WRAP, CENTRAL, DEFAULT_CORE, OPEN, TOLERANCE = 1, 2, 4, 8, 16, 32
 WAVES, PARABOLIC_POT, WAVY_POT, VOLCANO, HILLS = range(5)
 HELD = 255
 
@@ -30,12 +30,14 @@ def signed(value):
 
 
 def map_of(ground, method=STANDARD, bits=0, hz=60, gravity=9.81, drag=0.0, friction=0.0, thrust_max=4.0,
-           restitution=0.5, pull=0.0, core=0.0, function=WAVES, grid=2, scale=20.0, columns=4, rows=4, dx=2.0,
+           restitution=0.5, pull=0.0, core=0.0, tolerance=0.0, function=WAVES, grid=2, scale=20.0, columns=4, rows=4, dx=2.0,
            dy=0.0, steepness=6, heights=()):
     """The map. A height of 128 is 50 times dx, or dy where that is less, halved `steepness` times."""
     out = bytes((ground, method, bits)) + (hz - 1).to_bytes(2, "little")
     out += b"".join(map(number, (gravity, drag, friction, thrust_max))) + bytes((round(255 * restitution),))
     out += number(pull) + number(core)
+    if bits & TOLERANCE:
+        out += number(tolerance)
     if ground in (FUNCTION, FUNCTION_SPLINE):
         return out + bytes((function, grid - 2)) + number(scale)
     out += bytes((columns - 4, rows - 4)) + number(dx) + number(dy) + bytes((steepness,))
@@ -121,6 +123,10 @@ SEEDS = {
     "open": game(map_of(SPLINE, bits=OPEN, hz=20, friction=0.1, thrust_max=8.0), CROWD, *STEER, ticks=32),
     "open_flight": game(map_of(FUNCTION, CHEAP, OPEN | UNILATERAL, hz=15, function=HILLS), CROWD, *STEER, ticks=32),
     "open_storm": game(map_of(SPLINE, PRECISE, OPEN | UNILATERAL, hz=2, dx=0.05, steepness=2), STORM, ticks=8),
+    "borne": game(map_of(SPLINE, bits=TOLERANCE, hz=15, drag=0.2, friction=0.05, tolerance=1e-4), CROWD, *STEER),
+    "borne_flight": game(map_of(SPLINE, CHEAP, TOLERANCE | UNILATERAL | WRAP, gravity=3.0, tolerance=1e-3), CROWD, *STEER),
+    "borne_storm": game(map_of(SPLINE, PRECISE, TOLERANCE | OPEN, hz=2, dx=0.05, steepness=2, tolerance=1e-6), STORM,
+                        ticks=6),
     "thrown_storm": game(map_of(SPLINE, PRECISE, UNILATERAL, hz=2, restitution=0.99, dx=0.05, steepness=2), STORM,
                          ticks=6),
 }

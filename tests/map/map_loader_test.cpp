@@ -246,6 +246,9 @@ TEST_CASE("contact, method, central gravity and a spawn's speed are read, kept a
   CHECK(read_twice(R"("central_gravity":100)").core_radius == Approx(0.2281).margin(1e-4));
   CHECK(read_twice(R"("central_gravity":100,"core_radius":0.5)").core_radius == 0.5);
   CHECK(read_twice("").core_radius == 0.0);
+  CHECK(read_twice(R"("tolerance":1e-6)").tolerance == 1e-6);
+  CHECK(read_twice(R"("tolerance":-0.0)").tolerance == 0.0);
+  CHECK(read_twice("").tolerance == 0.0);
 
   const auto refusal = [](const std::string& physics, const std::string& spawn = "") {
     const auto refused = map::parse_map(flat_map(physics, spawn), "m", {});
@@ -259,5 +262,8 @@ TEST_CASE("contact, method, central gravity and a spawn's speed are read, kept a
   CHECK(refusal(R"("central_gravity":-1)").find("physics.central_gravity") != std::string::npos);
   CHECK(refusal(R"("central_gravity":1,"core_radius":0)").find("physics.core_radius") != std::string::npos);
   CHECK(refusal(R"("core_radius":1)").find("no central gravity to have a core") != std::string::npos);
+  CHECK(refusal(R"("tolerance":1.5)").find("m:1: physics.tolerance") == 0);
+  CHECK(refusal(R"("tolerance":1e-6,"equations":"local_plane","method":"false_euler")")
+            .find("leave tolerance out") != std::string::npos);
   CHECK(refusal("", R"(,"speed":-1)").find("spawns[0].speed") != std::string::npos);
 }

@@ -205,6 +205,34 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("every instruction set gives the bits of the scalar step where a map bears only so much of error") {
+  constexpr double kMostLeft = 1.0;  // who errs more is left, and so is who turns along
+  for (const double tolerance : {1e-2, 1e-5}) {
+    state::Parameters p;
+    p.tolerance = tolerance;
+    check_on(spline_of(FunctionName::kHills), p, kMostLeft);
+    check_on(terrain::PlaneSurface({-20, -20, 20, 20}, 1.0, {0.12, -0.3}), p, kMostLeft);
+    p.edges = Edges::kWrap;
+    p.contact = SurfaceContact::kUnilateral;
+    check_on(spline_of(FunctionName::kWaves), p, kMostLeft);
+  }
+  state::Parameters p;
+  p.tolerance = 1e-4;
+  p.gravity = 0.0;
+  p.central_gravity = 100.0;
+  p.core_radius = 0.25;
+  check_on(spline_of(FunctionName::kVolcano), p, kMostLeft);
+}
+
+TEST_CASE("the lanes do most of the steps of a map whose tolerance they meet") {
+  state::Parameters p;
+  p.tolerance = 1e-2;
+  for (const InstructionSet set : available_sets()) {
+    INFO(to_text(set));
+    CHECK(check_every_tick(set, spline_of(FunctionName::kHills), p, 240.0, 6.0, 100) < 0.5);
+  }
+}
+
 TEST_CASE("every instruction set gives the bits of the scalar step to few lice, too") {
   for (state::LouseId lice = 1; lice <= kFewLice + 1; ++lice) {
     for (const InstructionSet set : available_sets()) {

@@ -177,4 +177,38 @@ core::Expected<void> measure_local_error(const std::filesystem::path& folder, co
   return output.draw(picture(names, drawn), "lab-local-error", 1300, 1000);
 }
 
+core::Expected<void> measure_tolerance(const std::filesystem::path& folder, const Output& output) {
+  const auto maps = maps_of(folder);
+  if (!maps) return tl::unexpected(maps.error());
+  const bool quick = output.effort() == Effort::kQuick;
+  const std::size_t count = quick ? 4 : 12, ticks = quick ? 40 : 120;
+  constexpr std::array kBorne = {1e-2, 1e-4, 1e-6};
+  constexpr std::array kTicksPerSecond = {15, 60};
+  Table table(
+      {"map", "rate", "tolerance", "ticks", "beyond", "error_median", "error_99_of_100", "error_worst"});
+  Progress progress("tolerances", maps->size() * kTicksPerSecond.size() * kBorne.size());
+  for (const auto& map : *maps) {
+    if (map->definition.physics.equations != state::Equations::kExact) continue;
+    const std::vector<state::Louse> lice = starting_lice(*map, count, 5);
+    for (const int rate : kTicksPerSecond) {
+      for (const double tolerance : kBorne) {
+        LocalErrors all;
+        for (const Play play : kPlays)
+          all.add(local_errors(with_tolerance(*map, tolerance), lice, play, rate, ticks, 1));
+        const double borne = tolerance / rate;  // [m] by a tick
+        const auto beyond =
+            std::count_if(all.truths.begin(), all.truths.end(), [&](double e) { return e > borne; });
+        table.add(
+            {map->definition.name, static_cast<double>(rate), tolerance,
+             static_cast<double>(all.truths.size()),
+             static_cast<double>(beyond) / static_cast<double>(std::max<std::size_t>(1, all.truths.size())),
+             at(all.truths, 0.5) * rate, at(all.truths, 0.99) * rate, at(all.truths, 1.0) * rate});
+        progress.advance();
+      }
+    }
+  }
+  table.print(std::cout);
+  return output.write(table, "lab-tolerance");
+}
+
 }  // namespace woodlouse::lab

@@ -31,4 +31,8 @@ LocalErrors local_errors(const map::Map& map, const std::vector<state::Louse>& l
 /// Writes lab-local-error.csv and draws it.
 core::Expected<void> measure_local_error(const std::filesystem::path& folder, const Output& output);
 
+/// The same maps with tolerances: which ticks err more than they bear, and by how much. Writes
+/// lab-tolerance.csv.
+core::Expected<void> measure_tolerance(const std::filesystem::path& folder, const Output& output);
+
 }  // namespace woodlouse::lab

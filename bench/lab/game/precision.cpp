@@ -31,11 +31,41 @@ struct Size {
   std::size_t lice;
   double seconds;
   std::vector<int> rates;
+  std::vector<double> tolerances;  ///< of the default at its rate [m/s of play]
 };
 
 Size size_of(Effort effort) {
-  if (effort == Effort::kQuick) return {4, 1.2, {15, 60}};
-  return {12, 4.0, {kGameRates.begin(), kGameRates.end()}};
+  if (effort == Effort::kQuick) return {4, 1.2, {15, 60}, {1e-4, 1e-7}};
+  return {12, 4.0, {kGameRates.begin(), kGameRates.end()}, {kTolerances.begin(), kTolerances.end()}};
+}
+
+/// A method at one rate; tolerance: a map's, 0 where steps don't ask.
+struct Run {
+  Integrator integrator;
+  int rate;
+  double tolerance = 0.0;
+  friend auto operator<=>(const Run&, const Run&) = default;
+};
+constexpr int kUsualRate = 60;
+
+/// Of each method and tolerance those of all rates, one after the other.
+std::vector<Run> runs_of(const Size& size) {
+  std::vector<Run> runs;
+  for (const Integrator integrator : kGameMethods) {
+    for (const int rate : size.rates) runs.push_back({integrator, rate});
+  }
+  for (const double tolerance : size.tolerances)
+    runs.push_back({Integrator::kNystrom4, kUsualRate, tolerance});
+  return runs;
+}
+
+/// Of its curve in the picture.
+std::string name_of(const Run& run) {
+  return run.tolerance > 0.0 ? "tolerance" : std::string(to_text(run.integrator));
+}
+
+std::unique_ptr<physics::World> world_of(const map::Map& map, const Run& run) {
+  return world_of(with_tolerance(map, run.tolerance), run.integrator, run.rate);
 }
 
 /// Errors of many lice [m].
@@ -96,16 +126,16 @@ struct Measured {
 };
 
 /// By one method at one rate.
-std::optional<Measured> measure(const map::Map& map, const std::vector<state::Louse>& lice,
-                                Integrator integrator, Play play, int rate, const Size& size,
-                                const Truths& truths) {
-  const auto world = world_of(map, integrator, rate);
+std::optional<Measured> measure(const map::Map& map, const std::vector<state::Louse>& lice, const Run& run,
+                                Play play, const Size& size, const Truths& truths) {
+  const int rate = run.rate;
+  const auto world = world_of(map, run);
   if (world == nullptr) return std::nullopt;
   world->restore(lice);
   const auto ticks = static_cast<std::uint64_t>(std::lround(size.seconds * rate));
   Measured result;
-  if (room_method(integrator)) {
-    const auto scalar = world_of(map, integrator, rate);
+  if (room_method(run.integrator)) {
+    const auto scalar = world_of(map, run);
     scalar->use(physics::InstructionSet::kScalar);
     scalar->restore(lice);
     play_on(*scalar, play, rate, 0, ticks);
@@ -126,25 +156,27 @@ std::optional<Measured> measure(const map::Map& map, const std::vector<state::Lo
 struct Pool {
   Errors vectors, headings;
 };
-using Pools = std::map<std::pair<Integrator, int>, Pool>;
+using Pools = std::map<Run, Pool>;
 
 /// All plays of one map; rows of `table`.
 Pools measure_errors(const map::Map& map, const Size& size, Table& table, Progress& progress,
                      bool& same_bits) {
   Pools pools;
   const std::vector<state::Louse> lice = starting_lice(map, size.lice, 3);
+  const std::vector<Run> runs = runs_of(size);
   for (const Play play : kPlays) {
     std::optional<Truths> shared;
     for (const int rate : size.rates) {
       if (is_of_ticks(play) || !shared) shared = truths(map, lice, play, rate, size.seconds);
-      for (const Integrator integrator : kGameMethods) {
-        const auto one = measure(map, lice, integrator, play, rate, size, *shared);
+      for (const Run& run : runs) {
+        if (run.rate != rate) continue;
+        const auto one = measure(map, lice, run, play, size, *shared);
         if (!one) continue;
         same_bits = same_bits && one->same_bits;
-        table.add({map.definition.name, std::string(to_text(play)), std::string(to_text(integrator)),
-                   static_cast<double>(rate), one->sub_steps, one->errors.at(0.5), one->errors.at(0.9),
-                   one->errors.at(1.0), shared->doubts.at(1.0), shared->unforeseen()});
-        Pool& pool = pools[{integrator, rate}];
+        table.add({map.definition.name, std::string(to_text(play)), std::string(to_text(run.integrator)),
+                   static_cast<double>(rate), run.tolerance, one->sub_steps, one->errors.at(0.5),
+                   one->errors.at(0.9), one->errors.at(1.0), shared->doubts.at(1.0), shared->unforeseen()});
+        Pool& pool = pools[run];
         (is_along_heading(play) ? pool.headings : pool.vectors).add(one->errors);
       }
     }
@@ -160,30 +192,27 @@ struct Times {
 
 /// 32 lice that are pushed over a vector, 0.4 s of it again and again. Five rounds: their medians are for
 /// axes of decades.
-std::map<std::pair<Integrator, int>, Times> measure_times(const map::Map& map, const Size& size) {
+std::map<Run, Times> measure_times(const map::Map& map, const Size& size) {
   constexpr std::size_t kLice = 32;
   constexpr double kSeconds = 0.4;
   const std::vector<state::Louse> lice = starting_lice(map, kLice, 4);
   std::vector<Contestant> contestants;
-  std::vector<std::pair<std::pair<Integrator, int>, bool>> names;
-  for (const Integrator integrator : kGameMethods) {
-    for (const int rate : size.rates) {
-      for (const bool in_lanes : {true, false}) {
-        const std::shared_ptr<physics::World> world = world_of(map, integrator, rate);
-        if (world == nullptr) continue;
-        if (!in_lanes) world->use(physics::InstructionSet::kScalar);
-        const auto run = [world, &lice, rate] {
-          world->restore(lice);
-          play_on(*world, Play::kHeldVector, rate, 0,
-                  static_cast<std::uint64_t>(std::lround(kSeconds * rate)));
-        };
-        contestants.push_back({"", run, kLice * kSeconds});
-        names.push_back({{integrator, rate}, in_lanes});
-      }
+  std::vector<std::pair<Run, bool>> names;
+  for (const Run& run : runs_of(size)) {
+    for (const bool in_lanes : {true, false}) {
+      const std::shared_ptr<physics::World> world = world_of(map, run);
+      if (world == nullptr) continue;
+      if (!in_lanes) world->use(physics::InstructionSet::kScalar);
+      const auto play = [world, &lice, rate = run.rate] {
+        world->restore(lice);
+        play_on(*world, Play::kHeldVector, rate, 0, static_cast<std::uint64_t>(std::lround(kSeconds * rate)));
+      };
+      contestants.push_back({"", play, kLice * kSeconds});
+      names.push_back({run, in_lanes});
     }
   }
   const std::vector<Timing> timings = race(contestants, Effort::kQuick, "times on " + map.definition.name);
-  std::map<std::pair<Integrator, int>, Times> times;
+  std::map<Run, Times> times;
   for (std::size_t i = 0; i < names.size(); ++i) {
     Times& t = times[names[i].first];
     (names[i].second ? t.lanes : t.plain) = timings[i].median_ns;
@@ -197,9 +226,9 @@ core::Expected<void> measure_game_precision(const std::filesystem::path& folder,
   const auto maps = maps_of(folder);
   if (!maps) return tl::unexpected(maps.error());
   const Size size = size_of(output.effort());
-  Table table({"map", "play", "integrator", "rate", "sub_steps", "error_median", "error_9_of_10",
+  Table table({"map", "play", "integrator", "rate", "tolerance", "sub_steps", "error_median", "error_9_of_10",
                "error_worst", "doubt_worst", "unforeseen"});
-  Table work({"map", "integrator", "rate", "ns_per_second", "ns_plain_doubles", "vectors_median",
+  Table work({"map", "integrator", "rate", "tolerance", "ns_per_second", "ns_plain_doubles", "vectors_median",
               "vectors_9_of_10", "headings_median", "headings_9_of_10"});
   std::vector<GamePanel> panels;
   bool same_bits = true;
@@ -209,18 +238,19 @@ core::Expected<void> measure_game_precision(const std::filesystem::path& folder,
     const Pools pools = measure_errors(*map, size, table, progress, same_bits);
     const auto times = measure_times(*map, size);
     GamePanel panel{map->definition.name, {}};
-    for (const Integrator integrator : kGameMethods) {
-      GameCurve curve{std::string(to_text(integrator)), {}};
-      for (const int rate : size.rates) {
-        const auto pool = pools.find({integrator, rate});
-        if (pool == pools.end()) continue;
-        const auto& [vectors, headings] = pool->second;
-        const Times& t = times.at({integrator, rate});
-        work.add({map->definition.name, curve.name, static_cast<double>(rate), t.lanes, t.plain,
-                  vectors.at(0.5), vectors.at(0.9), headings.at(0.5), headings.at(0.9)});
-        curve.points.push_back({t.lanes, vectors.at(0.5), integrator == Integrator::kNystrom4 && rate == 60});
-      }
-      panel.curves.push_back(std::move(curve));
+    for (const Run& run : runs_of(size)) {
+      // Those it has no method for too: each curve has its colour by its place.
+      if (panel.curves.empty() || panel.curves.back().name != name_of(run))
+        panel.curves.push_back({name_of(run), {}});
+      const auto pool = pools.find(run);
+      if (pool == pools.end()) continue;
+      const auto& [vectors, headings] = pool->second;
+      const Times& t = times.at(run);
+      work.add({map->definition.name, std::string(to_text(run.integrator)), static_cast<double>(run.rate),
+                run.tolerance, t.lanes, t.plain, vectors.at(0.5), vectors.at(0.9), headings.at(0.5),
+                headings.at(0.9)});
+      const bool is_default = run == Run{Integrator::kNystrom4, kUsualRate};
+      panel.curves.back().points.push_back({t.lanes, vectors.at(0.5), is_default});
     }
     panels.push_back(std::move(panel));
   }

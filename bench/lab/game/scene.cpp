@@ -21,6 +21,13 @@ std::uint64_t ticks_of_part(Play play, int rate) {
 
 }  // namespace
 
+map::Map with_tolerance(const map::Map& map, double tolerance) {
+  assert(tolerance >= 0.0);
+  map::Map result = map;
+  result.definition.physics.tolerance = tolerance;
+  return result;
+}
+
 std::string_view to_text(Play play) {
   constexpr std::array<std::string_view, kPlays.size()> kNames = {"held vector",      "held heading",
                                                                   "pulsed vector",    "pulsed heading",

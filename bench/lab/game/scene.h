@@ -23,6 +23,12 @@ namespace woodlouse::lab {
 /// Ticks a second: every one has a whole number of ticks in 0.4 s.
 inline constexpr std::array kGameRates = {15, 30, 60, 120, 240, 500, 1000};
 
+/// Of maps that bear only so much of error [m/s of play].
+inline constexpr std::array kTolerances = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9};
+
+/// The map with that tolerance.
+map::Map with_tolerance(const map::Map& map, double tolerance);
+
 /// How a louse is steered.
 enum class Play {
   kHeldVector,     ///< over a direction of the map, all the time

@@ -292,7 +292,7 @@ class TheMap(unittest.TestCase):
 
     def test_what_the_welcome_says_of_the_physics_holds_whatever_the_map_says(self):
         told = dict(self.OF_TODAY, equations="local_plane", method="false_euler", contact="unilateral", edges="wrap",
-                    central_gravity=3, core_radius=0.5)
+                    central_gravity=3, core_radius=0.5, tolerance=1e-6)
         game = self.joined(told, definition={"name": "a", "terrain": self.TERRAIN})
         self.assertEqual(game.physics, told)
         self.assertTrue(game.map().wraps)
@@ -300,16 +300,16 @@ class TheMap(unittest.TestCase):
     def test_what_the_welcome_leaves_out_comes_from_the_maps_definition(self):
         definition = {"name": "a", "terrain": self.TERRAIN, "edges": "wrap",
                       "physics": {"gravity": 1, "method": "cheap", "contact": "unilateral", "central_gravity": 7,
-                                  "core_radius": 2}}
+                                  "core_radius": 2, "tolerance": 1e-4}}
         game = self.joined(self.OF_TODAY, definition=definition)
         self.assertEqual(game.physics, dict(self.OF_TODAY, equations="exact", method="cheap", contact="unilateral",
-                                            edges="wrap", central_gravity=7, core_radius=2))
+                                            edges="wrap", central_gravity=7, core_radius=2, tolerance=1e-4))
         self.assertEqual(game.welcome["physics"], self.OF_TODAY)
 
     def test_what_neither_says_is_the_formats_default(self):
         game = self.joined(self.OF_TODAY, definition={"name": "a", "terrain": self.TERRAIN})
         self.assertEqual(game.physics, dict(self.OF_TODAY, equations="exact", method="standard", contact="bilateral",
-                                            edges="walls", central_gravity=0, core_radius=0))
+                                            edges="walls", central_gravity=0, core_radius=0, tolerance=0))
         self.assertFalse(game.map().wraps)
 
     def test_a_core_that_nobody_names_is_as_large_as_a_room_of_15_ticks_a_second_resolves(self):

@@ -41,7 +41,8 @@ class LaneStepper {
         ground_(context),
         keeps_energy_(kMayKeepEnergy && conserves_energy(context.parameters)),
         has_walls_(context.parameters.edges == state::Edges::kWalls),
-        unilateral_(kCurved && context.parameters.contact == state::SurfaceContact::kUnilateral) {}
+        unilateral_(kCurved && context.parameters.contact == state::SurfaceContact::kUnilateral),
+        samples_(kSamples + (context.rules.has_tolerance() ? kLobattoSamples : 0)) {}
 
   /// See BatchStep.
   void advance(state::Louse* lice, std::span<const std::uint32_t> moving, BatchLists& lists,
@@ -116,7 +117,7 @@ class LaneStepper {
       }
       step_block(batches);
       counters.sub_steps += size;
-      counters.samples += kSamples * size;
+      counters.samples += samples_ * size;
       for (std::size_t b = 0; b < batches; ++b) {
         const Batch& batch = batches_[b];
         for (unsigned open = batch.active & (batch.special | ~batch.finished); open != 0; open &= open - 1) {
@@ -126,7 +127,7 @@ class LaneStepper {
             const bool leans = has_walls_ && !at_wall_ && (batch.at_rim >> l & 1u) != 0;
             (leans ? lists.at_wall : lists.left).push_back(tick);
             --counters.sub_steps;
-            counters.samples -= kSamples;
+            counters.samples -= samples_;
           } else {
             auto& list = tick.pieces + 1 < kMaxPieces ? lists.again : lists.left;  // out of sub-steps
             list.push_back({tick.index, tick.pieces + 1, batch.after[l]});
@@ -174,6 +175,9 @@ class LaneStepper {
       accelerate(batch, batch.a4);
       arrive(batch);
     });
+    if (context_.rules.has_tolerance()) {
+      for (std::size_t b = 0; b < batches; ++b) check_error(batches_[b]);
+    }
     if constexpr (kMayKeepEnergy) {
       if (brings_to_energy()) {
         all(sample);
@@ -262,6 +266,22 @@ class LaneStepper {
     }
   }
 
+  /// Whose step errs more than the map bears, and who turns along, whose heading on the way is not known
+  /// here.
+  [[gnu::noinline]] void check_error(Batch& batch) const {
+    const auto accelerate = [&](double, const BasicMotion<L>& at) __attribute__((always_inline)) {
+      batch.move_to(ground_, context_.parameters, at.position);
+      const auto s = ground_.sample(batch.place);
+      return at_wall_
+                 ? accelerate_at_wall<F>(s, at.velocity, batch.drive.force, batch.walls, context_.parameters)
+                 : acceleration<F>(s, at.velocity, batch.drive.force, context_.parameters);
+    };
+    const L error = astray(batch.start, batch.a1, batch.end, batch.h, accelerate);
+    batch.special |= (~context_.rules.bears(error, batch.h)).lanes();
+    if constexpr (F::thrust) batch.special |= batch.drive.turning;
+    batch.move_to(ground_, context_.parameters, batch.end.position);
+  }
+
   /// Whom the ground no longer carries at the step's end.
   [[gnu::always_inline]] inline void hold_down(Batch& batch) const {
     const LaneWalls<L>* walls = at_wall_ ? &batch.walls : nullptr;
@@ -314,6 +334,7 @@ class LaneStepper {
   bool keeps_energy_;
   bool has_walls_;
   bool unilateral_;
+  std::size_t samples_;   ///< of a sub-step
   bool at_wall_ = false;  ///< those that slide along a wall are stepped
   Batch batches_[kBatches];
 };
