@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "shared/core/joined.h"
-#include "shared/map/map_world.h"
+#include "shared/match/found_lice.h"
 #include "shared/match/step_error.h"
 #include "shared/match/twin.h"
 #include "shared/protocol/text_cleaning.h"
@@ -23,25 +23,12 @@ constexpr std::size_t kMostNameBytes = 200;  // of one that came in a file
 /// A recording's ticks, observed.
 struct Observers {
   Observers(const map::Map& map, double tick, state::Mode mode)
-      : told(map::make_world(map, tick, mode)), error(map, tick, mode), twin(map, tick, mode) {}
+      : found(map, tick, mode), error(map, tick, mode), twin(map, tick, mode) {}
 
-  physics::World told;  ///< the lice as a step finds them
+  match::FoundLice found;
   match::StepError error;
   match::Twin twin;
 };
-
-/// Of the lice before a step, those that it does not put elsewhere first, with its inputs.
-void tell(physics::World& told, std::span<const state::Louse> lice, const match::StepRecord& step) {
-  std::vector<state::Louse> staying;
-  for (const state::Louse& louse : lice) {
-    if (std::none_of(step.roster.begin(), step.roster.end(),
-                     [&](const match::RosterChange& change) { return change.player == louse.id; }))
-      staying.push_back(louse);
-  }
-  told.restore(staying);
-  for (const match::AppliedInput& input : step.inputs)  // of who has no louse any more: nothing
-    told.set_thrust(input.player, {input.kind, input.thrust}, input.ticks);
-}
 
 core::Expected<void> observe(const replay::ReplayArchive& archive, Observers& observers) {
   const auto playback = archive.play(archive.first_tick());
@@ -56,9 +43,9 @@ core::Expected<void> observe(const replay::ReplayArchive& archive, Observers& ob
     if (!(*step)->is_proven())
       return core::fail(archive.source().name,
                         core::joined({"differs at tick ", std::to_string(match.tick())}), "ask verify");
-    tell(observers.told, before, (*step)->recorded.step);
-    observers.error.observe(observers.told.lice(), tick);
-    observers.twin.observe(observers.told.lice(), observers.error.stepped());
+    const std::span<const state::Louse> found = observers.found.find(before, (*step)->recorded.step);
+    observers.error.observe(found, tick);
+    observers.twin.observe(found, observers.error.stepped());
   }
 }
 

@@ -63,10 +63,17 @@ void Twin::observe(std::span<const state::Louse> before, std::span<const state::
   for (const state::Louse& louse : after) {
     Pair& pair = pairs_.at(louse.id);
     pair.game = louse;
-    if (++pair.ticks < window_) continue;
-    divergences_[louse.id].push_back(
-        distance_over_map(louse.position, world_.find(louse.id)->position, domain_, edges_));
+    if (++pair.ticks == window_) divergences_[louse.id].push_back(apart(louse.id)->metres);
   }
+}
+
+std::optional<Twin::Apart> Twin::apart(state::LouseId id) const {
+  const auto pair = pairs_.find(id);
+  if (pair == pairs_.end()) return std::nullopt;
+  const state::Louse* const twin = world_.find(id);
+  assert(twin != nullptr);
+  return Apart{distance_over_map(pair->second.game.position, twin->position, domain_, edges_),
+               pair->second.ticks};
 }
 
 }  // namespace woodlouse::match

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,14 @@ class Twin {
   [[nodiscard]] const std::map<state::LouseId, std::vector<double>>& divergences() const {
     return divergences_;
   }
+
+  /// How far a twin is away after the last step [m], over the map, and in which tick of its window.
+  struct Apart {
+    double metres = 0.0;
+    std::uint64_t ticks = 0;
+  };
+  /// Nothing of who was not among the lice of the last step.
+  [[nodiscard]] std::optional<Apart> apart(state::LouseId id) const;
 
  private:
   struct Pair {
