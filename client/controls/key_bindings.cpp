@@ -75,6 +75,8 @@ std::optional<Action> picture_action(const Key& key, const KeyMap& keys) {
       return Action::kLabels;
     case Control::kTrails:
       return Action::kTrails;
+    case Control::kError:
+      return Action::kError;
     case Control::kZoomIn:
       return Action::kZoomIn;
     case Control::kZoomOut:

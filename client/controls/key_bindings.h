@@ -39,6 +39,7 @@ enum class Action : std::uint8_t {
   kTrails,      ///< P
   kZoomIn,      ///< +
   kZoomOut,     ///< -
+  kError,       ///< E: how far the steps err
   kNextLouse,   ///< N: whom a spectator follows
   kAskQuit,     ///< Q
   kQuitNow,     ///< Ctrl-C
@@ -74,7 +75,7 @@ std::optional<Action> control_action(const Key& key);
 /// Quit's key or Escape: leaves unasked where there is nothing to leave, the connection being lost.
 bool is_leaving(const Key& key, const KeyMap& keys = {});
 
-/// What changes only the picture, in the game as in a recording: V, L, P, + and -, Tab, help.
+/// What changes only the picture, in the game as in a recording: V, L, P, E, + and -, Tab, help.
 std::optional<Action> picture_action(const Key& key, const KeyMap& keys = {});
 
 }  // namespace woodlouse::client

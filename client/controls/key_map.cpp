@@ -11,8 +11,8 @@ namespace woodlouse::client {
 namespace {
 
 constexpr std::array<std::string_view, kControlCount> kControlNames = {
-    "up",     "down", "left", "right",  "brake",  "cruise",  "respawn",  "ghost", "gate",  "chat",
-    "scores", "view", "help", "labels", "trails", "zoom_in", "zoom_out", "next",  "steer", "quit"};
+    "up",   "down", "left",   "right",  "brake",   "cruise",   "respawn", "ghost", "gate",  "chat", "scores",
+    "view", "help", "labels", "trails", "zoom_in", "zoom_out", "next",    "steer", "error", "quit"};
 
 struct NamedKey {
   std::string_view name;   ///< in the config file
@@ -98,6 +98,7 @@ KeyMap::KeyMap() {
   give(Control::kZoomOut, U"-_", {});
   give(Control::kNext, U"n", {});
   give(Control::kSteer, U"c", {});
+  give(Control::kError, U"e", {});
   give(Control::kQuit, U"q", {});
 }
 
@@ -168,7 +169,8 @@ KeyLabels KeyMap::labels() const {
   labels.help = label(Control::kHelp, 0), labels.labels = label(Control::kLabels, 0);
   labels.trails = label(Control::kTrails, 0), labels.zoom_in = label(Control::kZoomIn, 0);
   labels.zoom_out = label(Control::kZoomOut, 0), labels.next = label(Control::kNext, 0);
-  labels.steer = label(Control::kSteer, 0), labels.quit = label(Control::kQuit, 0);
+  labels.steer = label(Control::kSteer, 0), labels.error = label(Control::kError, 0);
+  labels.quit = label(Control::kQuit, 0);
   return labels;
 }
 

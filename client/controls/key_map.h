@@ -35,9 +35,10 @@ enum class Control : std::uint8_t {
   kZoomOut,
   kNext,
   kSteer,
+  kError,
   kQuit,
 };
-inline constexpr std::size_t kControlCount = 20;
+inline constexpr std::size_t kControlCount = 21;
 
 /// A key by what it types, small letters, or by its name.
 struct BoundKey {

@@ -105,6 +105,25 @@ void draw_you(const Scene& scene, const Styles& styles, PanelWriter& out) {
   out.line(formatted("height %5.1f m", std::abs(hud.height) < 0.05 ? 0.0 : hud.height), styles.text);
 }
 
+/// How far the steps of the louse above err (match/error_reading.h).
+void draw_error(const HudNumbers& hud, const Styles& styles, PanelWriter& out) {
+  if (!hud.error) {
+    for (const char* unknown : {"error    -- m/s", "worst    -- m", "twin     -- m"})
+      out.line(unknown, styles.dim);
+    return;
+  }
+  const match::ErrorReading& error = *hud.error;
+  const auto tick = static_cast<unsigned long long>(error.worst_tick);
+  out.line(formatted("error %7.1e m/s", error.of_play), styles.text);
+  out.line(fitting(out.width(), {formatted("worst %7.1e m at tick %llu", error.worst, tick),
+                                 formatted("worst %7.1e m", error.worst)}),
+           styles.text);
+  const std::string twin = formatted("twin  %7.1e m", error.apart);
+  out.line(fitting(out.width(), {twin + formatted(" after %.0f s", error.apart_seconds),
+                                 twin + formatted(" %.0f s", error.apart_seconds)}),
+           styles.text);
+}
+
 void draw_room(const Scene& scene, const Styles& styles, PanelWriter& out) {
   out.line(formatted("lice   %d", scene.hud.players), styles.text);
   out.line(formatted("bots   %d", scene.hud.bots), styles.text);
@@ -288,7 +307,8 @@ void draw_panel(const Scene& scene, const Badges& badges, const Viewport& panel,
   const Styles styles = styles_for(scene.look);
   PanelWriter out(panel, scene.look, styles, cells);
   const bool shows_room = scene.spectating && !scene.replay;
-  const int you_rows = shows_room ? 3 : 5;
+  const bool shows_error = scene.hud.asks_error && !shows_room;
+  const int you_rows = shows_room ? 3 : shows_error ? 8 : 5;
   constexpr int kFrames = 4;  // three titles and the foot
   constexpr int kLeastChat = 3;
   const int watchers_rows = scene.hud.spectators > 0 && !scene.spectating ? 1 : 0;
@@ -301,6 +321,7 @@ void draw_panel(const Scene& scene, const Badges& badges, const Viewport& panel,
   if (watchers_rows > 0) out.line(formatted("%3d watching", scene.hud.spectators), styles.dim);
   out.title(shows_room ? "THE ROOM" : scene.replay ? followed_text(scene, badges) : "YOU");
   shows_room ? draw_room(scene, styles, out) : draw_you(scene, styles, out);
+  if (shows_error) draw_error(scene.hud, styles, out);
   draw_ahead(scene, styles, panel.size.rows - out.rows_used() - kLeastChat - 2, out);
   out.title(scene.replay ? "CHAT" : "CHAT  (" + scene.keys.chat + " to talk)");
   draw_chat(scene, styles, out, panel.size.rows - out.rows_used() - 1);

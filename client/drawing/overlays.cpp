@@ -80,6 +80,7 @@ std::vector<HelpLine> game_help(const Scene& scene) {
   lines.push_back({"", keys.labels + " labels  " + keys.trails + " trails  " +
                            (keys.scores == "TAB" ? "Tab" : keys.scores) + " scores" +
                            (scene.spectating ? "" : "  " + keys.ghost + " ghosts  " + keys.gate + " gate")});
+  if (!scene.spectating) lines.push_back({"", keys.error + " how far steps err, a twin at half the step"});
   lines.push_back({"TALK", keys.chat + " chat  Enter sends  Esc cancels  /skip next game"});
   lines.push_back({"QUIT", keys.quit + " (asks)   Ctrl-C (now; restores the terminal)"});
   lines.push_back({"MAP", "Close lines are steep. You roll downhill for free,"});
@@ -99,7 +100,7 @@ std::vector<HelpLine> replay_help() {
           {"", "           o began again, ! chat"},
           {"SEE", "F Shift-F  follow the next, the previous louse"},
           {"", "V view: map / oblique / follow / slope  +/- zoom"},
-          {"", "L labels   P trails   Tab scoreboard"},
+          {"", "L labels   P trails   Tab scoreboard   E error"},
           {"QUIT", "Q          Ctrl-C (restores the terminal, too)"},
           {"PROOF", "state ok: the ticks that were re-run here, all of"},
           {"", "them with the very hash that was recorded."}};

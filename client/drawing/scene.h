@@ -13,6 +13,7 @@
 #include "client/drawing/course/course.h"
 #include "client/drawing/key_labels.h"
 #include "shared/core/vec2.h"
+#include "shared/match/error_reading.h"
 #include "shared/physics/attitude.h"
 #include "shared/state/parameters.h"
 #include "shared/terrain/terrain.h"
@@ -86,6 +87,8 @@ struct HudNumbers {
   int bots = 0;     ///< of these
   int rank = 0;     ///< 1 = first; 0: none
   int spectators = 0;
+  bool asks_error = false;                     ///< how far the steps err is shown
+  std::optional<match::ErrorReading> error{};  ///< of the louse of these numbers; empty: not known yet
 };
 
 /// A line of the scoreboard, best first.

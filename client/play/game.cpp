@@ -8,6 +8,8 @@
 
 #include "client/drawing/layout.h"
 #include "client/play/outlook.h"
+#include "client/play/own_error.h"
+#include "client/play/spoken_words.h"
 
 namespace woodlouse::client {
 namespace {
@@ -106,6 +108,8 @@ void Game::perform(Action action) {
       pilot != nullptr && drive(action, handling(), pilot->steering(), now))
     return;
   if (action == Action::kSteer && session_.room().pilot() == nullptr) return;  // who watches steers nothing
+  if (action == Action::kError && !has_error(session_.room()))
+    return session_.room().notice(words::no_error(session_.room()), now);
   if (interface_.apply(action)) {
     if (action != Action::kSteer) return;
     if (Pilot* pilot = session_.room().pilot())
@@ -157,8 +161,11 @@ Scene Game::scene(core::Time now, double fps) {
   check_server(now);
   if (std::exchange(rung_, session_.room().bells()) != session_.room().bells() && settings_.bell)
     screen_.ring();
+  const auto error = own_error(session_.room(), interface_.error);
   Scene scene =
       build_scene(session_, interface_, chat_, {settings_.look, fps, bindings_.release_seen(), now});
+  scene.hud.asks_error = interface_.error && has_error(session_.room());
+  scene.hud.error = error;
   scene.keys = bindings_.keys().labels();
   scene.keys.compass = interface_.steer == SteerBy::kCompass;
   scene.keys.pulse_seconds = std::chrono::duration<double>(repeat_delay_.pulse()).count();

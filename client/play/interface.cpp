@@ -65,6 +65,9 @@ bool Interface::apply(Action action) {
     case Action::kTrails:
       trails = after(trails);
       return true;
+    case Action::kError:
+      error = !error;
+      return true;
     case Action::kSteer:
       steer = steer == SteerBy::kHeading ? SteerBy::kCompass : SteerBy::kHeading;
       return true;

@@ -21,6 +21,7 @@ struct Interface {
   SteerBy steer = SteerBy::kHeading;
   bool labels = true;
   TrailLength trails = TrailLength::kLong;
+  bool error = false;           ///< how far the steps err is asked for
   std::uint32_t follow_id = 0;  ///< whom a spectator follows; 0: the leader
 
   static constexpr double kNearest = 4.0;

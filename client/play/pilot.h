@@ -74,6 +74,9 @@ class Pilot {
     return std::max(0.0, ahead_ - static_cast<double>(*log_.begun()));
   }
 
+  /// Null where nothing is predicted.
+  [[nodiscard]] Prediction* prediction() { return prediction_ ? &*prediction_ : nullptr; }
+  [[nodiscard]] bool predicts() const { return prediction_.has_value(); }
   Steering& steering() { return steering_; }
   [[nodiscard]] const Steering& steering() const { return steering_; }
   [[nodiscard]] std::uint32_t id() const { return id_; }

@@ -9,6 +9,7 @@
 namespace woodlouse::client {
 Prediction::Prediction(const map::Map& map, std::uint32_t tick_hz, state::Mode mode)
     : ways_(map.terrain->domain(), map.definition.physics.edges),
+      mode_(mode),
       world_(map::make_world(map, 1.0 / tick_hz, mode)) {}
 
 void Prediction::sent(std::uint32_t seq, std::uint64_t tick, const ThrustOrder& order) {
@@ -18,6 +19,8 @@ void Prediction::sent(std::uint32_t seq, std::uint64_t tick, const ThrustOrder& 
 }
 
 void Prediction::acknowledge(const protocol::Ack& ack) {
+  // Pictures are rarer than acks: what it would have been is what is put right, and each tick is measured.
+  if (ack.you && ack.you->tick > tick_) advance(ack.you->tick);
   while (!pending_.empty() && pending_.front().seq <= ack.seq) pending_.pop_front();
   if (!ack.you) return;
   const bool was_known = louse() != nullptr;
@@ -53,6 +56,7 @@ void Prediction::step() {
   for (const Pending& input : pending_) {
     if (input.tick == tick_) world_.set_thrust(*id_, input.order.thrust, input.order.ticks);
   }
+  if (error_) error_->find(*louse(), tick_);
   world_.step();
   ++tick_;
   history_.push_back({tick_, louse()->position});
@@ -66,6 +70,7 @@ void Prediction::forget() {
   pending_.clear();
   history_.clear();
   correction_ = {};
+  if (error_) error_->forget_waiting();
 }
 
 const state::Louse* Prediction::louse() const { return id_ ? world_.find(*id_) : nullptr; }

@@ -7,11 +7,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "client/controls/steering.h"
 #include "client/play/shortest_way.h"
 #include "shared/map/map_definition.h"
+#include "shared/match/live_error.h"
 #include "shared/physics/world.h"
 #include "shared/protocol/messages.h"
 
@@ -33,6 +36,9 @@ class Prediction {
   void acknowledge(const protocol::Ack& ack);
   /// Runs on to the state before step `tick`; never back.
   void advance(std::uint64_t tick);
+  /// From now on `error` is shown each tick before it is stepped, again where it is run again; null: nobody.
+  void measure(std::shared_ptr<match::LiveError> error) { error_ = std::move(error); }
+  [[nodiscard]] match::LiveError* error() const { return error_.get(); }
   /// Forgets the louse and all inputs: a respawn, a new session. The next ack begins anew.
   void forget();
 
@@ -40,6 +46,7 @@ class Prediction {
   [[nodiscard]] const state::Louse* louse() const;
   [[nodiscard]] std::uint64_t tick() const { return tick_; }
   [[nodiscard]] std::size_t pending() const { return pending_.size(); }
+  [[nodiscard]] state::Mode mode() const { return mode_; }
   [[nodiscard]] double step_seconds() const { return world_.step_seconds(); }
   /// Where it was, or was last believed to be, before step `tick`; nothing when that is forgotten.
   [[nodiscard]] std::optional<core::Vec2> position_at(std::uint64_t tick) const;
@@ -61,12 +68,14 @@ class Prediction {
   void step();
 
   Ways ways_;
+  state::Mode mode_;
   physics::World world_;
   std::optional<state::LouseId> id_;
   std::uint64_t tick_ = 0;
   std::deque<Pending> pending_;
   std::deque<Past> history_;  ///< ascending, without holes
   core::Vec2 correction_;
+  std::shared_ptr<match::LiveError> error_;  ///< null: nobody asks
 };
 
 }  // namespace woodlouse::client

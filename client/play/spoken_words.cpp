@@ -79,6 +79,21 @@ std::vector<std::string> podium(const RoomView& room) {
   return lines;
 }
 
+std::string error(const match::ErrorReading& reading) {
+  std::array<char, 160> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "error %.1e m/s of play, worst %.1e m at tick %llu; twin at half the step %.1e m away after %.0f s",
+      reading.of_play, reading.worst, static_cast<unsigned long long>(reading.worst_tick), reading.apart,
+      reading.apart_seconds);
+  return text.data();
+}
+
+std::string no_error(const RoomView& room) {
+  return room.pilot() == nullptr ? "how far steps err is told of a louse of one's own"
+                                 : "the ground is not known to the step: how far it errs is not, either";
+}
+
 std::string keys(const KeyLabels& keys, SteerBy steer, bool plays) {
   const auto spoken = [](const std::string& label) {
     return label == "SPC" ? "Space" : label == "TAB" ? "Tab" : label == "?" ? "question mark" : label;
@@ -92,7 +107,8 @@ std::string keys(const KeyLabels& keys, SteerBy steer, bool plays) {
                 " east, " + keys.brake + " brake"
           : keys.up + " push, " + keys.down + " brake, " + keys.left + " and " + keys.right + " turn";
   return "keys: " + driving + ", " + spoken(keys.cruise) + " cruise, " + keys.view + " where downhill is, " +
-         all + keys.steer + " steer another way, " + keys.respawn + " respawn, " + keys.quit + " quit";
+         all + keys.steer + " steer another way, " + keys.error + " how far steps err, " + keys.respawn +
+         " respawn, " + keys.quit + " quit";
 }
 
 std::vector<std::string> room(const RoomView& view) {

@@ -7,6 +7,7 @@
 #include "client/controls/driving.h"
 #include "client/drawing/key_labels.h"
 #include "client/play/room_view.h"
+#include "shared/match/error_reading.h"
 
 namespace woodlouse::client {
 
@@ -21,6 +22,10 @@ std::vector<std::string> goal(const RoomView& room);
 std::vector<std::string> rules(const RoomView& room);
 /// The best three of a round that is over, and what you did; empty while none is.
 std::vector<std::string> podium(const RoomView& room);
+/// How far your louse's steps err.
+std::string error(const match::ErrorReading& reading);
+/// Why that is not known.
+std::string no_error(const RoomView& room);
 /// The keys that there are, for who plays and for who watches.
 std::string keys(const KeyLabels& keys, SteerBy steer, bool plays);
 /// The room, lice by rank: one line each, your own first.

@@ -4,6 +4,7 @@
 #include <utility>
 #include <variant>
 
+#include "client/play/own_error.h"
 #include "client/terminal/terminal_guard.h"
 
 namespace woodlouse::client {
@@ -77,6 +78,7 @@ void TextGame::update() {
   tell_proof();
   teach();
   tell_podium();
+  tell_error(now);
   if (now - state_told_ >= kStateEvery && !is_silence_told_ &&
       session_.connection().phase() == Connection::Phase::kJoined) {
     state_told_ = now;
@@ -160,6 +162,21 @@ void TextGame::tell_podium() {
   for (const std::string& line : words::podium(session_.room())) say(line);
 }
 
+/// While it is asked for.
+void TextGame::tell_error(core::Time now) {
+  const auto reading = own_error(session_.room(), asks_error_);
+  if (!reading || now - error_told_ < kErrorEvery) return;
+  error_told_ = now;
+  say(words::error(*reading));
+}
+
+void TextGame::ask_error(core::Time now) {
+  if (!has_error(session_.room())) return say(words::no_error(session_.room()));
+  asks_error_ = !asks_error_;
+  error_told_ = now;
+  say(asks_error_ ? "how far steps err is told every 10 seconds" : "how far steps err is told no more");
+}
+
 void TextGame::teach() {
   if (!teacher_.observe(session_.room().sight(), steady_clock::now())) return;
   KeyLabels labels = bindings_.keys().labels();
@@ -241,6 +258,9 @@ void TextGame::perform(Action action) {
       break;
     case Action::kView:
       read_ground();
+      break;
+    case Action::kError:
+      ask_error(now);
       break;
     case Action::kHelp:
       tell_keys();

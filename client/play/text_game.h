@@ -44,6 +44,7 @@ class TextGame {
  private:
   static constexpr std::chrono::milliseconds kUpdate{50};
   static constexpr std::chrono::seconds kStateEvery{2};
+  static constexpr std::chrono::seconds kErrorEvery{10};  ///< a window of the twin
 
   void update();
   void on_key(const Key& key);
@@ -55,6 +56,8 @@ class TextGame {
   void tell_connection();
   void tell_silence(core::Time now);
   void tell_proof();
+  void tell_error(core::Time now);
+  void ask_error(core::Time now);
   void teach();
   /// With what is played.
   void tell_keys();
@@ -85,6 +88,8 @@ class TextGame {
   std::optional<std::uint32_t> podium_told_;  ///< of which round
   int losses_told_ = 0;                       ///< of the connection's
   core::Time state_told_{};
+  bool asks_error_ = false;
+  core::Time error_told_{};
   std::vector<std::string> standing_told_;  ///< the last time
   std::optional<Outcome> outcome_;
 };

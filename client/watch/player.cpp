@@ -125,6 +125,7 @@ void Screening::go_to_previous_event() {
 }
 
 void Screening::update(core::Time now) {
+  recording_.measure(interface_.error ? followed(recording_.sight(), interface_.follow_id) : 0);
   clock_.update(now);
   const auto shown = recording_.show(clock_.tick());
   if (shown) return;
@@ -142,6 +143,8 @@ Scene Screening::scene(const FrameFacts& facts) const {
   fill_louse_numbers(recording_.sight(), scene.follow_id, scene);
   if (const state::Louse* louse = recording_.louse(scene.follow_id))
     fill_thrust_numbers(*louse, recording_.archive().header().tick_hz, scene.hud);
+  scene.hud.asks_error = interface_.error;
+  scene.hud.error = recording_.error();
   scene.course =
       course_of({recording_.sight(), scene.follow_id, sample_of(recording_.sight(), scene.follow_id), false,
                  nullptr, scene.hud.rank, up_in_picture(scene.view, scene.look)});

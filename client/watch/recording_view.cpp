@@ -40,22 +40,49 @@ core::Expected<void> RecordingView::show(std::uint64_t tick) {
     trails_.clear();
     done = playback_->seek(tick - std::min(lead_in, tick - archive_->first_tick()));
     extend_trails();
+    error_.reset();
+    if (done) done = run_to(tick);
+    begin_error();
+  } else {
+    done = run_to(tick);
   }
-  if (done) done = run_to(tick);
   take_lice();
   return done;
 }
 
 core::Expected<void> RecordingView::run_to(std::uint64_t tick) {
   while (this->tick() < tick) {
+    const state::Louse* const measured = error_ ? louse(measured_) : nullptr;
+    const auto before = measured != nullptr ? std::optional(*measured) : std::nullopt;
     const auto step = playback_->advance();
     if (!step) return tl::unexpected(step.error());
     if (!*step) return {};
+    if (before) count_error(*before, (*step)->recorded.step);
     proof_.take(**step);
     chat_.add((*step)->chats);
     extend_trails();
   }
   return {};
+}
+
+void RecordingView::measure(std::uint32_t id) {
+  if (id == measured_) return;
+  measured_ = id;
+  begin_error();
+}
+
+void RecordingView::begin_error() {
+  error_.reset();
+  found_.reset();
+  if (measured_ == 0) return;
+  const replay::Header& header = archive_->header();
+  error_ = std::make_unique<match::LiveError>(*archive_->map(), 1.0 / header.tick_hz, header.mode);
+  found_ = std::make_unique<match::FoundLice>(*archive_->map(), 1.0 / header.tick_hz, header.mode);
+}
+
+void RecordingView::count_error(const state::Louse& before, const match::StepRecord& step) {
+  for (const state::Louse& found : found_->find({&before, 1}, step)) error_->find(found, step.tick);
+  error_->count(1);
 }
 
 void RecordingView::prove(core::Time deadline) {

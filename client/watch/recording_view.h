@@ -16,6 +16,8 @@
 #include "client/watch/recording_proof.h"
 #include "shared/core/clock.h"
 #include "shared/core/error.h"
+#include "shared/match/found_lice.h"
+#include "shared/match/live_error.h"
 #include "shared/replay/archive.h"
 #include "shared/replay/playback.h"
 
@@ -34,6 +36,14 @@ class RecordingView {
   /// while every tick is proven, wherever one looks.
   void prove(core::Time deadline);
 
+  /// How far this louse's steps err is counted from here on, over what is played; 0: nobody's is, and nothing
+  /// costs. Another one than before, and a jump (forth by more than kTrailSeconds, or back), begin anew.
+  void measure(std::uint32_t id);
+  /// Nothing before the first tick that is played.
+  [[nodiscard]] std::optional<match::ErrorReading> error() const {
+    return error_ ? error_->reading() : std::nullopt;
+  }
+
   [[nodiscard]] std::uint64_t tick() const { return playback_->tick(); }
   [[nodiscard]] Sight sight() const;
   /// The exact louse; null when it is not there.
@@ -50,6 +60,8 @@ class RecordingView {
                 std::unique_ptr<replay::Playback> playback, std::unique_ptr<replay::Playback> prover);
 
   core::Expected<void> run_to(std::uint64_t tick);
+  void begin_error();
+  void count_error(const state::Louse& before, const match::StepRecord& step);
   void extend_trails();
   void take_lice();
 
@@ -60,6 +72,9 @@ class RecordingView {
   Snapshot shown_;  ///< at tick()
   std::map<std::uint32_t, Present> lice_;
   std::map<std::uint32_t, Trail> trails_;
+  std::uint32_t measured_ = 0;
+  std::unique_ptr<match::LiveError> error_;  ///< null: nobody asks
+  std::unique_ptr<match::FoundLice> found_;  ///< with it
   RecordedChat chat_;
   RecordingProof proof_;
 };

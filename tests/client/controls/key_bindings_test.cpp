@@ -61,6 +61,17 @@ TEST_CASE("a q that is held down does not answer its own question") {
   REQUIRE_FALSE(keys.on_key(letter(U'q', KeyAction::kRepeat), Overlay::kQuitQuestion));
 }
 
+TEST_CASE("E asks how far the steps err, and asks no more") {
+  KeyBindings keys;
+  Interface interface;
+  CHECK_FALSE(interface.error);
+  REQUIRE(keys.on_key(letter(U'e'), Overlay::kNone) == Action::kError);
+  CHECK(interface.apply(Action::kError));
+  CHECK(interface.error);
+  CHECK(interface.apply(Action::kError));
+  CHECK_FALSE(interface.error);
+}
+
 TEST_CASE("any key closes the help, and the louse can be driven under the scoreboard") {
   KeyBindings keys;
   REQUIRE(keys.on_key(letter(U'x'), Overlay::kHelp) == Action::kClose);

@@ -77,6 +77,26 @@ TEST_CASE("the help, the scoreboard and a lost connection are as they were agree
   CHECK(text_of(scene, {80, 24}) == golden("connection_lost_80x24.txt"));
 }
 
+TEST_CASE("how far the steps err stands under your numbers where it is asked for, at any size") {
+  Scene scene = still_life();
+  CHECK(text_of(scene, {80, 24}).find("error") == std::string::npos);
+  scene.hud.asks_error = true;
+  CHECK(text_of(scene, {80, 24}).find("error    -- m/s") != std::string::npos);
+  scene.hud.error = {15.0, 3.12e-6, 2.04e-4, 812, 1.2e-3, 10.0};
+  for (const Size size : {Size{60, 20}, Size{80, 24}, Size{120, 36}}) {
+    const std::string text = text_of(scene, size);
+    CHECK(text.find("error 3.1e-06 m/s") != std::string::npos);
+    CHECK(text.find("worst 2.0e-04 m") != std::string::npos);
+    CHECK(text.find(size.columns < 80 ? "twin  1.2e-03 m 10 s" : "twin  1.2e-03 m after 10 s") !=
+          std::string::npos);
+    CHECK((size.columns < 80) == (text.find("at tick 812") == std::string::npos));
+    CHECK(text.find("CHAT") != std::string::npos);
+    CHECK(text.find("bot gauss joined") != std::string::npos);
+  }
+  scene.spectating = true;  // the room's numbers are no louse's
+  CHECK(text_of(scene, {80, 24}).find("error") == std::string::npos);
+}
+
 TEST_CASE("what is not known of a silent server is not shown, at any size") {
   Scene scene = still_life();
   scene.silence = 2.7;

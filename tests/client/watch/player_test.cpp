@@ -169,6 +169,41 @@ TEST_CASE("f follows the next louse and Shift-F the one before, with its numbers
   CHECK(screening.scene(facts()).follow_id == (leader + 1) % 3 + 1);
 }
 
+TEST_CASE("E counts how far the followed louse's steps err, over what is played, and a jump begins anew") {
+  const auto view = opened(recorded());
+  Screening screening(*view, "test.ndjson", View::kMap);
+  core::Time now = kStart;
+  screening.update(now);
+  for (int frame = 0; frame < 20; ++frame) screening.update(now += 100ms);
+  CHECK_FALSE(screening.scene(facts()).hud.asks_error);
+  const auto press_now = [&](char32_t c) {
+    REQUIRE_FALSE(screening.on_key(letter(c)));
+    screening.update(now);
+  };
+  press_now(U'f');
+  press_now(U'e');
+  CHECK(screening.scene(facts()).hud.asks_error);
+  CHECK_FALSE(screening.scene(facts()).hud.error);
+  for (int frame = 0; frame < 30; ++frame) screening.update(now += 100ms);
+  const auto error = screening.scene(facts()).hud.error;
+  REQUIRE(error);
+  CHECK(error->seconds == Approx(3.0));
+  CHECK(error->worst_tick >= 120);
+  CHECK(error->worst_tick < 300);
+  CHECK(error->apart_seconds == Approx(3.0));
+  press_now(U'>');  // 5 s forth
+  CHECK_FALSE(screening.scene(facts()).hud.error);
+  for (int frame = 0; frame < 10; ++frame) screening.update(now += 100ms);
+  CHECK(screening.scene(facts()).hud.error->seconds == Approx(1.0));
+  press_now(U'f');  // another louse
+  CHECK_FALSE(screening.scene(facts()).hud.error);
+  for (int frame = 0; frame < 5; ++frame) screening.update(now += 100ms);
+  CHECK(screening.scene(facts()).hud.error);
+  press_now(U'e');
+  CHECK_FALSE(screening.scene(facts()).hud.asks_error);
+  CHECK_FALSE(view->error());
+}
+
 TEST_CASE("proving ahead proves every tick once, whatever is shown, and knows what will be said") {
   const auto view = opened(recorded());
   Screening screening(*view, "test.ndjson", View::kMap);
