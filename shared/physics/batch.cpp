@@ -6,12 +6,8 @@
 
 namespace woodlouse::physics {
 
-#ifdef WOODLOUSE_FEW_STEPS
-/// A page has few lice: one lane has no more to give than the scalar step.
-BatchStep find_scalar_step(BatchGround, const BatchForces&) { return {}; }
-#else
+/// Of core.wasm: lanes/simd128.cpp.
 BatchStep find_scalar_step(BatchGround ground, const BatchForces& forces);
-#endif
 #ifdef WOODLOUSE_X86_LANES
 BatchStep find_avx2_step(BatchGround ground, const BatchForces& forces);
 BatchStep find_avx512_step(BatchGround ground, const BatchForces& forces);

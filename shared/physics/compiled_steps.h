@@ -14,12 +14,14 @@
 
 namespace woodlouse::physics {
 
-/// Whether few steps are compiled, for who loads them over a network (core.wasm): no lanes, and of forces the
-/// main choices. The bits are the same.
+/// Whether few steps are compiled, for who loads them over a network (core.wasm): lanes for most maps alone,
+/// and of forces the main choices. The bits are the same.
 #ifdef WOODLOUSE_FEW_STEPS
 inline constexpr bool kFewSteps = true;
+inline constexpr std::size_t kLeastInLanes = 8;  // fewer are sooner stepped one by one than by two
 #else
 inline constexpr bool kFewSteps = false;
+inline constexpr std::size_t kLeastInLanes = 1;
 #endif
 
 /// What is sampled in a call: the ground itself, but for big maps, where it remembers the tiles the call was
@@ -44,7 +46,8 @@ class CompiledSteps final : public GroundSteps {
     const auto& surface = surface_of(ground_);
     const OneStepper stepper(surface, rules_.parameters, rules_.walls, rules_.tick);
     if constexpr (kHasLanes) {
-      if (batch.width > 0) return advance_batched(stepper, lice, moving, batch, lists, counters, events);
+      if (batch.width > 0 && moving.size() >= kLeastInLanes)
+        return advance_batched(stepper, lice, moving, batch, lists, counters, events);
     }
     counters.left += moving.size();
     for (const std::uint32_t index : moving) stepper.advance(lice[index], counters, events[index]);
@@ -59,8 +62,8 @@ class CompiledSteps final : public GroundSteps {
   using Surface = std::remove_cvref_t<decltype(surface_of(std::declval<const S&>()))>;
   using OneStepper = Stepper<Surface, F, E, I>;
   static constexpr bool kHasLanes =
-      !kFewSteps && E::kExact && std::is_same_v<I, Nystrom4> &&
-      (std::is_same_v<S, terrain::BicubicSpline> || std::is_same_v<S, terrain::PlaneSurface>);
+      E::kExact && std::is_same_v<I, Nystrom4> && (!kFewSteps || (F::friction && !F::central)) &&
+      (std::is_same_v<S, terrain::BicubicSpline> || (!kFewSteps && std::is_same_v<S, terrain::PlaneSurface>));
 
   void advance_batched(const OneStepper& stepper, std::span<state::Louse> lice,
                        std::span<const std::uint32_t> moving, const BatchStep& batch, BatchLists& lists,

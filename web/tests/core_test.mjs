@@ -97,6 +97,30 @@ test('worlds step lice, each for itself', { skip }, async () => {
   assert.equal(one.find(7), null);
 });
 
+test('lice step together, in lanes, as each does alone, without', { skip }, async () => {
+  const core = await fresh();
+  for (const name of ['volcano', 'jumps', 'arena', 'torus', 'hills']) {
+    const ground = core.openMap(map(name), 60), [start] = ground.spawns(), [x0, y0, x1, y1] = ground.domain;
+    const together = ground.world(), alone = ground.world();
+    const lice = Array.from({ length: 41 }, (_, k) => ({ ...start, id: k + 1, x: x0 + (x1 - x0) * (k * 0.618034 % 1), y: y0 + (y1 - y0) * (k * 0.754878 % 1), vx: k % 7 - 3, vy: k % 5 - 2 }));
+    const thrusts = (world, id, tick) => world.thrust(id, 1 + id % 2, Math.cos(id + tick) * (id % 2 ? 0.7 : 1), id % 2 ? Math.sin(id * tick) * 0.7 : 0, 4294967295);
+    for (const louse of lice) together.put(louse);
+    for (let tick = 0; tick < 300; tick += 30) {
+      const before = together.lice();
+      for (const { id } of before) assert.ok(thrusts(together, id, tick));
+      together.step(30);
+      const expected = before.map(louse => {
+        alone.clear();
+        alone.put(louse);
+        assert.ok(thrusts(alone, louse.id, tick));
+        alone.step(30);
+        return alone.find(louse.id);
+      });
+      assert.deepEqual(together.lice(), expected, `${name}, ${tick}`);
+    }
+  }
+});
+
 test('a call by a handle that is none ends the instance, and says so', { skip }, async () => {
   const core = await fresh();
   assert.throws(() => core.instance.call('world_step', 99, 1), error => error instanceof CoreEnded && /handle/.test(error.message));
