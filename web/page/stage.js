@@ -190,13 +190,13 @@ export class Stage {
       const facts = source.facts?.(this.followed || source.you || 0);
       byId('picture').classList.remove('early');
       picture.draw(sceneOf(source, this.followed || source.you || 0, facts ? source.marks(facts) : null), now);
-      if (facts) this.panels.every(source, { ...facts, azimuth: picture.camera.azimuth }, seconds);
+      if (facts && this.#isWhole) this.panels.every(source, { ...facts, azimuth: picture.camera.azimuth }, seconds);
     }
     if (!this.#isWhole && (picture.peopled > 1 || now > PANELS_BY)) {
       this.#isWhole = true;
       byId('over').classList.remove('early');
     }
-    if (now - this.#panelsAt >= PANELS_EVERY) {
+    if (this.#isWhole && now - this.#panelsAt >= PANELS_EVERY) {
       this.#panelsAt = now;
       this.panels.update(this);
     }

@@ -7,9 +7,11 @@ import { INSTANCE, LiceDrawing } from './lice_drawing.js';
 
 const STANDING = 350;  // ms that the camera must have stood before the ground's outline is smoothed
 const NEARER = 3e-4;  // of the depth from -1 to 1
+/** What a first picture does without, where a processor draws: it compiles one after the other. */
+const LATER = ['copy', 'paint'];
 const NO_CHANGE = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
-/** @typedef {{camera: import('./camera.js').Camera, theme: import('./colours.js').ThemeName, shading: 'height' | 'slope', resolution: {at: number}}} Look */
+/** @typedef {{camera: import('./camera.js').Camera, theme: import('./colours.js').ThemeName, shading: 'height' | 'slope', resolution: {at: number}, isFirst: boolean}} Look */
 
 export class Drawing {
   /** Throws an Error where there is no WebGL 2. @param {HTMLCanvasElement} canvas */
@@ -47,7 +49,7 @@ export class Drawing {
 
   /** @private */
   begin() {
-    const { gl } = this, programs = makePrograms(gl);
+    const { gl } = this, programs = this.programs = makePrograms(gl, this.isSoftware ? LATER : []);
     this.flat = programs.flat;
     this.copy = programs.copy;
     this.ground = new GroundDrawing(gl, programs, this.isSoftware);
@@ -113,6 +115,7 @@ export class Drawing {
       this.showStill(this.still, width, height);
       this.still.show(false);
     } else {
+      if (!look.isFirst) for (const name of LATER) this.programs?.[name].begin();
       const hides = this.copyGround(look, width, height, now);
       this.drawScene(look, staging, null, width, height, hides, !hides && look.resolution.at > 1);
     }
@@ -144,7 +147,7 @@ export class Drawing {
    * @private @param {Look} look @param {number} width @param {number} height @param {number} now */
   copyGround(look, width, height, now) {
     const { gl } = this, key = `${look.camera.matrix.map(v => v.toFixed(4))} ${width} ${height} ${this.version}`;
-    if (key !== this.key) {
+    if (key !== this.key || look.isFirst) {
       this.key = key;
       this.stood = now;
       this.kept = 0;

@@ -5,16 +5,23 @@ import { SHADERS } from './shaders.js';
 /** The texture units of a surface's depths and colours. */
 export const DEPTHS = { unit: 4 }, COLOURS = { unit: 5 };
 
-/** @typedef {{program: WebGLProgram, at: Record<string, WebGLUniformLocation | null>}} Program */
+/** A program of shaders.js. */
+export class Program {
+  /** @type {{program: WebGLProgram, shaders: WebGLShader[]} | null} */ #made = null;
+  /** @type {Record<string, WebGLUniformLocation | null> | null} */ #at = null;
 
-/** Compiles every program; how each went is asked for when it is used first, so that a driver does them side by side while the page goes on.
- * @param {WebGL2RenderingContext} gl @returns {Record<string, Program>} */
-export function makePrograms(gl) {
-  /** @type {Record<string, Program>} */
-  const programs = {};
-  for (const [name, sources] of Object.entries(SHADERS)) {
-    const program = gl.createProgram();
-    const shaders = sources.map((source, k) => {
+  /** @param {WebGL2RenderingContext} gl @param {string} name @param {[string, string]} sources */
+  constructor(gl, name, sources) {
+    this.gl = gl;
+    this.name = name;
+    this.sources = sources;
+  }
+
+  /** Has it compiled; how that went is asked for when it is used first, so that a driver does several side by side while the page goes on. */
+  begin() {
+    if (this.#made) return this.#made;
+    const { gl } = this, program = gl.createProgram();
+    const shaders = this.sources.map((source, k) => {
       const shader = /** @type {WebGLShader} */ (gl.createShader(k ? gl.FRAGMENT_SHADER : gl.VERTEX_SHADER));
       gl.shaderSource(shader, source);
       gl.compileShader(shader);
@@ -22,11 +29,25 @@ export function makePrograms(gl) {
       return shader;
     });
     gl.linkProgram(program);
-    /** @type {Program['at'] | null} */
-    let places = null;
-    programs[name] = { program, get at() { return places ??= placesIn(gl, name, program, shaders); } };
+    return this.#made = { program, shaders };
   }
-  return programs;
+
+  get program() {
+    return this.begin().program;
+  }
+
+  /** Where its uniforms are. */
+  get at() {
+    const { program, shaders } = this.begin();
+    return this.#at ??= placesIn(this.gl, this.name, program, shaders);
+  }
+}
+
+/** Every program; all but those of `later` are compiled. @param {WebGL2RenderingContext} gl @param {string[]} later @returns {Record<string, Program>} */
+export function makePrograms(gl, later) {
+  const programs = Object.entries(SHADERS).map(([name, sources]) => new Program(gl, name, sources));
+  for (const program of programs) if (!later.includes(program.name)) program.begin();
+  return Object.fromEntries(programs.map(program => [program.name, program]));
 }
 
 /** Where a program's uniforms are. Throws an Error where it could not be made. @param {WebGL2RenderingContext} gl @param {string} name
@@ -34,7 +55,7 @@ export function makePrograms(gl) {
 function placesIn(gl, name, program, shaders) {
   if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
     throw new Error(`the ${name} shader: ${shaders.map(s => gl.getShaderInfoLog(s)).join(' ')} ${gl.getProgramInfoLog(program)}`);
-  /** @type {Program['at']} */
+  /** @type {Record<string, WebGLUniformLocation | null>} */
   const at = {};
   for (let k = 0, n = gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS) ?? 0; k < n; k++) {
     const info = gl.getActiveUniform(program, k);

@@ -10,6 +10,8 @@ import { Relief } from './relief.js';
 import { STEEPEST } from './shaders.js';
 import { Staging } from './staging.js';
 
+const EMPTY = 2500;  // ms from the navigation on; a room that has shown nobody by then may be empty
+
 export class Picture {
   /**
    * Throws an Error that a person understands where there is no WebGL 2.
@@ -36,9 +38,12 @@ export class Picture {
     /** @type {Worker | undefined} */
     this.worker = undefined;
     this.number = 0;
+    this.isBaked = true;
     this.last = 0;
     /** Pictures with lice in them that were drawn. */
     this.peopled = 0;
+    /** Whether the first of them is still to come: until then nothing is done that can wait. */
+    this.isFirst = true;
     /** Milliseconds of own script in the last frame. */
     this.cost = 0;
   }
@@ -64,20 +69,24 @@ export class Picture {
 
   /** Shows another ground. @param {import('./relief.js').GroundData} ground */
   setGround(ground) {
-    const relief = this.relief = new Relief(ground), number = ++this.number;
+    const relief = this.relief = new Relief(ground);
+    this.number++;
     this.staging.setRelief(relief);
     this.drawing.setRelief(relief);
     this.camera.setStage(relief.stage(this.drawing.bottom));
     this.build();
-    if (relief.isFlat) return;
-    // shadows come when they are done; where a browser runs no such worker there are none
+    this.isBaked = relief.isFlat;
+  }
+
+  /** Has the shadows made, which come when they are done; where a browser runs no such worker there are none. @private @param {Relief} relief */
+  bake({ ground: { domain, columns, rows, grid, wraps }, exaggeration }) {
+    this.isBaked = true;
     const worker = this.worker ??= this.baker();
     worker.onmessage = ({ data }) => {
       if (data.number === this.number) this.drawing.setLight(data.light);
     };
     worker.onerror = () => this.drawing.setLight(null);
-    const { domain, columns, rows, grid, wraps } = ground;
-    worker.postMessage({ number, ground: { domain, columns, rows, grid, wraps }, exaggeration: relief.exaggeration });
+    worker.postMessage({ number: this.number, ground: { domain, columns, rows, grid, wraps }, exaggeration });
   }
 
   /** @private */
@@ -136,8 +145,12 @@ export class Picture {
     camera.update(w, h, now, staging.find(scene, scene.follow || camera.follow), scene.marks?.arrow);
     staging.stage(scene, this, now, width, height);
     drawing.draw(this, staging, width, height, now);
-    if (this.peopled > 0) this.names.draw(staging.names, camera, this.theme, staging.arrows);  // the first picture does not wait for letters
+    if (!this.isFirst) {
+      this.names.draw(staging.names, camera, this.theme, staging.arrows);
+      if (!this.isBaked) this.bake(this.relief);
+    }
     if (scene.lice.length) this.peopled++;
+    if (this.peopled > 0 || now > EMPTY) this.isFirst = false;
     this.cost = performance.now() - begun;
   }
 }
