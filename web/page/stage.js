@@ -184,8 +184,8 @@ export class Stage {
     const { source, picture } = this, seconds = performance.now() / 1000;  // what is sent bears the time at which it is, not the picture's
     if (this.isPlaying) this.room?.own.steering.lookAlong(this.picture.camera.azimuth);
     source?.update(seconds);
-    if (source?.ground) {
-      if (source.ground !== this.#ground) this.#setGround(source.ground);
+    if (source?.ground && source.ground !== this.#ground) this.#setGround(source.ground);
+    if (source?.ground && source.isKnown !== false) {  // a ground without its lice would only hold up the first picture
       this.#chooseFollowed();
       const facts = source.facts?.(this.followed || source.you || 0);
       byId('picture').classList.remove('early');

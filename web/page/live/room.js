@@ -34,7 +34,7 @@ export class Room {
     /** The `welcome` of the game that is on; null while there is none. @type {any} */ this.welcome = null;
     /** The last one: what it said is shown on while the line is cut. @type {any} */ this.shown = null;
     /** The map's ground (core.js), or null. @type {any} */ this.ground = null;
-    /** As of the last update. @type {any[]} */ this.lice = [];
+    /** As of the last update. @type {any[]} */ this.lice = []; /** Whether it was told yet who there is. */ this.isKnown = false;
     /** The table of scores, as it was made last. @type {ReturnType<import('./goal.js').scoreRows>} */ this.rows = [];
     /** The rooms with their counts. @type {any[]} */ this.rooms = [];
     /** Why the line is down, and when it is tried again [s, of performance.now()]; null while it is up. @type {{reason: string, code: string, again: number|null}|null} */ this.lost = null;
@@ -80,7 +80,7 @@ export class Room {
   update(now) {
     this.#act(now);
     if (!this.welcome || !this.#time.isKnown(now)) return;  // what was seen last stays until there is something newer
-    this.lice = this.#time.lice(now, this.ways);
+    [this.isKnown, this.lice] = [true, this.#time.lice(now, this.ways)];
     this.#placeOwn();
   }
 

@@ -147,7 +147,7 @@ export class Drawing {
    * @private @param {Look} look @param {number} width @param {number} height @param {number} now */
   copyGround(look, width, height, now) {
     const { gl } = this, key = `${look.camera.matrix.map(v => v.toFixed(4))} ${width} ${height} ${this.version}`;
-    if (key !== this.key || look.isFirst) {
+    if (key !== this.key) {
       this.key = key;
       this.stood = now;
       this.kept = 0;
