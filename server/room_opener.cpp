@@ -47,10 +47,13 @@ void RoomOpener::log_opened(const std::string& room, const ServeConfig& config, 
                     room, start.parent->file, match.tick(), core::to_hex(match.hash()),
                     match.world().lice().size(), config.tick_hz, config.state_hz, threads,
                     start.on_trust.empty() ? "" : core::joined({"; on trust: ", start.on_trust})));
-  else
+  else {
+    const std::string& ground = match.map().definition.ground_note;
     log_event(*log_, LogEvent::kRoomOpened,
-              fmt::format("room {}: map {}, {} ticks/s, {} frames/s, seed {}{}", room, start.map_file,
-                          config.tick_hz, config.state_hz, match.settings().seed, threads));
+              fmt::format("room {}: map {}, {} ticks/s, {} frames/s, seed {}{}{}", room, start.map_file,
+                          config.tick_hz, config.state_hz, match.settings().seed, threads,
+                          ground.empty() ? "" : core::joined({"; its ground: ", ground})));
+  }
 }
 
 }  // namespace woodlouse::server

@@ -58,8 +58,8 @@ class MakeMap(unittest.TestCase):
         return made.stdout
 
     def play(self, *files):
-        """All at once: each plays for 600 ticks of its own."""
-        games = []
+        """All at once: each plays for 600 ticks of its own. Their logs."""
+        games, logs = [], {}
         for file in files:
             record = self.path / (file + ".ndjson.zst")
             games.append((record, subprocess.Popen(
@@ -69,9 +69,11 @@ class MakeMap(unittest.TestCase):
         for record, game in games:
             out, err = game.communicate(timeout=150)
             self.assertEqual(game.returncode, 0, out + err)
+            logs[record.name.split(".")[0]] = err
             verified = run("verify", record)
             self.assertEqual(verified.returncode, 0, verified.stdout + verified.stderr)
             self.assertIn(str(TICKS), verified.stdout)
+        return logs
 
     def test_five_grids_that_differ_in_everything_are_played(self):
         ascii_grid(self.path / "steep.asc", 60, 40, "xllcorner 0\nyllcorner 0\ncellsize 10",
@@ -97,7 +99,10 @@ class MakeMap(unittest.TestCase):
         for text in said.values():
             for figure in ("size: ", "relief: ", "steepest slope: ", "largest curvature: ", "overshoot: ", "a louse's step: "):
                 self.assertIn(figure, text)
-        self.play(*files)
+        # A map by hand names the file itself, whose holes the server fills as it starts.
+        (self.path / "by_hand.json").write_text('{"name": "by_hand", "terrain": {"file": "holes.asc"}}')
+        logs = self.play(*files, "by_hand")
+        self.assertRegex(logs["by_hand"], "room_opened: .*; its ground: .*were filled from their shores")
 
     def test_a_tile_of_one_arc_second_with_voids_whole_and_cropped(self):
         tile(self.path / "S37E174.hgt", 3601)
