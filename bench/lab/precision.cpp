@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "bench/lab/game/error_hour.h"
 #include "bench/lab/game/local_error.h"
 #include "bench/lab/game/precision.h"
 #include "bench/lab/job.h"
@@ -28,12 +29,15 @@ struct PrecisionOptions {
   std::filesystem::path maps;  ///< empty: the project's own
 };
 
-constexpr std::array<std::string_view, 8> kProblems = {"maps",   "integrators", "surfaces", "kepler",
-                                                       "orders", "flight",      "local",    "tolerance"};
+constexpr std::array<std::string_view, 9> kProblems = {
+    "maps", "integrators", "surfaces", "kepler", "orders", "flight", "local", "tolerance", "hour"};
 
 std::string problem_names() {
   std::string names;
-  for (const std::string_view problem : kProblems) names += (names.empty() ? "" : " ") + std::string(problem);
+  for (const std::string_view problem : kProblems) {
+    if (!names.empty()) names += ' ';
+    names += problem;
+  }
   return names;
 }
 
@@ -70,7 +74,10 @@ core::Expected<void> run(const PrecisionOptions& options) {
   if (wanted("local")) {
     if (auto done = measure_local_error(options.maps, options.output); !done) return done;
   }
-  if (wanted("tolerance")) return measure_tolerance(options.maps, options.output);
+  if (wanted("tolerance")) {
+    if (auto done = measure_tolerance(options.maps, options.output); !done) return done;
+  }
+  if (wanted("hour")) return measure_error_hour(options.output);
   return {};
 }
 
@@ -87,9 +94,11 @@ void add_precision(CLI::App& app, Job& job) {
   add_output_options(*command, options->output);
   command->footer(
       "Writes lab-precision-maps (the shipped maps as they are played), -integrators, -surfaces, -kepler, "
-      "-flight and lab-local-error (what is told of a tick's error against the true one) as .csv, .svg and "
-      ".png, -flight-cost and lab-tolerance (maps that bear only so much of error) as .csv; orders, of the "
-      "rooms' methods at walls, seams, flights, stops and "
+      "-flight, lab-local-error (what is told of a tick's error against the true one) and lab-error-hour "
+      "(both "
+      "of an hour's play) as .csv, .svg and .png, -flight-cost and lab-tolerance (maps that bear only so "
+      "much of "
+      "error) as .csv; orders, of the rooms' methods at walls, seams, flights, stops and "
       "thrusts, is printed "
       "alone.\n"
       "Example:\n  woodlouse-lab precision --quick --only maps --out .");
