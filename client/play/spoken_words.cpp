@@ -90,8 +90,8 @@ std::string error(const match::ErrorReading& reading) {
 }
 
 std::string no_error(const RoomView& room) {
-  return room.pilot() == nullptr ? "how far steps err is told of a louse of one's own"
-                                 : "the ground is not known to the step: how far it errs is not, either";
+  return room.pilot() == nullptr ? "only of your own louse the error is known"
+                                 : "on an overview of a map no error is known";
 }
 
 std::string keys(const KeyLabels& keys, SteerBy steer, bool plays) {

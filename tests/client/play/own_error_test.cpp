@@ -194,7 +194,7 @@ TEST_CASE("the error figure is read out with its units, and who watches hears wh
         "error 3.1e-06 m/s of play, worst 2.0e-04 m at tick 812; twin at half the step 1.2e-03 m away after "
         "10 s");
   const RoomView room;
-  CHECK(words::no_error(room) == "how far steps err is told of a louse of one's own");
+  CHECK(words::no_error(room) == "only of your own louse the error is known");
 }
 
 }  // namespace woodlouse::client
