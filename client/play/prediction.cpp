@@ -20,7 +20,8 @@ void Prediction::sent(std::uint32_t seq, std::uint64_t tick, const ThrustOrder& 
 
 void Prediction::acknowledge(const protocol::Ack& ack) {
   // Pictures are rarer than acks: what it would have been is what is put right, and each tick is measured.
-  if (ack.you && ack.you->tick > tick_) advance(ack.you->tick);
+  // After a pause nothing would have been, and what was sent meanwhile still waits.
+  if (ack.you && ack.you->tick > tick_ && ack.you->tick - tick_ <= kMaxAheadTicks) advance(ack.you->tick);
   while (!pending_.empty() && pending_.front().seq <= ack.seq) pending_.pop_front();
   if (!ack.you) return;
   const bool was_known = louse() != nullptr;

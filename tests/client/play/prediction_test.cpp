@@ -213,6 +213,23 @@ TEST_CASE("a client that was suspended for minutes starts anew instead of runnin
   REQUIRE(prediction.louse() == nullptr);
 }
 
+TEST_CASE("an ack after a pause puts the louse where it is, and what was sent meanwhile still waits") {
+  const auto map = map_of("volcano");
+  Prediction prediction(*map, kTickHz);
+  Game game(map, 0);
+  protocol::Ack ack;
+  ack.you = exact(game.louse(), game.match.tick());
+  prediction.acknowledge(ack);
+  const std::uint64_t later = prediction.tick() + 10 * Prediction::kMaxAheadTicks;
+  prediction.sent(7, later + 2, {});
+  ack.seq = 6;
+  ack.you->tick = later;
+  prediction.acknowledge(ack);
+  REQUIRE(prediction.louse() != nullptr);
+  CHECK(prediction.tick() == later);
+  CHECK(prediction.pending() == 1);
+}
+
 TEST_CASE("late acks widen the lead, early ones narrow it, both within bounds") {
   Lead lead(kTickHz);
   const double before = lead.ticks(0.0);
