@@ -57,8 +57,10 @@ class ComingBack(unittest.TestCase):
                 pass  # it answers a ping, and so is expected to answer the next
             time.sleep(2.5)
             seq = game.thrust(0.5)
+            end = time.monotonic() + 20
             while not game.last_ack or game.last_ack["seq"] != seq:
-                next(states)
+                state = next(states)
+                self.assertLess(time.monotonic(), end, (seq, game.last_ack, game.comebacks, begun, state.tick))
             self.assertFalse(game.last_ack["dropped"])
             self.assertEqual(game.comebacks, 0)
 
