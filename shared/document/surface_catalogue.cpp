@@ -62,8 +62,7 @@ std::optional<core::Error> misfit(Interpolation interpolation, const terrain::He
     const auto [low, high] = std::minmax_element(grid.heights.begin(), grid.heights.end());
     if (std::fmax(seam.x, seam.y) > 1e-9 * (*high - *low)) {
       return core::Error{
-          where,
-          "the last column or row differs from the first by " + std::to_string(std::fmax(seam.x, seam.y)),
+          where, "the last column or row differs from the first by more than 1e-9 of the heights' range",
           "a wrapping grid holds its seam twice"};
     }
   }

@@ -256,19 +256,14 @@ struct Field {
   /// How far astray a step over h led [m]; a heading that turns did so as the cubic through both of its ends.
   [[nodiscard, gnu::noinline]] double astray(const StepResult& result, double h) const {
     const Motion& from = start.at;
-    if (!turns()) {
-      return physics::astray(from, start.acceleration, result.end, h, [&](double, const Motion& at) {
-        return accelerate(sample(at.position), at.velocity);
-      });
-    }
-    const core::Vec2 from_heading = heading();
-    const core::Vec2 turned = result.heading - from_heading;
-    const core::Vec2 r0 = h * heading_rate(from_heading, from.velocity);
+    const core::Vec2 turned = result.heading - heading();
+    const core::Vec2 r0 = h * heading_rate(heading(), from.velocity);
     const core::Vec2 r1 = h * heading_rate(result.heading, result.end.velocity);
     return physics::astray(from, start.acceleration, result.end, h, [&](double s, const Motion& at) {
-      const core::Vec2 h_s =
-          from_heading + s * (r0 + s * (3.0 * turned - 2.0 * r0 - r1 + s * (r0 + r1 - 2.0 * turned)));
-      return accelerate(sample(at.position), at.velocity, h_s);
+      if (!turns()) return accelerate(sample(at.position), at.velocity);
+      return accelerate(
+          sample(at.position), at.velocity,
+          heading() + s * (r0 + s * (3.0 * turned - 2.0 * r0 - r1 + s * (r0 + r1 - 2.0 * turned))));
     });
   }
 

@@ -95,9 +95,12 @@ inline constexpr double kAhead = 1.0;  // [s]
 template <typename T, typename Accelerate>
 [[gnu::always_inline]] inline T astray(const BasicMotion<T>& start, core::Pair<T> a0,
                                        const BasicMotion<T>& end, T h, const Accelerate& accelerate) {
-  const core::Pair<T> a1 = accelerate(1.0, end);
-  const core::Pair<T> early = accelerate(kEarly, on_quintic(start, a0, end, a1, h, kEarly));
-  const core::Pair<T> late = accelerate(kLate, on_quintic(start, a0, end, a1, h, kLate));
+  // One call for all three, that what it takes of code is there once.
+  const double part[kLobattoSamples] = {1.0, kEarly, kLate};
+  core::Pair<T> a[kLobattoSamples];
+  for (int i = 0; i < kLobattoSamples; ++i)
+    a[i] = accelerate(part[i], i == 0 ? end : on_quintic(start, a0, end, a[0], h, part[i]));
+  const auto& [a1, early, late] = a;
   const T twelfth = h * T(1.0 / 12.0);
   const core::Pair<T> v = start.velocity + twelfth * (a0 + a1 + T(5.0) * (early + late)) - end.velocity;
   const core::Pair<T> x =
