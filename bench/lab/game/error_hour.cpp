@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "bench/lab/report/progress.h"
+#include "bench/lab/report/side_by_side.h"
 #include "bench/lab/speed/maps.h"
 #include "shared/map/map_world.h"
 #include "shared/match/step_error.h"
@@ -113,20 +114,25 @@ core::Expected<void> measure_error_hour(const Output& output) {
   const std::size_t minutes = output.effort() == Effort::kQuick ? 2 : 60;
   Table table({"map", "minute", "error_m_per_s", "share_of_one", "steered_by", "worst_m", "windows",
                "apart_median_m", "apart_most_m", "its_steered_by"});
-  std::vector<std::vector<ErrorMinute>> drawn;
-  Progress progress("an hour's errors", kMaps.size());
+  std::vector<const map::Map*> measured;
   for (const std::string_view name : kMaps) {
     const auto map =
         std::find_if(all->begin(), all->end(), [&](const auto& m) { return m->definition.name == name; });
     if (map == all->end()) return core::fail("maps", "there is no " + std::string(name));
-    drawn.push_back(error_minutes(**map, minutes));
+    measured.push_back(map->get());
+  }
+  std::vector<std::vector<ErrorMinute>> drawn(measured.size());
+  Progress progress("an hour's errors", measured.size());
+  side_by_side(
+      measured.size(), [&](std::size_t i) { drawn[i] = error_minutes(*measured[i], minutes); },
+      [&] { progress.advance(); });
+  for (std::size_t i = 0; i < measured.size(); ++i) {
     for (std::size_t k = 0; k < minutes; ++k) {
-      const ErrorMinute& minute = drawn.back()[k];
-      table.add({std::string(name), static_cast<double>(k + 1), minute.of_play, minute.share,
+      const ErrorMinute& minute = drawn[i][k];
+      table.add({std::string(kMaps[i]), static_cast<double>(k + 1), minute.of_play, minute.share,
                  std::string(to_text(minute.erring)), minute.worst, static_cast<double>(minute.windows),
                  minute.apart_median, minute.apart_most, std::string(to_text(minute.straying))});
     }
-    progress.advance();
   }
   table.print(std::cout);
   if (auto done = output.write(table, "lab-error-hour"); !done) return done;

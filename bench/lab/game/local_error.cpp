@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "bench/lab/report/progress.h"
+#include "bench/lab/report/side_by_side.h"
 #include "bench/lab/speed/maps.h"
 #include "shared/map/map_world.h"
 #include "shared/match/step_error.h"
@@ -146,29 +147,35 @@ core::Expected<void> measure_local_error(const std::filesystem::path& folder, co
   const auto maps = maps_of(folder);
   if (!maps) return tl::unexpected(maps.error());
   const bool quick = output.effort() == Effort::kQuick;
-  const std::size_t count = quick ? 4 : 12, ticks = quick ? 40 : 240;
+  const std::size_t count = quick ? 4 : 12, ticks = quick ? 12 : 240;
   constexpr double kSeconds = 4.0;
   Table table({"map", "rate", "ticks", "unforeseen", "too_small", "ratio_1_of_100", "ratio_median",
                "ratio_99_of_100", "bound_median", "truth_median", "truth_worst"});
   std::vector<Drawn> drawn(kRates.size());
   std::vector<std::string> names;
   Progress progress("local errors", maps->size() * kRates.size());
+  std::vector<LocalErrors> errors(maps->size() * kRates.size());
+  side_by_side(
+      errors.size(),
+      [&](std::size_t i) {
+        const map::Map& map = *(*maps)[i / kRates.size()];
+        const int rate = kRates[i % kRates.size()];
+        const auto stride =
+            static_cast<std::size_t>(std::max(1.0, std::round(kSeconds * rate / static_cast<double>(ticks))));
+        const std::vector<state::Louse> lice = starting_lice(map, count, 5);
+        for (const Play play : kPlays) errors[i].add(local_errors(map, lice, play, rate, ticks, stride));
+      },
+      [&] { progress.advance(); });
   for (const auto& map : *maps) {
-    const std::vector<state::Louse> lice = starting_lice(*map, count, 5);
     for (std::size_t r = 0; r < kRates.size(); ++r) {
-      const int rate = kRates[r];
-      const auto stride =
-          static_cast<std::size_t>(std::max(1.0, std::round(kSeconds * rate / static_cast<double>(ticks))));
-      LocalErrors all;
-      for (const Play play : kPlays) all.add(local_errors(*map, lice, play, rate, ticks, stride));
+      const LocalErrors& all = errors[names.size() * kRates.size() + r];
       const double low = all.ratio_at(0.01), median = all.ratio_at(0.5), high = all.ratio_at(0.99);
-      table.add({map->definition.name, static_cast<double>(rate), static_cast<double>(all.bounds.size()),
+      table.add({map->definition.name, static_cast<double>(kRates[r]), static_cast<double>(all.bounds.size()),
                  static_cast<double>(all.unforeseen), all.too_small(), low, median, high, at(all.bounds, 0.5),
                  at(all.truths, 0.5), at(all.truths, 1.0)});
-      drawn[r].name = std::to_string(rate) + " Hz";
+      drawn[r].name = std::to_string(kRates[r]) + " Hz";
       const double place = static_cast<double>(names.size()) + 0.16 * (static_cast<double>(r) - 1.5);
       drawn[r].rows << place << ' ' << all.too_small() << ' ' << median << ' ' << low << ' ' << high << '\n';
-      progress.advance();
     }
     names.push_back(map->definition.name);
   }
@@ -181,31 +188,38 @@ core::Expected<void> measure_tolerance(const std::filesystem::path& folder, cons
   const auto maps = maps_of(folder);
   if (!maps) return tl::unexpected(maps.error());
   const bool quick = output.effort() == Effort::kQuick;
-  const std::size_t count = quick ? 4 : 12, ticks = quick ? 40 : 120;
+  const std::size_t count = quick ? 4 : 12, ticks = quick ? 12 : 120;
   constexpr std::array kBorne = {1e-2, 1e-4, 1e-6};
   constexpr std::array kTicksPerSecond = {15, 60};
   Table table(
       {"map", "rate", "tolerance", "ticks", "beyond", "error_median", "error_99_of_100", "error_worst"});
-  Progress progress("tolerances", maps->size() * kTicksPerSecond.size() * kBorne.size());
+  constexpr std::size_t kRows = kTicksPerSecond.size() * kBorne.size();  // of a map
+  std::vector<const map::Map*> measured;
   for (const auto& map : *maps) {
-    if (map->definition.physics.equations != state::Equations::kExact) continue;
-    const std::vector<state::Louse> lice = starting_lice(*map, count, 5);
-    for (const int rate : kTicksPerSecond) {
-      for (const double tolerance : kBorne) {
-        LocalErrors all;
+    if (map->definition.physics.equations == state::Equations::kExact) measured.push_back(map.get());
+  }
+  Progress progress("tolerances", measured.size() * kRows);
+  std::vector<LocalErrors> errors(measured.size() * kRows);
+  const auto rate_of = [&](std::size_t i) { return kTicksPerSecond[i % kRows / kBorne.size()]; };
+  const auto tolerance_of = [&](std::size_t i) { return kBorne[i % kBorne.size()]; };
+  side_by_side(
+      errors.size(),
+      [&](std::size_t i) {
+        const map::Map& map = *measured[i / kRows];
+        const std::vector<state::Louse> lice = starting_lice(map, count, 5);
         for (const Play play : kPlays)
-          all.add(local_errors(with_tolerance(*map, tolerance), lice, play, rate, ticks, 1));
-        const double borne = tolerance / rate;  // [m] by a tick
-        const auto beyond =
-            std::count_if(all.truths.begin(), all.truths.end(), [&](double e) { return e > borne; });
-        table.add(
-            {map->definition.name, static_cast<double>(rate), tolerance,
-             static_cast<double>(all.truths.size()),
-             static_cast<double>(beyond) / static_cast<double>(std::max<std::size_t>(1, all.truths.size())),
-             at(all.truths, 0.5) * rate, at(all.truths, 0.99) * rate, at(all.truths, 1.0) * rate});
-        progress.advance();
-      }
-    }
+          errors[i].add(local_errors(with_tolerance(map, tolerance_of(i)), lice, play, rate_of(i), ticks, 1));
+      },
+      [&] { progress.advance(); });
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const LocalErrors& all = errors[i];
+    const double rate = rate_of(i), borne = tolerance_of(i) / rate;  // [m] by a tick
+    const auto beyond =
+        std::count_if(all.truths.begin(), all.truths.end(), [&](double e) { return e > borne; });
+    table.add({measured[i / kRows]->definition.name, rate, tolerance_of(i),
+               static_cast<double>(all.truths.size()),
+               static_cast<double>(beyond) / static_cast<double>(std::max<std::size_t>(1, all.truths.size())),
+               at(all.truths, 0.5) * rate, at(all.truths, 0.99) * rate, at(all.truths, 1.0) * rate});
   }
   table.print(std::cout);
   return output.write(table, "lab-tolerance");
