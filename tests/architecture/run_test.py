@@ -1,4 +1,4 @@
-"""tests/run: what failed while the machine stood still is run once more, and nothing else is."""
+"""tests/run: what failed while the machine stood still is run once more, one or two tests of programs alone, and nothing else."""
 
 import os
 import subprocess
@@ -11,6 +11,7 @@ CTEST = """#!/bin/sh
 echo "$@" >> "$CALLS"
 case "$*" in *--rerun-failed*) exit "$AGAIN";; esac
 mkdir -p build/none/Testing/Temporary
+printf "$FAILED" > build/none/Testing/Temporary/LastTestsFailed.log
 printf '1/2 Testing: good\\nwell\\nTest Passed.\\n2/2 Testing: bad\\nit hurts\\nTest Failed.\\n' > build/none/Testing/Temporary/LastTest.log
 sleep 0.3
 kill -STOP $PPID; sleep "$PAUSE"; kill -CONT $PPID
@@ -20,7 +21,7 @@ exit 8
 
 
 class Run(unittest.TestCase):
-    def run_with(self, pause, again=0):
+    def run_with(self, pause, again=0, failed="2:bad\\n"):
         """Exit code, what was printed, how ctest was called."""
         with tempfile.TemporaryDirectory() as folder:
             os.makedirs(os.path.join(folder, "tests"))
@@ -33,7 +34,8 @@ class Run(unittest.TestCase):
                         file.write(text)
                 os.chmod(os.path.join(folder, path), 0o755)
             calls = os.path.join(folder, "calls")
-            environment = dict(os.environ, PATH=os.path.join(folder, "bin") + ":" + os.environ["PATH"], CALLS=calls, PAUSE=str(pause), AGAIN=str(again))
+            environment = dict(os.environ, PATH=os.path.join(folder, "bin") + ":" + os.environ["PATH"], CALLS=calls, PAUSE=str(pause), AGAIN=str(again),
+                               FAILED=failed)
             done = subprocess.run([os.path.join(folder, "tests", "run"), "none", "-j", "2"], env=environment, capture_output=True, text=True, timeout=60)
             with open(calls) as file:
                 return done.returncode, done.stdout, file.read().splitlines()
@@ -48,6 +50,19 @@ class Run(unittest.TestCase):
             code, printed, calls = self.run_with(1.5, again)
             self.assertEqual((code, calls), (again, ["--preset none -j 2", "--preset none --rerun-failed"]))
             self.assertRegex(printed, r"it stood still for \d+\.\d s")
+
+    def test_one_or_two_tests_of_programs_are_tried_alone_and_told_as_unsteady(self):
+        for failed in ("7:e2e: web visits\\n", "7:e2e: web visits\\n9:bots: README\\n"):
+            for again in (0, 8):
+                code, printed, calls = self.run_with(0, again, failed)
+                self.assertEqual((code, calls), (again, ["--preset none -j 2", "--preset none --rerun-failed -j 1 --repeat until-fail:2"]))
+                self.assertEqual("UNSTEADY, to be mended: e2e: web visits\n" in printed, again == 0)
+
+    def test_three_of_them_and_whatever_hangs_on_no_time_are_failures(self):
+        for failed in ("7:e2e: a\\n8:e2e: b\\n9:e2e: c\\n", "7:e2e: a\\n8:physics:b\\n", ""):
+            code, printed, calls = self.run_with(0, 0, failed)
+            self.assertEqual((code, calls), (8, ["--preset none -j 2"]))
+            self.assertNotIn("UNSTEADY", printed)
 
 
 if __name__ == "__main__":
