@@ -8,6 +8,7 @@
 
 #include "bench/lab/problems/convergence.h"
 #include "bench/lab/report/progress.h"
+#include "bench/lab/report/side_by_side.h"
 
 namespace woodlouse::lab {
 namespace {
@@ -38,22 +39,30 @@ core::Expected<void> measure_orders(const Output& output) {
   header.insert(header.end(), {"order", "uncertainty", "sub_steps_15", "sub_steps_60"});
   Table table(std::move(header));
   Progress progress("orders", all.size());
-  for (const Event& event : all) {
-    const std::vector<ReferenceWay> ways = reference_ways(event, starts);
-    if (ways.size() < starts)
+  std::vector<std::vector<Convergence>> found(all.size());  // by method; none: too few starts meet it
+  side_by_side(
+      all.size(),
+      [&](std::size_t i) {
+        const std::vector<ReferenceWay> ways = reference_ways(all[i], starts);
+        if (ways.size() < starts) return;
+        for (const Method method : kRoomMethods) found[i].push_back(convergence(all[i], method, ways));
+      },
+      [&] { progress.advance(); });
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Event& event = all[i];
+    if (found[i].empty())
       return core::fail(event.name + " on " + event.ground, "too few starts meet it",
                         "see problems/events.cpp");
-    for (const Method method : kRoomMethods) {
-      const Convergence c = convergence(event, method, ways);
+    for (std::size_t m = 0; m < found[i].size(); ++m) {
+      const Convergence& c = found[i][m];
       const auto add = [&](const char* error, const Errors& errors, double uncertainty) {
-        add_row(table, event, method, error, errors, c.sub_steps, uncertainty);
+        add_row(table, event, kRoomMethods[m], error, errors, c.sub_steps, uncertainty);
       };
       add("place, median", c.position.median, c.position.median_uncertainty);
       add("place, worst", c.position.worst, c.position.worst_uncertainty);
       add("way, median", c.distance.median, c.distance.median_uncertainty);
       add("way, worst", c.distance.worst, c.distance.worst_uncertainty);
     }
-    progress.advance();
   }
   std::cout << "Errors [m] of place and length of the way at the end, " << starts
             << " starts an event, against `precise` at " << kReferenceRate
