@@ -1,7 +1,6 @@
 #include "shared/elevation/ground.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -89,12 +88,16 @@ GridFrame frame_of(const HeightGrid& grid) {
 }  // namespace
 
 void take_undeclared_mark(FileGrid& grid) {
-  for (const double mark : {-9999.0, -32768.0, -32767.0, -99999.0}) {
+  for (const double mark : kCustomaryMarks) {
     if (std::find(grid.heights.begin(), grid.heights.end(), mark) == grid.heights.end()) continue;
     std::replace(grid.heights.begin(), grid.heights.end(), mark, std::numeric_limits<double>::quiet_NaN());
     grid.undeclared_mark = mark;
     return;
   }
+}
+
+std::string mark_note(double mark) {
+  return rounded(mark, 1.0) + " was taken for no data, which the file does not say";
 }
 
 std::string degrees_note(const GridFrame& frame) {
@@ -162,8 +165,7 @@ core::Expected<Ground> make_ground(FileGrid file, const GroundOptions& options, 
     add_line(ground.note, std::to_string(holes) + " of " + std::to_string(grid.heights.size()) +
                               " heights were filled from their shores");
   }
-  if (mark)
-    add_line(ground.note, rounded(*mark, 1.0) + " was taken for no data, which the file does not say");
+  if (mark) add_line(ground.note, mark_note(*mark));
   return ground;
 }
 

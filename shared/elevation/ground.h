@@ -2,6 +2,7 @@
 // data is cut off, holes are filled. One line tells what was done.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,9 +22,15 @@ struct FileGrid : terrain::HeightGrid {
   std::optional<double> undeclared_mark;
 };
 
-/// In a grid whose file declares no mark: if heights are exactly -9999, -32768, -32767 or -99999, the first
-/// of these that occurs becomes NaN, and is noted.
+/// What files that declare no mark customarily have in its place.
+inline constexpr std::array<double, 4> kCustomaryMarks = {-9999.0, -32768.0, -32767.0, -99999.0};
+
+/// In a grid whose file declares no mark: if heights are exactly one of kCustomaryMarks, the first of these
+/// that occurs becomes NaN, and is noted.
 void take_undeclared_mark(FileGrid& grid);
+
+/// What the note says of such a mark: "-9999 was taken for no data, which the file does not say".
+std::string mark_note(double mark);
 
 /// What a map wants of a grid that has holes.
 enum class Rim {

@@ -182,6 +182,9 @@ std::optional<TerrainDefinition> read_float_grid(const json::Value& value, const
                  "take storage tiles, or leave it out");
     return std::nullopt;
   }
+  // Not all of it has been read: a mark that no surveyed row has counts as no data too, but is not told of.
+  if (const auto mark = terrain.heights->undeclared_mark())
+    note += (note.empty() ? "" : ", ") + elevation::mark_note(*mark);
   terrain.fingerprint = surveyed->fingerprint;
   terrain.overview = std::move(surveyed->overview);
   return terrain;

@@ -15,6 +15,8 @@
 #include <system_error>
 #include <utility>
 
+#include "shared/elevation/ground.h"
+
 namespace woodlouse::map {
 namespace {
 
@@ -72,6 +74,24 @@ core::Expected<std::shared_ptr<const FltGrid>> FltGrid::open_by(const Open& open
   return std::shared_ptr<const FltGrid>(new FltGrid(*header, std::move(*heights)));
 }
 
+std::optional<double> FltGrid::undeclared_mark() const {
+  const unsigned met = marks_met_.load(std::memory_order_relaxed);
+  for (std::size_t k = 0; k < elevation::kCustomaryMarks.size(); ++k) {
+    if ((met >> k & 1u) != 0) return elevation::kCustomaryMarks[k];
+  }
+  return std::nullopt;
+}
+
+bool FltGrid::is_customary_mark(float height) const {
+  if (!(height <= -9999.0f)) return false;  // nearly all heights end here
+  for (std::size_t k = 0; k < elevation::kCustomaryMarks.size(); ++k) {
+    if (static_cast<double>(height) != elevation::kCustomaryMarks[k]) continue;
+    marks_met_.fetch_or(1u << k, std::memory_order_relaxed);
+    return true;
+  }
+  return false;
+}
+
 void FltGrid::read(std::size_t column, std::size_t row, std::span<double> out) const {
   const terrain::GridFrame& frame = header_.frame;
   assert(column + out.size() <= frame.columns && row < frame.rows);
@@ -87,7 +107,8 @@ void FltGrid::read(std::size_t column, std::size_t row, std::span<double> out) c
     if (!ok) read_failures_.fetch_add(1, std::memory_order_relaxed);
     for (std::size_t k = 0; k < part.size(); ++k) {
       const float height = std::bit_cast<float>(swap ? swapped(raw[k]) : raw[k]);
-      const bool known = ok && std::fabs(height) < kNoFloatHeightFrom && height != header_.no_data;
+      const bool known = ok && std::fabs(height) < kNoFloatHeightFrom && height != header_.no_data &&
+                         (header_.declares_no_data || !is_customary_mark(height));
       part[k] = known ? static_cast<double>(height) : std::numeric_limits<double>::quiet_NaN();
     }
   }

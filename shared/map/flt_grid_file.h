@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -40,16 +41,22 @@ class FltGrid final : public terrain::HeightSource {
   [[nodiscard]] std::uint64_t read_failures() const override {
     return read_failures_.load(std::memory_order_relaxed);
   }
+  /// Where the header declares no mark all of elevation::kCustomaryMarks count as no data, each height by
+  /// itself: no part of a large file has to wait for what another one has. This is the first of them that was
+  /// met.
+  [[nodiscard]] std::optional<double> undeclared_mark() const override;
 
  private:
   FltGrid(const FltHeader& header, core::InputFile heights) : header_(header), heights_(std::move(heights)) {}
   using Open = std::function<core::Expected<core::InputFile>(const std::filesystem::path&)>;
   static core::Expected<std::shared_ptr<const FltGrid>> open_by(const Open& open,
                                                                 const std::filesystem::path& file);
+  [[nodiscard]] bool is_customary_mark(float height) const;
 
   FltHeader header_;
   core::InputFile heights_;
   mutable std::atomic<std::uint64_t> read_failures_{0};
+  mutable std::atomic<unsigned> marks_met_{0};  ///< a bit for each of elevation::kCustomaryMarks
 };
 
 }  // namespace woodlouse::map

@@ -195,6 +195,7 @@ core::Expected<FltHeader> parse_flt_header(std::string_view text, const std::str
                           -static_cast<double>(frame.rows - 1) * frame.dy);
   demand_plain_layout(header, frame.columns);
   result.no_data = no_data_of(header);
+  result.declares_no_data = header.has("nodata_value") || header.has("nodata");
   if (const FltEntry* order = header.find("byteorder")) {
     if (order->value == "msbfirst" || order->value == "m") result.byte_order = ByteOrder::kBigEndian;
   }

@@ -5,7 +5,7 @@
 //     xllcorner 0.0                 or xllcenter, half a cell further east; yllcorner, yllcenter alike;
 //     yllcorner 0.0                 or ulxmap and ulymap, the north-western cell's centre (as GDAL writes)
 //     cellsize 1.0                  or xdim and ydim
-//     NODATA_value -9999            or nodata; may be left out
+//     NODATA_value -9999            or nodata; left out: the customary marks (elevation/ground.h) are none
 //     byteorder LSBFIRST            or I: little-endian (default); MSBFIRST or M: big-endian
 //     nbits 32, pixeltype FLOAT, nbands 1, layout BIL may stand there, with no other value; skipbytes,
 //     bandgapbytes, bandrowbytes and totalrowbytes only as a plain file has them.
@@ -32,7 +32,8 @@ enum class ByteOrder { kLittleEndian, kBigEndian };
 struct FltHeader {
   terrain::GridFrame frame;
   ByteOrder byte_order = ByteOrder::kLittleEndian;
-  float no_data = -9999.0f;  ///< NaN when the header names none
+  float no_data = -9999.0f;      ///< NaN when the header names none
+  bool declares_no_data = true;  ///< false: what is customarily none has to be taken for it
 };
 
 /// The header's text; `source` names it in errors. Errors: a key missing, twice, or out of range.

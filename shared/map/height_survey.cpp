@@ -77,6 +77,7 @@ core::Expected<elevation::FileGrid> read_all_heights(const terrain::HeightSource
     heights.read(0, j, std::span(grid.heights).subspan(j * frame.columns, frame.columns));
   }
   if (auto read = check_read(heights, grid.heights, source); !read) return tl::unexpected(read.error());
+  grid.undeclared_mark = heights.undeclared_mark();
   return grid;
 }
 

@@ -33,7 +33,7 @@ struct HeightSurvey {
 core::Expected<HeightSurvey> survey_heights(const terrain::HeightSource& heights, double fill_level,
                                             const std::string& source);
 
-/// Every height; NaN where there are no data. Errors as above.
+/// Every height; NaN where there are no data; the mark that was taken for none. Errors as above.
 core::Expected<elevation::FileGrid> read_all_heights(const terrain::HeightSource& heights,
                                                      const std::string& source);
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -35,6 +36,8 @@ class ScaledHeights final : public terrain::HeightSource {
     }
   }
   [[nodiscard]] std::uint64_t read_failures() const override { return file_->read_failures(); }
+  /// As the file has it: not scaled.
+  [[nodiscard]] std::optional<double> undeclared_mark() const override { return file_->undeclared_mark(); }
 
  private:
   std::shared_ptr<const terrain::HeightSource> file_;

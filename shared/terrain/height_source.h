@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -45,6 +46,8 @@ class HeightSource {
   virtual void read(std::size_t column, std::size_t row, std::span<double> out) const = 0;
   /// Reads that failed so far; what they were to give counts as without data.
   [[nodiscard]] virtual std::uint64_t read_failures() const { return 0; }
+  /// A height among those read so far that was taken for no data although nothing declares it so.
+  [[nodiscard]] virtual std::optional<double> undeclared_mark() const { return std::nullopt; }
 };
 
 /// A grid in memory. Knots that are not finite count as without data.

@@ -112,6 +112,28 @@ TEST_CASE(
   });
 }
 
+TEST_CASE("an undeclared -9999 is a hole, not a pit of 10 km, read whole or in tiles, and one line says so") {
+  const auto with_holes = [](std::size_t i, std::size_t j) {
+    return i >= 40 && i < 44 && j >= 30 && j < 33 ? -9999.0 : BigMapFiles::wave(i, j);
+  };
+  const BigMapFiles files("undeclared", 201, 150, with_holes);
+  files.write("hills.hdr", "ncols 201\nnrows 150\nxllcenter 0\nyllcenter 0\ncellsize 1\n");
+  const auto whole = load(files.map(R"(,"scale":0.5)"));
+  CHECK(whole->definition.ground_note ==
+        "12 of 30150 heights were filled from their shores, -9999 was taken for no data, which the file does "
+        "not say");
+  const auto tiled = load(files.map(R"(,"scale":0.5,"storage":"tiles")"));
+  CHECK(tiled->definition.ground_note == "-9999 was taken for no data, which the file does not say");
+  for (const auto& map : {whole, tiled}) {
+    at_points(map->terrain->domain(),
+              [&](double x, double y) { REQUIRE(std::fabs(map->terrain->sample(x, y).z) < 1.5); });
+    CHECK(std::fabs(map->terrain->sample(0.5 * (42 - 100), 0.5 * (31 - 74.5)).z) < 1.5);
+  }
+  files.write("hills.hdr",
+              "ncols 201\nnrows 150\nxllcenter 0\nyllcenter 0\ncellsize 1\nNODATA_value -1234\n");
+  check_says(error_of(files.map("")), "steeper than 100 m a metre");
+}
+
 TEST_CASE("the fingerprint tells another file, and a map may demand it") {
   const BigMapFiles files("fingerprint");
   const auto map = load(files.map(R"(,"storage":"tiles")"));

@@ -129,6 +129,35 @@ TEST_CASE("heights without data come as NaN, however the file spells them, and t
   CHECK(surface.has_ground(12.0, -1.0));
 }
 
+TEST_CASE("what customarily marks no data is none where the header declares nothing, and there alone") {
+  const Folder folder("marks");
+  const std::string no_mark = "ncols 5\nnrows 4\nxllcorner 10\nyllcorner 0\ncellsize 2\n";
+  std::vector<float> values = counted();
+  values[1] = -99999.0f;
+  values[2] = -32768.0f;
+  values[15] = -9999.5f;  // deep, but no mark
+  folder.write("big.flt", float_bytes(values, ByteOrder::kLittleEndian));
+  folder.write("big.hdr", no_mark);
+  const auto grid = FltGrid::open(folder.file("big.flt"));
+  REQUIRE(grid.has_value());
+  std::vector<double> row(5);
+  (*grid)->read(0, 0, row);
+  CHECK(row[0] == -9999.5);
+  CHECK_FALSE((*grid)->undeclared_mark());
+  (*grid)->read(0, 3, row);
+  CHECK((std::isnan(row[1]) && std::isnan(row[2])));
+  CHECK(row[3] == 3.0);
+  CHECK((*grid)->undeclared_mark() == -32768.0);
+  for (const char* declared : {"NODATA_value -1\n", "nodata nan\n", "NODATA -1e39\n"}) {
+    folder.write("big.hdr", no_mark + declared);
+    const auto other = FltGrid::open(folder.file("big.flt"));
+    REQUIRE(other.has_value());
+    (*other)->read(0, 3, row);
+    CHECK(row[1] == -99999.0);  // the file says what its mark is
+    CHECK_FALSE((*other)->undeclared_mark());
+  }
+}
+
 TEST_CASE("the surface over a file is the surface over the same heights in memory") {
   const Folder folder("surface");
   terrain::HeightGrid grid = tests::smooth_grid(150, 90);
