@@ -17,8 +17,9 @@ CLI::App* add_make_map(CLI::App& app, MakeMapRequest& request) {
   make_map->add_option("file", request.file, "The elevation file")->required();
   make_map->add_option("--out", request.out, "The map file; FILE with the ending .json, if not given");
   make_map
-      ->add_option("--crop", request.crop,
-                   "West,south,east,north: of an .hgt in degrees, else in metres from the grid's middle")
+      ->add_option(
+          "--crop", request.crop,
+          "West,south,east,north in the file's own coordinates: degrees, or metres as its header has them")
       ->delimiter(',')
       ->expected(4)
       ->check(number_within(-1e9, 1e9, "from -1e9 to 1e9"));

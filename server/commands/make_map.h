@@ -12,8 +12,7 @@ namespace woodlouse::server {
 struct MakeMapRequest {
   std::filesystem::path file;                ///< .asc, .grd, .flt or .hgt
   std::optional<std::filesystem::path> out;  ///< NAME.json beside the file, if not given
-  /// Four numbers, west, south, east, north: of an .hgt in degrees, of others in metres from the middle of
-  /// the whole grid, before the scale. Empty: all of it.
+  /// Four numbers, west, south, east, north, in the file's own coordinates (map_crop.h). Empty: all of it.
   std::vector<double> crop;
   double scale = 1.0;  ///< 1e-6..1e6
   std::string name;    ///< empty: the file's, without its ending

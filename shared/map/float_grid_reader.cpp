@@ -77,7 +77,7 @@ double steepest_of_some_rows(const terrain::HeightSource& heights) {
 
 bool is_in_degrees(const terrain::HeightSource& heights, elevation::LengthUnit unit, bool is_srtm) {
   if (unit != elevation::LengthUnit::kByLooks) return unit == elevation::LengthUnit::kDegrees;
-  return is_srtm || elevation::looks_like_degrees(heights.frame(), steepest_of_some_rows(heights));
+  return is_srtm || is_in_degrees_by_looks(heights);
 }
 
 std::optional<elevation::LengthUnit> unit_from_text(std::string_view text) {
@@ -123,6 +123,10 @@ std::optional<HeightSurvey> survey(const json::Fields& fields, const TiledTerrai
 bool is_float_grid(std::string_view path) { return ends_in(path, ".flt"); }
 
 bool is_srtm_tile(std::string_view path) { return ends_in(path, ".hgt"); }
+
+bool is_in_degrees_by_looks(const terrain::HeightSource& heights) {
+  return elevation::looks_like_degrees(heights.frame(), steepest_of_some_rows(heights));
+}
 
 elevation::GroundOptions read_ground_options(const json::Fields& fields, json::Problems& problems) {
   elevation::GroundOptions options;

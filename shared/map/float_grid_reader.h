@@ -19,6 +19,9 @@ bool is_float_grid(std::string_view path);
 /// Whether it ends in .hgt, in any case.
 bool is_srtm_tile(std::string_view path);
 
+/// Whether a file's frame can only be meant in degrees (elevation::looks_like_degrees), by some of its rows.
+bool is_in_degrees_by_looks(const terrain::HeightSource& heights);
+
 /// The members unit, rim, scale and fill_level of a terrain in a file.
 elevation::GroundOptions read_ground_options(const json::Fields& fields, json::Problems& problems);
 

@@ -66,19 +66,32 @@ core::Expected<HeightSurvey> survey_heights(const terrain::HeightSource& heights
   return survey;
 }
 
-core::Expected<elevation::FileGrid> read_all_heights(const terrain::HeightSource& heights,
-                                                     const std::string& source) {
+core::Expected<elevation::FileGrid> read_heights(const terrain::HeightSource& heights, const Window& window,
+                                                 const std::string& source) {
   const terrain::GridFrame frame = heights.frame();
   elevation::FileGrid grid;
   static_cast<terrain::HeightGrid&>(grid) = {
-      frame.columns, frame.rows, frame.x_origin, frame.y_origin, frame.dx, frame.dy, {}};
-  grid.heights.resize(frame.columns * frame.rows);
-  for (std::size_t j = 0; j < frame.rows; ++j) {
-    heights.read(0, j, std::span(grid.heights).subspan(j * frame.columns, frame.columns));
+      window.columns,
+      window.rows,
+      frame.x_origin + static_cast<double>(window.first_column) * frame.dx,
+      frame.y_origin + static_cast<double>(window.first_row) * frame.dy,
+      frame.dx,
+      frame.dy,
+      {}};
+  grid.heights.resize(window.columns * window.rows);
+  for (std::size_t j = 0; j < window.rows; ++j) {
+    heights.read(window.first_column, window.first_row + j,
+                 std::span(grid.heights).subspan(j * window.columns, window.columns));
   }
   if (auto read = check_read(heights, grid.heights, source); !read) return tl::unexpected(read.error());
   grid.undeclared_mark = heights.undeclared_mark();
   return grid;
+}
+
+core::Expected<elevation::FileGrid> read_all_heights(const terrain::HeightSource& heights,
+                                                     const std::string& source) {
+  const terrain::GridFrame frame = heights.frame();
+  return read_heights(heights, {0, 0, frame.columns, frame.rows}, source);
 }
 
 }  // namespace woodlouse::map

@@ -33,7 +33,20 @@ struct HeightSurvey {
 core::Expected<HeightSurvey> survey_heights(const terrain::HeightSource& heights, double fill_level,
                                             const std::string& source);
 
-/// Every height; NaN where there are no data; the mark that was taken for none. Errors as above.
+/// Knots of a grid: `columns` from `first_column` on, `rows` from `first_row` (0: the southern one) on.
+struct Window {
+  std::size_t first_column = 0;
+  std::size_t first_row = 0;
+  std::size_t columns = 0;
+  std::size_t rows = 0;
+};
+
+/// The heights in a window, which lies in the grid; NaN where there are no data; the mark that was taken for
+/// none. Errors as above.
+core::Expected<elevation::FileGrid> read_heights(const terrain::HeightSource& heights, const Window& window,
+                                                 const std::string& source);
+
+/// The same of every height.
 core::Expected<elevation::FileGrid> read_all_heights(const terrain::HeightSource& heights,
                                                      const std::string& source);
 

@@ -7,12 +7,10 @@
 #include <utility>
 
 #include "shared/core/joined.h"
-#include "shared/elevation/file_kind.h"
 #include "shared/elevation/ground.h"
-#include "shared/elevation/surfer_ascii.h"
-#include "shared/map/esri_ascii_grid.h"
 #include "shared/map/float_grid_reader.h"
 #include "shared/map/map_text.h"
+#include "shared/map/opened_grid.h"
 #include "shared/map/terrain_ranges.h"
 
 namespace woodlouse::map {
@@ -62,25 +60,6 @@ std::optional<std::string> grid_path(const json::Value& name, const GridFolder* 
 }
 
 #ifndef WOODLOUSE_FREESTANDING
-/// The grid of a text, whichever kind it is.
-std::optional<elevation::FileGrid> parse_grid(const std::string& text, const std::string& path,
-                                              json::Problems& problems) {
-  if (auto foreign = elevation::foreign_grid(text, path)) {
-    problems.add(std::move(*foreign));
-    return std::nullopt;
-  }
-  if (elevation::is_surfer_ascii(text)) {
-    auto grid = elevation::parse_surfer_ascii(text, path, kMaxKnots);
-    if (grid) return std::move(*grid);
-    problems.add(std::move(grid.error()));
-    return std::nullopt;
-  }
-  json::Problems grid_problems(path);
-  std::optional<elevation::FileGrid> grid = parse_esri_ascii_grid(text, grid_problems);
-  problems.take_over(std::move(grid_problems));
-  return grid;
-}
-
 /// A grid of text, its middle laid at the origin: real-world coordinates would cost digits and help nobody.
 std::optional<HeightGrid> read_text_grid(const json::Value& value, const json::Value& name,
                                          const GridFolder& folder, const std::string& path, std::string& note,
@@ -92,7 +71,7 @@ std::optional<HeightGrid> read_text_grid(const json::Value& value, const json::V
     problems.add(name, text.error().text());
     return std::nullopt;
   }
-  std::optional<elevation::FileGrid> file = parse_grid(*text, path, problems);
+  std::optional<elevation::FileGrid> file = parse_grid_text(*text, path, problems);
   if (!file) return std::nullopt;
   auto ground = elevation::make_ground(std::move(*file), options, path);
   if (!ground) {
