@@ -47,7 +47,7 @@ TEST_CASE("on every shipped map, however steered, the default at 60 Hz and the r
       CHECK(fine[fine.size() / 2] < 5e-5);
     }
   }
-  CHECK(measured == 19);
+  CHECK(measured == 20);
   // What the step has code for has been on these ways.
   CHECK(met.lines > 1000);
   CHECK(met.walls > 50);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <filesystem>
 #include <string>
 
@@ -47,6 +48,26 @@ TEST_CASE("maunga whau is played a tenth of its size, its middle at the origin, 
   CHECK(*high == Approx(19.5));
   CHECK(grid.at(0, grid.rows - 1) == Approx(10.3));    // the file's first number
   CHECK(grid.at(grid.columns - 1, 0) == Approx(9.7));  // and its last
+}
+
+TEST_CASE("jacksboro is the part of its fault that make-map was asked for, the hills in its north-west") {
+  const auto map = load_map(kMaps / "jacksboro.json");
+  REQUIRE(map);
+  const auto grid = knots_of((*map)->definition);
+  CHECK(grid.columns == 81);
+  CHECK(grid.rows == 61);
+  const auto domain = (*map)->terrain->domain();
+  CHECK(domain.x_max == Approx(46.59).margin(0.01));
+  CHECK(domain.y_max == Approx(43.35).margin(0.01));
+  const auto [low, high] = std::minmax_element(grid.heights.begin(), grid.heights.end());
+  CHECK(64.0 * *low == Approx(308.0).margin(0.1));  // metres above the sea, a 64th as high
+  CHECK(64.0 * *high == Approx(740.0).margin(0.1));
+  for (const double z : grid.heights) REQUIRE(64.0 * z == std::round(64.0 * z));
+  // Lice begin where the ground lets them stand.
+  for (const SpawnPoint& spawn : (*map)->definition.spawns) {
+    const auto ground = (*map)->terrain->sample(spawn.position.x, spawn.position.y);
+    CHECK(std::hypot(ground.zx, ground.zy) < 0.05);
+  }
 }
 
 TEST_CASE("on every shipped map a louse can leave its spawn point") {

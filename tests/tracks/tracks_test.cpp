@@ -30,10 +30,10 @@ std::vector<std::string> maps_with(state::Mode mode) {
 
 }  // namespace
 
-TEST_CASE("five races, three forages and two hills are shipped, and nothing is wrong with their maps") {
+TEST_CASE("five races, four forages and two hills are shipped, and nothing is wrong with their maps") {
   CHECK(maps_with(state::Mode::kRace) ==
         std::vector<std::string>{"crater_loop", "endless", "figure_eight", "long_jump", "maunga_climb"});
-  CHECK(maps_with(state::Mode::kForage).size() == 3);
+  CHECK(maps_with(state::Mode::kForage).size() == 4);
   const std::vector<std::string> hills = maps_with(state::Mode::kHill);
   CHECK(hills.size() == 2);
   CHECK(std::any_of(hills.begin(), hills.end(), [](const std::string& name) {

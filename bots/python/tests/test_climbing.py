@@ -21,8 +21,8 @@ from running import ROOT, Running, Witness, example, program, readme_bot, readme
 
 MAPS = ("hills", "jumps", "maunga_whau", "parabolic_pot", "torus", "volcano", "wavy_pot")
 LEVEL = ("arena", "kepler")
-COURSES = ("crater_king", "crater_loop", "endless", "figure_eight", "long_jump", "maunga_climb", "maunga_crumbs", "orchard", "picnic",
-           "table")  # made to be played by rules: tests/tracks, test_modes
+COURSES = ("crater_king", "crater_loop", "endless", "figure_eight", "jacksboro", "long_jump", "maunga_climb", "maunga_crumbs", "orchard",
+           "picnic", "table")  # made to be played by rules: tests/tracks, test_modes
 PAPER = ("hoffmann_2002",)  # by the paper's equations, which make and lose energy: its dents hold who pushes uphill
 SHARE = 0.9
 SECONDS = 240  # of the game. They take 6 to 60: on rough ground a run of bad luck may double that
