@@ -156,13 +156,14 @@ class MakeMap(unittest.TestCase):
         self.assertEqual(made.returncode, 0, made.stdout + made.stderr)
         return made.stdout
 
-    def play(self, *files):
+    def play(self, *files, mode="roam"):
         """All at once: each plays for 600 ticks of its own. Their logs."""
         games, logs = [], {}
         for file in files:
             record = self.path / (file + ".ndjson.zst")
-            games.append((record, subprocess.Popen(
-                [SERVER, "--map", self.path / (file + ".json"), "--mode", "roam", "--listen", "127.0.0.1:0", "--seed", "5", "--bots", "8",
+            written = self.path / (file + ("" if mode == "roam" else f".{mode}") + ".ndjson.zst")
+            games.append((written, subprocess.Popen(
+                [SERVER, "--map", self.path / (file + ".json"), "--mode", mode, "--listen", "127.0.0.1:0", "--seed", "5", "--bots", "8",
                  "--bots-alone", "play", "--ticks", str(TICKS), "--record", record],
                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)))
         for record, game in games:
@@ -174,7 +175,8 @@ class MakeMap(unittest.TestCase):
             self.assertIn(str(TICKS), verified.stdout)
         return logs
 
-    def test_five_grids_that_differ_in_everything_are_played(self):
+    def write_five_grids(self):
+        """They differ in everything. Their names."""
         ascii_grid(self.path / "steep.asc", 60, 40, "xllcorner 0\nyllcorner 0\ncellsize 10",
                    lambda i, j: hills(i, j, 200.0, 5.0))
         rng = random.Random(3)
@@ -190,7 +192,10 @@ class MakeMap(unittest.TestCase):
         if sys.byteorder == "big":
             heights.byteswap()
         (self.path / "flat.flt").write_bytes(heights.tobytes())
-        files = ("steep.asc", "holes.asc", "degrees.asc", "surfer.grd", "flat.flt")
+        return "steep.asc", "holes.asc", "degrees.asc", "surfer.grd", "flat.flt"
+
+    def test_five_grids_that_differ_in_everything_are_played(self):
+        files = self.write_five_grids()
         said = {file: self.make(file, "--modes") for file in files}
         self.assertIn("were filled from their shores", said["holes.asc"])
         self.assertIn("degrees at latitude", said["degrees.asc"])
@@ -202,6 +207,18 @@ class MakeMap(unittest.TestCase):
         (self.path / "by_hand.json").write_text('{"name": "by_hand", "terrain": {"file": "holes.asc"}}')
         logs = self.play(*files, "by_hand")
         self.assertRegex(logs["by_hand"], "room_opened: .*; its ground: .*were filled from their shores")
+
+    def test_bots_drive_through_the_gates_that_it_lays(self):
+        self.write_five_grids()
+        # The ground between the cliffs of the fifth is no way for anybody.
+        for file, scale in (("holes.asc", "0.5"), ("degrees.asc", "0.05"), ("surfer.grd", "1"), ("flat.flt", "0.5")):
+            self.make(file, "--modes", "--scale", scale)
+        self.play("holes.asc", "degrees.asc", "surfer.grd", "flat.flt", mode="race")
+        for file in ("holes", "degrees", "surfer", "flat"):
+            (record,) = self.path.glob(file + ".???.race.ndjson.zst")
+            rulings = [line.split() for line in run("inspect", "--rulings", record).stdout.splitlines()]
+            with self.subTest(file):
+                self.assertTrue(any(ruling[1] == "gate" for ruling in rulings), rulings)
 
     def test_a_tile_of_one_arc_second_with_voids_whole_and_cropped(self):
         tile(self.path / "S37E174.hgt", 3601)
