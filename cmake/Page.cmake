@@ -42,7 +42,7 @@ function(woodlouse_embed_page target)
     COMMAND ${CMAKE_COMMAND} --build ${core_build} --parallel 2 --target core > ${core_build}.log
     COMMAND ${CMAKE_COMMAND} -E touch ${core}
     DEPENDS ${core_sources} ${PROJECT_SOURCE_DIR}/CMakeLists.txt ${PROJECT_SOURCE_DIR}/web/CMakeLists.txt ${PROJECT_SOURCE_DIR}/cmake/wasm.cmake
-            ${PROJECT_SOURCE_DIR}/cmake/Flags.cmake ${PROJECT_SOURCE_DIR}/cmake/Dependencies.cmake
+            ${PROJECT_SOURCE_DIR}/cmake/order_functions.sh ${PROJECT_SOURCE_DIR}/cmake/Flags.cmake ${PROJECT_SOURCE_DIR}/cmake/Dependencies.cmake
     COMMENT "Compiling the core for browsers (core.wasm)" VERBATIM)
   file(GLOB_RECURSE page_sources CONFIGURE_DEPENDS LIST_DIRECTORIES true ${page}/*)
   set(packed ${PROJECT_BINARY_DIR}/page)
