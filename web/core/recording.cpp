@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "shared/json/object_text.h"
+#include "shared/match/found_lice.h"
+#include "shared/match/live_error.h"
 #include "shared/protocol/messages.h"
 #include "shared/replay/archive.h"
 #include "shared/replay/playback.h"
@@ -13,6 +15,7 @@
 #include "web/core/answer.h"
 #include "web/core/bytes.h"
 #include "web/core/ground.h"
+#include "web/core/live_error_text.h"
 #include "web/core/shown_match.h"
 
 namespace woodlouse::web {
@@ -21,12 +24,40 @@ namespace {
 struct OpenRecording {
   std::shared_ptr<const replay::ReplayArchive> archive;
   std::unique_ptr<replay::Playback> playback;
+  state::LouseId measured = 0;  ///< 0: nobody
+  std::unique_ptr<match::LiveError> error{};
+  std::unique_ptr<match::FoundLice> found{};
 };
 
 Handles<OpenRecording> recordings;
 Handles<replay::Verifier> verifications;
 
 replay::Playback& playback(Handle handle) { return *recordings.at(handle).playback; }
+
+/// How far the steps of who is measured err, from here on.
+void begin_error(OpenRecording& recording) {
+  recording.error.reset();
+  recording.found.reset();
+  if (recording.measured == 0) return;
+  const replay::Header& header = recording.archive->header();
+  const map::Map& map = *recording.archive->map();
+  recording.error = std::make_unique<match::LiveError>(map, 1.0 / header.tick_hz, header.mode);
+  recording.found = std::make_unique<match::FoundLice>(map, 1.0 / header.tick_hz, header.mode);
+}
+
+/// A step forth, of which who is measured is counted.
+auto stepped(OpenRecording& recording) {
+  const state::Louse* const own =
+      recording.error ? recording.playback->match().world().find(recording.measured) : nullptr;
+  const state::Louse before = own != nullptr ? *own : state::Louse{};
+  auto step = recording.playback->advance();
+  if (own == nullptr || !step || !*step) return step;
+  const match::StepRecord& record = (*step)->recorded.step;
+  for (const state::Louse& louse : recording.found->find({&before, 1}, record))
+    recording.error->find(louse, record.tick);
+  recording.error->count(1);
+  return step;
+}
 
 replay::ReplaySource source_of(const char* bytes, std::size_t size) {
   return replay::ReplaySource::of_bytes(std::string(bytes_at(bytes, size)), "the recording");
@@ -56,8 +87,8 @@ WOODLOUSE_EXPORT(recording_open) int recording_open(const char* bytes, std::size
   if (!archive) return refuse(archive.error());
   auto play = (*archive)->play((*archive)->first_tick());
   if (!play) return refuse(play.error());
-  return static_cast<int>(
-      recordings.add(std::make_unique<OpenRecording>(OpenRecording{std::move(*archive), std::move(*play)})));
+  return static_cast<int>(recordings.add(std::make_unique<OpenRecording>(
+      OpenRecording{.archive = std::move(*archive), .playback = std::move(*play)})));
 }
 WOODLOUSE_EXPORT(recording_close) void recording_close(Handle handle) { recordings.close(handle); }
 
@@ -88,6 +119,7 @@ WOODLOUSE_EXPORT(recording_seek) bool recording_seek(Handle handle, double tick)
   assert(tick >= static_cast<double>(archive.first_tick()) &&
          tick <= static_cast<double>(archive.last_tick()));
   const auto done = playback(handle).seek(static_cast<std::uint64_t>(tick));
+  begin_error(recordings.at(handle));
   return done ? true : refuse(done.error());
 }
 
@@ -97,7 +129,7 @@ WOODLOUSE_EXPORT(recording_advance) bool recording_advance(Handle handle, std::u
   std::uint32_t done = 0;
   std::vector<replay::ChatLine> chats;
   for (; done < steps; ++done) {
-    auto step = playback(handle).advance();
+    auto step = stepped(recordings.at(handle));
     if (!step) return refuse(step.error());
     if (!*step) break;
     for (replay::ChatLine& chat : (*step)->chats) chats.push_back(std::move(chat));
@@ -112,6 +144,23 @@ WOODLOUSE_EXPORT(recording_advance) bool recording_advance(Handle handle, std::u
   });
   text.end();
   return true;
+}
+
+/// From now on, over the steps forth, how far those of this louse err; 0: nobody's. Another one than before
+/// and recording_seek() begin anew.
+WOODLOUSE_EXPORT(recording_measure) void recording_measure(Handle handle, std::uint32_t id) {
+  OpenRecording& recording = recordings.at(handle);
+  if (recording.measured == id) return;
+  recording.measured = id;
+  begin_error(recording);
+}
+/// Answers as error_count() does.
+WOODLOUSE_EXPORT(recording_error) void recording_error(Handle handle) {
+  const OpenRecording& recording = recordings.at(handle);
+  if (recording.error)
+    answer_error(*recording.error);
+  else
+    answer() = "null";
 }
 
 WOODLOUSE_EXPORT(recording_tick) double recording_tick(Handle handle) {
