@@ -21,6 +21,7 @@ export function act(stage, action) {
     case 'next': return stage.step(1);
     case 'previous': return stage.step(-1);
     case 'talk': return stage.panels.chat.open();
+    case 'error': stage.panels.toggleError(player); return;
     case 'help': return stage.panels.help(stage.source);
     case 'pad': document.body.toggleAttribute('data-pad'); return;
     case 'pick': return stage.drop?.pick();

@@ -77,15 +77,20 @@ export class Ground {
     const { instance, rows } = this.core;
     return instance.withMemory(rows.size, at => {
       const lice = [];
-      while (instance.call('ground_spawn', this.handle, MODES.indexOf(mode), lice.length, 1, at)) lice.push(rows.read(instance.view(at), 1)[0]);
+      while (instance.call('ground_spawn', this.handle, this.numberOf(mode), lice.length, 1, at)) lice.push(rows.read(instance.view(at), 1)[0]);
       return lice;
     });
+  }
+
+  /** The core's number of a mode. @param {string} mode */
+  numberOf(mode) {
+    return MODES.indexOf(mode);
   }
 
   /** An empty world on it; of an exact map alone. @param {string} mode one that the map has */
   world(mode = 'roam') {
     if (!this.isExact) throw new Error('a big map is only drawn here');
-    return new World(this.core, this.core.instance.call('world_open', this.handle, this.hz, MODES.indexOf(mode)));
+    return new World(this.core, this.core.instance.call('world_open', this.handle, this.hz, this.numberOf(mode)));
   }
 
   close() {

@@ -97,6 +97,11 @@ export class Recording {
     return this.desk.ask('advance', { steps });
   }
 
+  /** Whose steps' error each moment tells from now on; 0: nobody's. @param {number} id */
+  measure(id) {
+    return this.desk.ask('measure', { id });
+  }
+
   /** All of it, beside what is shown; as RecordingDesk.verify(). @param {(ticks: number) => void} onTicks @returns {Promise<{ok: number, text: string}>} */
   async verify(onTicks) {
     const desk = new Desk(this.worker());

@@ -4,9 +4,11 @@ import { Core } from './core.js';
 import { CoreEnded } from './instance.js';
 
 /**
- * What stands at a tick. `since`: the keyframe's tick from which on every tick up to here was re-run; `difference`: where that first parted from what is recorded.
+ * What stands at a tick. `since`: the keyframe's tick from which on every tick up to here was re-run; `difference`: where that first parted from what is recorded;
+ * `error`: how far the steps of louse `measured` err, since it is measured and of what was stepped since the last jump.
  * @typedef {{tick: number, hash: string, since: number, difference: import('./follower.js').Difference | null, lice: import('./lice.js').Louse[],
- *   game: object | null, standings: object[], players: {id: number, name: string, role: string}[], chats: {tick: number, id: number, name: string, text: string}[]}} Moment
+ *   game: object | null, standings: object[], players: {id: number, name: string, role: string}[], chats: {tick: number, id: number, name: string, text: string}[],
+ *   measured: number, error: import('./louse_error.js').ErrorReading | null}} Moment
  * @typedef {{first: number, last: number, hz: number, mode: string, name: string, build: string, behavior: number, inputs: number, is_cut_off: boolean, end_reason: string,
  *   players: {id: number, name: string, role: string, joined: number, left?: number}[], marks: {tick: number, kind: 'join' | 'leave' | 'respawn' | 'chat', id: number}[],
  *   definition: string}} Info
@@ -22,6 +24,8 @@ export class RecordingDesk {
     this.bytes = null;
     this.handle = 0;
     this.tick = 0;
+    /** Whose steps' error is told; 0: nobody's. */
+    this.measured = 0;
   }
 
   /**
@@ -32,6 +36,7 @@ export class RecordingDesk {
   async open(bytes) {
     this.core = null;
     this.bytes = bytes;
+    this.measured = 0;
     const core = await this.#opened();
     const info = core.instance.json('recording_facts', this.handle);
     const ground = core.instance.call('recording_ground', this.handle);
@@ -58,6 +63,12 @@ export class RecordingDesk {
     });
   }
 
+  /** How far this louse's steps err from here on; 0: nobody's. @param {number} id */
+  measure(id) {
+    this.measured = id;
+    return this.#recovering(core => void core.instance.call('recording_measure', this.handle, id));
+  }
+
   /**
    * All of it, re-run from its first line. What `woodlouse-server verify` says; `ok`: 1 the same bits, 0 it differs, -1 damaged.
    * @param {Uint8Array} bytes
@@ -79,6 +90,7 @@ export class RecordingDesk {
     const bytes = this.bytes;
     const handle = core.instance.withBytes(bytes, (at, size) => core.instance.call('recording_open', at, size));
     if (handle === 0) throw new Error(core.instance.answer());
+    if (this.measured) core.instance.call('recording_measure', handle, this.measured);
     this.core = core;
     this.handle = handle;
     return core;
@@ -113,6 +125,7 @@ export class RecordingDesk {
     return {
       tick: this.tick, ...proof, chats, lice: core.liceOf('recording', this.handle), game: instance.json('recording_game', this.handle),
       standings: instance.json('recording_standings', this.handle), players: instance.json('recording_players', this.handle),
+      measured: this.measured, error: this.measured ? instance.json('recording_error', this.handle) : null,
     };
   }
 }

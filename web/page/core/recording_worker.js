@@ -17,6 +17,8 @@ const calls = {
   seek: ({ tick }) => at().seek(tick),
   /** @param {{steps: number}} of */
   advance: ({ steps }) => at().advance(steps),
+  /** @param {{id: number}} of */
+  measure: ({ id }) => at().measure(id),
   /** @param {{blob: Blob, number: number}} of */
   verify: async ({ blob, number }) => at().verify(new Uint8Array(await blob.arrayBuffer()), ticks => self.postMessage({ number, ticks })),
 };

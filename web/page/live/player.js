@@ -26,6 +26,7 @@ export class Player {
   /** The first tick that differs, and how; null. @type {{tick: number, what: string}|null} */ difference = null;
   /** Of a whole verification: {ok, text}. @type {any} */ verdict = null;
   /** How many steps of one that is under way were re-run; null: none is. @type {number|null} */ verified = null;
+  /** How far the steps err of who is measured. @type {import('../core/louse_error.js').ErrorReading|null} */ error = null; #measured = 0;
   /** What was said, the newest last. @type {any[]} */ lines = []; said = 0;
 
   /** @param {import('../core/recording.js').Recording} recording @param {(text: string, tone?: string) => void} onNotice */
@@ -76,6 +77,14 @@ export class Player {
   toggle() {
     if (!this.isPlaying && this.tick >= this.info.last) this.seek(this.info.first);
     this.isPlaying = !this.isPlaying;
+  }
+
+  /** Whose steps' error is told, from here on; 0: nobody's. @param {number} id */
+  measure(id) {
+    if (id === this.#measured) return;
+    this.#measured = id;
+    this.error = null;
+    this.recording.measure(id).catch(() => {});  // why there is no worker any more, who shows it has been told
   }
 
   /** All of it, re-run at once; asked for again meanwhile, it goes on. */
@@ -151,6 +160,7 @@ export class Player {
     for (const { id, name, role } of state.players) this.names.set(id, { name, role });
     for (const chat of state.chats) { this.lines.push({ from: chat.name, id: chat.id, text: chat.text }); this.said++; }
     if (this.lines.length > 60) this.lines.splice(0, this.lines.length - 60);
+    this.error = state.measured === this.#measured ? state.error : null;
     this.difference ??= state.difference;
     if (!state.difference) this.#prove(state.since, state.tick);
   }

@@ -8,7 +8,7 @@ const HELD = {
 };
 /** What a key does; of a recording those of RECORDING come first. */
 const DOES = {
-  1: 'orbit', 2: 'follow', 3: 'map', v: 'view', x: 'slope', m: 'theme', n: 'next', p: 'previous', t: 'talk', r: 'respawn', g: 'ghosts', c: 'cruise',
+  1: 'orbit', 2: 'follow', 3: 'map', v: 'view', x: 'slope', m: 'theme', n: 'next', p: 'previous', t: 'talk', r: 'respawn', g: 'ghosts', c: 'cruise', i: 'error',
   q: 'turn-left', e: 'turn-right', '+': 'nearer', '=': 'nearer', '-': 'farther', '?': 'help', h: 'help',
 };
 const RECORDING = { ' ': 'pause', k: 'pause', j: 'back', l: 'on', ',': 'tick-back', '.': 'tick-on', '[': 'slower', ']': 'faster', Home: 'begin', End: 'end', ArrowLeft: 'back', ArrowRight: 'on' };
@@ -17,7 +17,7 @@ const RECORDING = { ' ': 'pause', k: 'pause', j: 'back', l: 'on', ',': 'tick-bac
 export const KEYS = [
   ['W A S D, arrows', 'push that way in the picture'], ['Space', 'brake'], ['C', 'cruise: the push stays on'], ['R', 'back to a start'], ['G', 'ghosts: the best, the last, none'],
   ['V, 1 2 3', 'view: orbit, follow, map'], ['X', 'colour by slope'], ['Q E + \u2212', 'turn, nearer, farther; or drag, wheel, pinch'], ['N, P, click', 'follow another louse'],
-  ['T', 'talk'], ['M', 'light or dark'], ['K J L , . [ ]', 'recording: play, 5 s back or on, a tick, slower or faster'], ['?', 'this list'],
+  ['I', 'how far the steps err'], ['T', 'talk'], ['M', 'light or dark'], ['K J L , . [ ]', 'recording: play, 5 s back or on, a tick, slower or faster'], ['?', 'this list'],
 ];
 
 export class Keys {

@@ -18,6 +18,7 @@ const plural = (count, one, many) => `${count} ${count === 1 ? one : many}`;
 
 export class Panels {
   /** @type {import('./lab_panel.js').LabPanel|null} */ lab = null;
+  /** @type {import('./error_figure.js').ErrorFigure|null} while somebody asks */ #error = null;
   /** @type {any} */ #facts = null;
   #scoredAt = -Infinity; #scored = 0; #haveMoved = true;
 
@@ -37,6 +38,17 @@ export class Panels {
   recording(player) { if (player) this.bar.begin(player); else this.bar.end(); }
 
   help(source) { showHelp(source?.welcome ? rulesInWords(source.mode, source.welcome.rules) : ''); }
+
+  /** Shows how far steps err, or no more. @param {import('../live/player.js').Player|null} player */
+  async toggleError(player) {
+    if (this.#error) {
+      this.#error.end(player);
+      this.#error = null;
+      return;
+    }
+    const { ErrorFigure } = await import('./error_figure.js');
+    this.#error ??= new ErrorFigure();  // asked twice while it came
+  }
 
   /** With each frame. @param {any} source @param {any} facts @param {number} now [s] */
   every(source, facts, now) {
@@ -77,6 +89,7 @@ export class Panels {
     }
     const louse = source.louse(followed);
     this.louse.update(louse && { ...louse, ...source.ground.sample(louse.x, louse.y) }, followed === source.you ? `${nameOf(followed)} (you)` : nameOf(followed));
+    this.#error?.update(page, followed, now);
   }
 
   #room(room, picture, colourOf, lesson) {

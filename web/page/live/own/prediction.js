@@ -37,6 +37,8 @@ export class Prediction {
     /** Acks whose state was what the page already had, to the bit, and those where it was not. */
     this.exact = 0;
     this.corrected = 0;
+    /** Is shown the louse before each step, also of those that are run again. @type {import('../../core/louse_error.js').LouseError|null} */
+    this.error = null;
   }
 
   /** The louse before step `tick`; null before the first ack. */
@@ -108,6 +110,7 @@ export class Prediction {
 
   #step() {
     for (const input of this.#pending) if (input.tick === this.tick) this.#push(input.order);
+    this.error?.find(this.#world, this.#louse.id, this.tick);
     this.#world.step(1);
     this.tick++;
     this.#remember(this.#world.lice()[0] ?? null);
