@@ -29,16 +29,30 @@ export class Stage {
   #panelsAt = 0; #hiding = 0; /* whether the panels are there */ #isWhole = false;
   /** The recording's name. */ file = '';
 
-  /** The physics, which comes after the page. @type {any} */ core = null;
+  /** @type {any} */ #core = null;
+  /** Not before begin(). @type {Picture} */ picture = /** @type {any} */ (null);
 
   /** @param {{baker: () => Worker, reader: () => Worker}} workers begin a worker of picture/bake.js, of core/recording_worker.js */
   constructor(workers) {
     this.workers = workers;
-    this.picture = new Picture(byId('picture'), byId('labels'), { calm: calm.matches, baker: workers.baker });
-    this.setTheme(params.get('theme') || kept('theme'));
+    const chosen = params.get('theme') || kept('theme');
+    if (chosen) setTheme(chosen);
     this.teacher = new Teacher(!kept('lesson'), () => keep('lesson', 'had'), matchMedia('(pointer: coarse)').matches);
     this.panels = new Panels({ follow: (id) => this.follow(id), say: (text) => this.room?.say(text), choose: (room) => this.choose(room), seek: (tick) => this.player?.seek(tick) });
+  }
+
+  /** Makes the picture, and lets people at it. Throws an Error where there is no WebGL 2. */
+  begin() {
+    this.picture = new Picture(byId('picture'), byId('labels'), { calm: calm.matches, baker: this.workers.baker });
+    this.picture.setTheme(theme());
     this.#bindHands();
+  }
+
+  /** The physics, which comes after the page; null before. @returns {any} */
+  get core() { return this.#core; }
+  set core(core) {
+    this.#core = core;
+    this.room?.setCore(core);
   }
 
   /** What is shown. @returns {any} */
@@ -47,7 +61,7 @@ export class Stage {
 
   /** The core came to its end, and here is another. @param {any} core */
   replaceCore(core) {
-    this.core = core;
+    this.#core = core;
     toast('the physics had to begin anew', 'bad');
     if (this.lab) this.compare(); else this.enter();
   }
@@ -99,14 +113,14 @@ export class Stage {
   }
 
   setTheme(name) {
-    if (name) setTheme(name);
+    setTheme(name);
     this.picture.setTheme(theme());
   }
 
   /** A recording's bytes. @param {Blob} blob @param {string} name */
   async open(blob, name) {
     toast(`opening ${name}`);
-    const [{ Recording }, { Player }] = await Promise.all([import('./core/recording.js'), import('./live/player.js')]);
+    const { Recording, Player } = await import('./later.js');
     const recording = await Recording.open(this.core, blob, this.workers.reader).catch((error) => toast(`${name}: ${error.message}`, 'bad'));
     if (!recording) return;
     this.player?.close();
@@ -124,7 +138,7 @@ export class Stage {
   }
 
   async compare() {
-    const [{ SideBySide }, { LabPanel }, { Curves }] = await Promise.all([import('./lab/side_by_side.js'), import('./panels/lab_panel.js'), import('./picture/curves.js')]);
+    const { SideBySide, LabPanel, Curves } = await import('./later.js');
     this.#show('lab');
     this.lab = new SideBySide(this.core);
     const lab = this.lab, rub = () => { lab.rubs = !lab.rubs; lab.begin(); this.picture.clearTrails(); };

@@ -103,6 +103,18 @@ test('what is no message of the protocol ends the line with words, a newer type 
   assert.throws(() => decoded('{"type":"__proto__"}') ?? assert.fail('null'));
 });
 
+test('a page that does not know yet what it computes by joins when it does', (t) => {
+  t.mock.timers.enable({ apis: ['setTimeout'] });
+  const door = new Door({ role: 'spectator', name: 'eve', room: 'volcano', token: '' }, null);
+  const { link, lost, wire } = linked({ joinOf: (hello) => door.joinOf(hello) });
+  wire().say(HELLO);
+  t.mock.timers.tick(9000);
+  assert.deepEqual([wire().sent, lost], [[], []]);
+  door.ownBehavior = 10;
+  link.joinAgain();
+  assert.deepEqual(wire().sent.map(({ type, stream }) => [type, stream]), [['join', 'inputs']]);
+});
+
 test('lines of a recording are told from messages', () => {
   const { recorded, wire } = linked();
   wire().say(HELLO, { ...WELCOME, stream: 'inputs' }, '{"keyframe":812,"hash":"x"}');

@@ -25,7 +25,7 @@ class Page(unittest.TestCase):
             self.assertIn("immutable", headers["Cache-Control"])
             names = set(re.findall(r'["`]\./([A-Za-z0-9_/-]+\.js)["`]', text))
             self.assertGreaterEqual(names, {"picture/bake.js", "core/recording_worker.js"})
-            self.assertTrue(any(name.startswith("parts/stage-") for name in names), names)
+            self.assertTrue(any(name.startswith("parts/later-") for name in names), names)
             for name in names | set(re.findall(r'modulepreload" href="/[0-9a-f]{16}/([^"]+)"', page)):
                 self.assertEqual(server.ask("HEAD", script[1].replace("page.js", name))[0], 200, name)
             core = script[1].replace("page.js", "core.wasm")

@@ -26,7 +26,7 @@ export class Link {
   /**
    * @param {{url: string, joinOf: (hello: any) => any, on: (message: any, line: string) => void, onRecorded: (line: string) => void,
    *   onBatch?: () => void, onLost: (closing: Closing, again: number|null) => void, Socket?: any}} options
-   *   joinOf: the join for a server that said this hello; null: wait for another try. onBatch: after all lines of a message. onLost: the line
+   *   joinOf: the join for a server that said this hello; null: not before joinAgain(). onBatch: after all lines of a message. onLost: the line
    *   is cut; again: seconds until it is tried again, null: it is over.
    */
   constructor(options) {
@@ -77,7 +77,8 @@ export class Link {
 
   #join() {
     const join = this.options.joinOf(this.#hello);
-    if (!join || this.#socket?.readyState !== 1) return;
+    if (!join) return this.hold();
+    if (this.#socket?.readyState !== 1) return;
     this.#socket.send(JSON.stringify({ type: 'join', protocol: PROTOCOL, ...join }));
     this.#expect(GREET, 'no welcome comes');
   }
@@ -123,7 +124,7 @@ export class Link {
   }
   /** Ends it for this reason, and tries no more. */
   giveUp(closing) { this.#end(closing); }
-  /** Nothing is due: a person is asked something. */
+  /** Nothing is due: a person is asked something, or the core is still to come. */
   hold() { clearTimeout(this.#watch); }
 
   #end(closing, least = 0) {
@@ -155,7 +156,7 @@ export class Door {
   features = [];
   /** @type {string[]} */ rooms = [];
 
-  /** @param {Wish} wish @param {number} ownBehavior of the page's core */
+  /** @param {Wish} wish @param {number|null} ownBehavior of the page's core; null: it is still to come */
   constructor(wish, ownBehavior) {
     this.wish = wish;
     this.resume = wish.resume ?? '';
@@ -175,8 +176,9 @@ export class Door {
     return true;
   }
 
-  /** The join for a server that said this hello. */
+  /** The join for a server that said this hello; null while it is not known what the page itself computes by. */
   joinOf(hello) {
+    if (this.ownBehavior === null) return null;
     ({ behavior: this.behavior, features: this.features, rooms: this.rooms } = hello);
     const { role, name, token } = this.wish, isPlayer = role === 'player';
     const room = hello.rooms.includes(this.wish.room) ? this.wish.room : hello.rooms[0] ?? '';

@@ -18,15 +18,14 @@ const NOTHING = { tick_hz: 60, state_hz: 10, fields: [], quantum: [] };
 const seconds = () => performance.now() / 1000;
 
 export class Room {
-  #core; #link; /* maps that were sent, by hash and rate */ #grounds = new Map(); #time = new Timeline(NOTHING, 0); #pings = new Pings(); #countedAt = -Infinity; #was = false; #acting = setInterval(() => this.#act(seconds()), ACT_EVERY);  // a page with few pictures a second steers as well
+  /** null: it is still to come. @type {any} */ #core; #link; /* maps that were sent, by hash and rate */ #grounds = new Map(); #time = new Timeline(NOTHING, 0); #pings = new Pings(); #countedAt = -Infinity; #was = false; #acting = setInterval(() => this.#act(seconds()), ACT_EVERY);  // a page with few pictures a second steers as well
 
   /** @param {{url: string, core: any, wish: import('./link.js').Wish, storage: Storage|null, onNotice: (text: string, tone?: string) => void,
-   *   onTokenWanted: (why: string) => void, Socket?: any}} options onTokenWanted: ask a person, then enter(token) */
+   *   onTokenWanted: (why: string) => void, Socket?: any}} options core: null: nobody joins before setCore(). onTokenWanted: ask a person, then enter(token) */
   constructor({ url, core, wish, storage, onNotice, onTokenWanted, Socket }) {
     this.#core = core;
-    this.door = new Door(wish, core.behavior);
-    this.onNotice = onNotice;
-    this.onTokenWanted = onTokenWanted;
+    this.door = new Door(wish, core?.behavior ?? null);
+    this.onNotice = onNotice, this.onTokenWanted = onTokenWanted;
     this.own = new OwnGame(storage, (message) => this.send(message));
     this.roster = new Roster();
     this.ways = new Ways();
@@ -45,6 +44,8 @@ export class Room {
   }
 
   start() { this.#link.start(); }
+  /** The core that joining waited for. */
+  setCore(core) { [this.#core, this.door.ownBehavior] = [core, core.behavior]; this.#link.joinAgain(); }
   stop() { clearInterval(this.#acting); this.#link.stop(); }
   send(message) { this.#link.send(message); }
   get phase() { return this.#link.phase; }
@@ -236,15 +237,12 @@ export class Room {
     this.own.pilot?.lead.trip(trip);
   }
 
-  #rejoin() {
-    this.welcome = null;
-    this.own.end(true);
-    this.#link.rejoin();
-  }
+  #cut() { this.welcome = null; this.own.end(true); }
+  #rejoin() { this.#cut(); this.#link.rejoin(); }
 
   #onLost(closing, again) {
-    this.welcome = null;
-    this.own.end(true);
+    if (!this.#core && again !== null) return;  // the server waits for no join that long: it is asked again, and nothing was shown yet
+    this.#cut();
     this.lost = { reason: farewell(closing), code: closing.code, again: again === null ? null : seconds() + again };
   }
 }

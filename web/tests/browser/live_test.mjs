@@ -138,7 +138,7 @@ test('thirty sessions one after the other leave nothing in the core\'s memory', 
 });
 
 test('a page of which a part does not come says so', async () => {
-  for (const [part, words] of [[/\/chunk-[^/]*\.js$/, /did not load whole/], [/\/stage-[^/]*\.js$/, /import/], [/\/core\.wasm$/, /physics/]]) {
+  for (const [part, words] of [[/\/chunk-[^/]*\.js$/, /did not load whole/], [/\/page\.js$/, /did not load whole/], [/\/core\.wasm$/, /physics/]]) {
     const other = await context.newPage();
     await other.route(part, (route) => route.abort());
     await other.goto(`${served.web}?room=hills`);
