@@ -1,15 +1,15 @@
 // @ts-check
 // Everything of the WebGL context: what was lost with it is made again.
 import { Batch } from './batch.js';
+import { FirstDrawing, NO_CHANGE, makeOvals } from './first_drawing.js';
 import { COLOURS, DEPTHS, Surface, layOut, makeBuffer, makePrograms, use } from './gl.js';
-import { GroundDrawing } from './ground_drawing.js';
+import { GroundDrawing, bottomOf } from './ground_drawing.js';
 import { INSTANCE, LiceDrawing } from './lice_drawing.js';
 
 const STANDING = 350;  // ms that the camera must have stood before the ground's outline is smoothed
 const NEARER = 3e-4;  // of the depth from -1 to 1
-/** What a first picture does without, where a processor draws: it compiles one after the other. */
-const LATER = ['copy', 'paint'];
-const NO_CHANGE = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
+/** The programs of a first picture where a processor draws: it compiles one after the other. */
+const FIRST = ['plain'];
 
 /** @typedef {{camera: import('./camera.js').Camera, theme: import('./colours.js').ThemeName, shading: 'height' | 'slope', resolution: {at: number}, isFirst: boolean}} Look */
 
@@ -42,16 +42,15 @@ export class Drawing {
     canvas.addEventListener('webglcontextrestored', () => {
       this.isLost = false;
       this.begin();
-      this.upload();
     });
     this.begin();
   }
 
   /** @private */
   begin() {
-    const { gl } = this, programs = this.programs = makePrograms(gl, this.isSoftware ? LATER : []);
-    this.flat = programs.flat;
-    this.copy = programs.copy;
+    const { gl } = this, programs = this.programs = makePrograms(gl, this.isSoftware ? FIRST : null);
+    this.first = new FirstDrawing(gl, programs.plain);
+    this.flat = programs.flat, this.copy = programs.copy;
     this.ground = new GroundDrawing(gl, programs, this.isSoftware);
     this.lice = new LiceDrawing(gl, programs);
     this.ghosts = new LiceDrawing(gl, programs);
@@ -68,7 +67,7 @@ export class Drawing {
     this.still = null;
     this.key = '';
     this.kept = 0;
-    this.isPainted = false;
+    this.isPainted = this.isUploaded = false;
   }
 
   /** @param {import('./relief.js').Relief} relief */
@@ -76,7 +75,7 @@ export class Drawing {
     this.relief = relief;
     this.isFine = relief.isFlat;
     this.light = null;
-    this.upload();
+    this.isPainted = this.isUploaded = false;
   }
 
   /** @param {Uint8Array | null} light as bake() gives it; null: none will come */
@@ -87,19 +86,22 @@ export class Drawing {
     this.isPainted = false;
   }
 
-  /** @private */
-  upload() {
-    if (this.relief && !this.isLost) this.ground?.upload(this.relief, this.light);
-    this.isPainted = false;
-  }
-
   /** How low the block's underside is, as drawn [m]. */
   get bottom() {
-    return (this.ground?.bottom ?? 0) * (this.relief?.exaggeration ?? 1);
+    return this.relief ? bottomOf(this.relief) * this.relief.exaggeration : 0;
   }
 
   /** Draws. @param {Look} look @param {import('./staging.js').Staging} staging @param {number} width pixels @param {number} height @param {number} now ms */
   draw(look, staging, width, height, now) {
+    const { relief, programs } = this;
+    if (!relief || !programs) return;
+    if (this.isSoftware && look.isFirst && !relief.ground.wraps?.some(is => is)) return this.drawFirst(look, staging, relief, width, height);
+    if (!this.isUploaded) {
+      this.first?.free();
+      for (const name in programs) programs[name].begin();
+      this.ground?.upload(relief, this.light);
+      this.isUploaded = true;
+    }
     if (!this.isPainted) {
       this.ground?.paint(look.theme, look.shading === 'slope', this.isFine);
       this.isPainted = true;
@@ -115,10 +117,20 @@ export class Drawing {
       this.showStill(this.still, width, height);
       this.still.show(false);
     } else {
-      if (!look.isFirst) for (const name of LATER) this.programs?.[name].begin();
       const hides = this.copyGround(look, width, height, now);
       this.drawScene(look, staging, null, width, height, hides, !hides && look.resolution.at > 1);
     }
+  }
+
+  /** @private @param {Look} look @param {import('./staging.js').Staging} staging @param {import('./relief.js').Relief} relief @param {number} width @param {number} height */
+  drawFirst(look, staging, relief, width, height) {
+    const { flat } = this;
+    this.flat = this.programs?.plain;
+    this.first?.draw(look, relief, this.bottom, width, height);
+    this.flush(this.scenery.floor, 3, look.camera.matrix, 0, false);
+    makeOvals(staging);
+    this.drawScene(look, staging, null, width, height, false, true);
+    this.flat = flat;
   }
 
   /** A surface of this size: the given one, or another in its place. @private

@@ -1,16 +1,31 @@
 // @ts-check
 // How a ground looks before it is painted well: the colours of its grid's points and the light on them, without shadows and grain,
 // as the shader `paint` mixes them (shaders.js). Some 5 ms here; where a processor draws the shader is not even compiled after 100.
+import { along } from './colours.js';
 import { STEEPEST } from './shaders.js';
 import { SUN } from './vectors.js';
 
 const SKY_LIGHT = [.30, .38, .52], SUN_LIGHT = [1.18, 1.06, .88];
 const BRIGHT = .66;  // from here on light is pressed together, lest it burns out
 
+/** 256 colours by height, then by slope, four bytes each. @param {import('./relief.js').Relief} relief @param {typeof import('./colours.js').THEMES['dark']} look */
+export function rampsOf(relief, look) {
+  const ramps = new Uint8Array(2 * 256 * 4), range = relief.highest - relief.lowest;
+  const tones = Float64Array.from({ length: 256 }, (_, k) => relief.tone(relief.lowest + range * k / 255));
+  for (let k = 0; k < 256; k++) {
+    // of what lies about as high, lest plains have hard edges
+    let tone = 0;
+    for (let d = -6; d <= 6; d++) tone += tones[Math.max(0, Math.min(255, k + d))] / 13;
+    ramps.set(along(look.height, tone).map(v => 255 * v), 4 * k);
+    ramps.set(along(look.slope, k / 255).map(v => 255 * v), 4 * (256 + k));
+  }
+  return ramps;
+}
+
 /**
  * Four bytes a point of the grid.
  * @param {import('./relief.js').Relief} relief
- * @param {Uint8Array} ramps 256 colours by height, then by slope, as the shader has them
+ * @param {Uint8Array} ramps rampsOf(), as the shader has them
  * @param {boolean} slope whether it is coloured by how steep it is
  * @param {number} sun how strong the light is
  */

@@ -43,10 +43,10 @@ export class Program {
   }
 }
 
-/** Every program; all but those of `later` are compiled. @param {WebGL2RenderingContext} gl @param {string[]} later @returns {Record<string, Program>} */
-export function makePrograms(gl, later) {
+/** Every program; those of `first` are compiled, null: all. @param {WebGL2RenderingContext} gl @param {string[] | null} first @returns {Record<string, Program>} */
+export function makePrograms(gl, first) {
   const programs = Object.entries(SHADERS).map(([name, sources]) => new Program(gl, name, sources));
-  for (const program of programs) if (!later.includes(program.name)) program.begin();
+  for (const program of programs) if (first?.includes(program.name) ?? true) program.begin();
   return Object.fromEntries(programs.map(program => [program.name, program]));
 }
 

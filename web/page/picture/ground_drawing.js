@@ -1,7 +1,7 @@
 // @ts-check
 // The ground with its sides and the sky behind it.
-import { THEMES, along, rgb } from './colours.js';
-import { firstCoat } from './first_coat.js';
+import { THEMES, rgb } from './colours.js';
+import { firstCoat, rampsOf } from './first_coat.js';
 import { fillTexture, layOut, makeBuffer, use } from './gl.js';
 import { SUN } from './vectors.js';
 
@@ -9,6 +9,9 @@ import { SUN } from './vectors.js';
 const MARGIN = .22;
 /** Units of the textures. */
 const SHAPE = { unit: 0 }, LIGHT = { unit: 1 }, RAMPS = { unit: 2 }, PAINTED = { unit: 3 };
+
+/** How low the underside of the block is [m]. @param {import('./relief.js').Relief} relief */
+export const bottomOf = relief => relief.lowest - .07 * (relief.highest - relief.lowest) - .045 * relief.radius / relief.exaggeration;
 
 export class GroundDrawing {
   /** @param {WebGL2RenderingContext} gl @param {Record<string, import('./gl.js').Program>} programs @param {boolean} isSoftware */
@@ -53,7 +56,7 @@ export class GroundDrawing {
     this.copy = mc || mr ? this.mesh(places, [[0, 3]], trianglesOf(wide, mc, mr, columns, rows, this.isSoftware ? 2 : 1)) : null;
     // the soil under the edges; none where the map goes on
     this.thick = .12 * relief.radius / relief.exaggeration;
-    const b = this.bottom = relief.lowest - .07 * range - .045 * relief.radius / relief.exaggeration;
+    const b = bottomOf(relief);
     const soil = [];
     const face = (count, at, nx, ny) => {
       const shade = .84 + .36 * Math.max(0, (nx * SUN[0] + ny * SUN[1]) / Math.hypot(SUN[0], SUN[1]));
@@ -94,14 +97,7 @@ export class GroundDrawing {
   /** Paints light and colours. @param {import('./colours.js').ThemeName} theme @param {boolean} slope @param {boolean} fine else at once, and coarse: for a first picture */
   paint(theme, slope, fine) {
     const { gl } = this, relief = /** @type {import('./relief.js').Relief} */ (this.relief), { columns, rows, edges, wraps = [] } = relief.ground;
-    const look = THEMES[theme], ramps = new Uint8Array(2 * 256 * 4);
-    for (let k = 0; k < 256; k++) {
-      // of what lies about as high, lest plains have hard edges
-      let tone = 0;
-      for (let d = -6; d <= 6; d++) tone += relief.tone(relief.lowest + (relief.highest - relief.lowest) * Math.max(0, Math.min(255, k + d)) / 255) / 13;
-      ramps.set(along(look.height, tone).map(v => 255 * v), 4 * k);
-      ramps.set(along(look.slope, k / 255).map(v => 255 * v), 4 * (256 + k));
-    }
+    const look = THEMES[theme], ramps = rampsOf(relief, look);
     this.textures.ramps = fillTexture(gl, this.textures.ramps, RAMPS.unit, 256, 2, [gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE], ramps);
     const kind = [gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE];
     if (!fine && this.isSoftware) {
@@ -189,13 +185,18 @@ export class GroundDrawing {
 /** Triangles of a part of a grid that is `wide` points wide: columns x rows points from (i0, j0) on, every `step`-th.
  * @param {number} wide @param {number} i0 @param {number} j0 @param {number} columns @param {number} rows @param {number} step */
 function trianglesOf(wide, i0, j0, columns, rows, step) {
-  const list = [], last = [i0 + columns - 1, j0 + rows - 1];
+  const last = [i0 + columns - 1, j0 + rows - 1], list = new Uint32Array(6 * Math.ceil((columns - 1) / step) * Math.ceil((rows - 1) / step));
+  let count = 0;
   // in stripes of a few columns: corners are found again before they are forgotten
   for (let stripe = i0; stripe < last[0]; stripe += 6 * step)
     for (let j = j0; j < last[1]; j += step)
       for (let i = stripe; i < Math.min(stripe + 6 * step, last[0]); i += step) {
         const a = j * wide + i, right = Math.min(i + step, last[0]), up = Math.min(j + step, last[1]) * wide;
-        list.push(a, j * wide + right, up + i, j * wide + right, up + right, up + i);
+        list[count] = a;
+        list[count + 1] = list[count + 3] = j * wide + right;
+        list[count + 2] = list[count + 5] = up + i;
+        list[count + 4] = up + right;
+        count += 6;
       }
-  return new Uint32Array(list);
+  return list;
 }

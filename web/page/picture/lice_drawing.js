@@ -14,29 +14,33 @@ export class LiceDrawing {
   constructor(gl, programs) {
     this.gl = gl;
     this.program = programs.louse;
-    this.kinds = /** @type {const} */ ([0, 1, 2]).map(detail => {
-      const mesh = louseMesh(detail), array = gl.createVertexArray();
-      gl.bindVertexArray(array);
-      makeBuffer(gl, gl.ARRAY_BUFFER, mesh.places);
-      layOut(gl, [[0, 4]]);
-      makeBuffer(gl, gl.ARRAY_BUFFER, mesh.normals);
-      layOut(gl, [[1, 3]]);
-      makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, mesh.triangles);
-      const data = new Float32Array(64 * INSTANCE);
-      const buffer = makeBuffer(gl, gl.ARRAY_BUFFER, data.byteLength, true);
-      layOut(gl, [[2, 4], [3, 4], [4, 4], [5, 4]], 1);
-      return { array, buffer, data, room: 64, count: 0, triangles: mesh.triangles.length };
-    });
+    /** By detail; those that were drawn. @type {ReturnType<LiceDrawing['make']>[]} */
+    this.kinds = [];
+  }
+
+  /** A mesh with room for instances; not before it is wanted: the finest takes a slow machine as long as a picture. @private @param {0 | 1 | 2} detail */
+  make(detail) {
+    const { gl } = this, mesh = louseMesh(detail), array = gl.createVertexArray();
+    gl.bindVertexArray(array);
+    makeBuffer(gl, gl.ARRAY_BUFFER, mesh.places);
+    layOut(gl, [[0, 4]]);
+    makeBuffer(gl, gl.ARRAY_BUFFER, mesh.normals);
+    layOut(gl, [[1, 3]]);
+    makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, mesh.triangles);
+    const data = new Float32Array(64 * INSTANCE);
+    const buffer = makeBuffer(gl, gl.ARRAY_BUFFER, data.byteLength, true);
+    layOut(gl, [[2, 4], [3, 4], [4, 4], [5, 4]], 1);
     gl.bindVertexArray(null);
+    return { array, buffer, data, detail, room: 64, count: 0, triangles: mesh.triangles.length };
   }
 
   begin() {
-    for (const kind of this.kinds) kind.count = 0;
+    for (const kind of this.kinds) if (kind) kind.count = 0;
   }
 
   /** Copies the k-th instance. @param {Float32Array} data @param {number} k @param {number} pixels its half length in the picture @param {number} of how many there are */
   add(data, k, pixels, of) {
-    const finer = of > MANY ? FINER_OF_MANY : FINER, kind = this.kinds[pixels < finer[0] ? 0 : pixels < finer[1] ? 1 : 2];
+    const finer = of > MANY ? FINER_OF_MANY : FINER, detail = pixels < finer[0] ? 0 : pixels < finer[1] ? 1 : 2, kind = this.kinds[detail] ??= this.make(detail);
     if ((kind.count + 1) * INSTANCE > kind.data.length) {
       const grown = new Float32Array(2 * kind.data.length);
       grown.set(kind.data);
@@ -50,8 +54,8 @@ export class LiceDrawing {
     const { gl } = this;
     const values = { M: camera.matrix, eye: camera.eye, toSun: SUN, hides: +hides, depths: DEPTHS };
     for (const kind of this.kinds) {
-      if (!kind.count) continue;
-      use(gl, this.program, { ...values, plain: +(kind === this.kinds[0]) });
+      if (!kind?.count) continue;
+      use(gl, this.program, { ...values, plain: +(kind.detail === 0) });
       gl.bindVertexArray(kind.array);
       gl.bindBuffer(gl.ARRAY_BUFFER, kind.buffer);
       if (kind.room * INSTANCE < kind.data.length) {

@@ -25,6 +25,7 @@ export class Picture {
     this.camera = new Camera(calm);
     this.names = new Names(labels);
     this.staging = new Staging();
+    this.fit(SCALES[SCALES.length - 1]);  // a context is made for a canvas of this size, and made anew for another one
     this.drawing = new Drawing(canvas);
     this.resolution = new Resolution(this.drawing.isSoftware ? SCALES.length - 1 : 0);
     /** @type {import('./colours.js').ThemeName} */
@@ -132,16 +133,22 @@ export class Picture {
     return best;
   }
 
+  /** Makes the canvas as large as the screen shows it, at a part of its pixels. @private @param {number} scale */
+  fit(scale) {
+    const { canvas } = this, ratio = Math.min(2, globalThis.devicePixelRatio || 1) * scale, w = canvas.clientWidth, h = canvas.clientHeight;
+    const width = Math.max(1, Math.round(w * ratio)), height = Math.max(1, Math.round(h * ratio));
+    if (canvas.width !== width || canvas.height !== height) canvas.width = width, canvas.height = height;
+    return { w, h, width, height };
+  }
+
   /** Draws a scene. @param {import('./staging.js').Scene} scene @param {number} now ms */
   draw(scene, now) {
-    const { canvas, camera, staging, drawing } = this;
+    const { camera, staging, drawing } = this;
     if (drawing.isLost || !this.relief) return;
     const begun = performance.now();
     this.resolution.frame(now, now - this.last);
     this.last = now;
-    const ratio = Math.min(2, globalThis.devicePixelRatio || 1) * this.resolution.scale, w = canvas.clientWidth, h = canvas.clientHeight;
-    const width = Math.max(1, Math.round(w * ratio)), height = Math.max(1, Math.round(h * ratio));
-    if (canvas.width !== width || canvas.height !== height) canvas.width = width, canvas.height = height;
+    const { w, h, width, height } = this.fit(this.resolution.scale);
     camera.update(w, h, now, staging.find(scene, scene.follow || camera.follow), scene.marks?.arrow);
     staging.stage(scene, this, now, width, height);
     drawing.draw(this, staging, width, height, now);

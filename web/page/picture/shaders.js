@@ -18,6 +18,8 @@ uniform highp sampler2D depths; uniform float hides; bool isHidden(){ return hid
 
 const WHOLE = HEAD + `out vec2 t; void main(){ vec2 p=vec2(gl_VertexID&1,gl_VertexID>>1)*4.-1.; t=p*.5+.5; gl_Position=vec4(p,.999999,1); }`;
 
+const FLAT = HEAD + 'layout(location=0) in vec4 p; layout(location=1) in vec4 k; uniform mat4 M; uniform float nearer; out vec4 c; void main(){ c=k; gl_Position=M*p; gl_Position.z-=nearer*gl_Position.w; }';
+
 /** @type {Record<string, [string, string]>} */
 export const SHADERS = {
   // on 16 x 10 tiles, between whose corners colours go over into one another; a raster hides the steps of 8 bits
@@ -86,6 +88,8 @@ void main(){ if(isHidden()) discard; vec3 n=normalize(N), v=normalize(eye-W); fl
   vec3 lit=k*(vec3(.34,.40,.50)*(.6+.4*n.z)+vec3(1.12,1.04,.9)*d)+shine*(part<.5?.45:part>3.5?.8:0.)+k*.5*away*away*away;
   o=vec4(sqrt(clamp(lit,0.,1.)),1); }`],
 
-  flat: [HEAD + 'layout(location=0) in vec4 p; layout(location=1) in vec4 k; uniform mat4 M; uniform float nearer; out vec4 c; void main(){ c=k; gl_Position=M*p; gl_Position.z-=nearer*gl_Position.w; }',
-    HEAD + HIDE + 'in vec4 c; out vec4 o; void main(){ if(isHidden()) discard; o=c; }'],
+  // as flat, of what nothing hides: of a first picture all
+  plain: [FLAT, HEAD + 'in vec4 c; out vec4 o; void main(){ o=c; }'],
+
+  flat: [FLAT, HEAD + HIDE + 'in vec4 c; out vec4 o; void main(){ if(isHidden()) discard; o=c; }'],
 };
