@@ -64,8 +64,8 @@ export class Ground {
    */
   sample(x, y) {
     const { instance } = this.core;
-    const view = instance.view(instance.call('ground_sample', this.handle, x, y) >>> 0, 24);
-    return { z: view.getFloat64(0, true), zx: view.getFloat64(8, true), zy: view.getFloat64(16, true) };
+    const at = instance.call('ground_sample', this.handle, x, y) >>> 3, { doubles } = instance;
+    return { z: doubles[at], zx: doubles[at + 1], zy: doubles[at + 2] };
   }
 
   /**

@@ -70,10 +70,11 @@ export function between(from, to, seconds, t, ways) {
   if (length > 1e-6) { headingX /= length; headingY /= length; } else { headingX = to.heading_x; headingY = to.heading_y; }
   // Where it leaves or touches the ground between both, the nearer one says whether it flies.
   const flies = from.flight_z !== 0 && to.flight_z !== 0;
-  return {
+  const louse = {
     ...from, x, y, heading_x: headingX, heading_y: headingY, vx: mix(from.vx, to.vx), vy: mix(from.vy, to.vy),
     distance: mix(from.distance, to.distance),
     flight_z: flies ? mix(from.flight_z, to.flight_z) : (t < 0.5 ? from : to).flight_z,
-    ...(from.z === undefined ? {} : { z: mix(from.z, to.z) }),
   };
+  if (from.z !== undefined) louse.z = mix(from.z, to.z);
+  return louse;
 }
