@@ -191,7 +191,7 @@ export function sceneOf(source, followed, marks) {
   const { ground, you = 0 } = source;
   const lice = source.lice.map((louse) => {
     const { id, phase, x, y, vx, vy, heading_x, heading_y, flight_z, flight_vz, distance, outline } = louse, sample = ground.sample(x, y);
-    const z = !ground.isExact && louse.z !== undefined ? louse.z : sample.z;  // as in placed(); to copy hundreds as they come takes ten times as long as to name what is drawn
+    const z = !ground.isExact && louse.z !== undefined ? louse.z : sample.z;  // as in placed(); to copy hundreds as they come takes tens of times as long as to name what is drawn
     return { id, phase, x, y, vx, vy, heading_x, heading_y, flight_z, flight_vz, distance, outline, z, zx: sample.zx, zy: sample.zy, name: source.nameOf(id), colour: id, isYou: id === you && you !== 0 };
   });
   const ghosts = (marks?.ghosts ?? []).map((ghost) => ({ ...placed(ghost, ground), colour: GHOSTS[ghost.kind] }));
