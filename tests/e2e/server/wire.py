@@ -41,7 +41,7 @@ class Server:
         self.ends_with = ends_with
         games = ["fork", fork[0], "--tick", str(fork[1])] if fork else ["--map", *map(map_file, maps)]
         command = [PROGRAM, *games, "--listen", listen, *arguments]
-        self.errors = tempfile.TemporaryFile("w+")
+        self.errors = tempfile.TemporaryFile()
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=self.errors, text=True)
         first = self.process.stdout.readline()
         if not first.startswith("listening "):
@@ -68,8 +68,8 @@ class Server:
             self.errors.close()
 
     def log(self):
-        self.errors.seek(0)
-        return self.errors.read()
+        # Not by seeking: the place in the file is the server's too, who would write over what is there.
+        return os.pread(self.errors.fileno(), os.fstat(self.errors.fileno()).st_size, 0).decode()
 
     def wait_for_log(self, text, patience=PATIENCE):
         end = time.monotonic() + patience
