@@ -13,6 +13,7 @@
 #include "shared/core/stable_hash.h"
 #include "shared/match/match.h"
 #include "shared/protocol/codes.h"
+#include "shared/protocol/whereabouts.h"
 
 namespace woodlouse::server {
 namespace {
@@ -78,7 +79,7 @@ ErrorMessage Handshake::judge(const protocol::DecodeError& failure) {
 }
 
 protocol::Hello hello_of(std::uint64_t session, std::string_view server, std::vector<std::string> rooms,
-                         const protocol::Limits& limits) {
+                         const protocol::Limits& limits, std::vector<std::string> hosts) {
   protocol::Hello hello;
   hello.behavior = match::kBehavior;
   hello.server = server;
@@ -87,6 +88,8 @@ protocol::Hello hello_of(std::uint64_t session, std::string_view server, std::ve
   hello.features = {"quantized", "exact",   "fields",   "delta", "get_map", "resume",
                     "rules",     "records", "rotation", "view",  "inputs"};
   hello.limits = limits;
+  hello.hosts = std::move(hosts);
+  if (hello.hosts.size() > protocol::kMaxHosts) hello.hosts.resize(protocol::kMaxHosts);
   return hello;
 }
 
@@ -100,10 +103,22 @@ std::string where_http_is(std::string_view line, std::string_view web_url) {
   return core::joined({"; this port speaks no HTTP: open ", web_url});
 }
 
+protocol::ErrorMessage room_moved(const std::string& asked, std::string address) {
+  ErrorMessage moved =
+      error(code::kMoved, core::joined({"join.room: \"", asked, "\" is at ", address, " now"}));
+  moved.fatal = true;
+  moved.address = std::move(address);
+  return moved;
+}
+
 protocol::ErrorMessage unknown_room(const std::string& asked, const std::vector<std::string>& rooms) {
   std::string names;
   for (const std::string& name : rooms) names += ' ' + name;
   return error(code::kUnknownRoom, "join.room: no room \"" + asked + "\"; there are:" + names);
+}
+
+protocol::ErrorMessage no_moderator() {
+  return error(code::kNoRight, "moderate: you joined with no moderator's token");
 }
 
 }  // namespace woodlouse::server

@@ -40,13 +40,18 @@ class Handshake {
   int strikes_ = 0;
 };
 
-/// What a session is told first of all. session: its number, for logs.
+/// What a session is told first of all. session: its number, for logs. hosts: `host:port` of other servers
+/// that may have the rooms when this one is gone; of many the first.
 protocol::Hello hello_of(std::uint64_t session, std::string_view server, std::vector<std::string> rooms,
-                         const protocol::Limits& limits);
+                         const protocol::Limits& limits, std::vector<std::string> hosts);
 /// What a line that begins an HTTP request is told besides: where a browser is to go. Empty for other lines.
 /// web_url: of this server's page; empty: it has none.
 std::string where_http_is(std::string_view line, std::string_view web_url);
+/// The answer to a join of a room that is at another server, `host:port`. The connection ends with it.
+protocol::ErrorMessage room_moved(const std::string& asked, std::string address);
 /// The answer to a join of a room that is not among those.
 protocol::ErrorMessage unknown_room(const std::string& asked, const std::vector<std::string>& rooms);
+/// The answer to who would moderate and may not.
+protocol::ErrorMessage no_moderator();
 
 }  // namespace woodlouse::server

@@ -133,6 +133,8 @@ void Session::join(protocol::Join join, Time now) {
     return door_->join({id_, shared_from_this(), std::move(join), allowance_.address().id(), now, is_web_,
                         standing_.why_no_newcomer()});
   handshake_.refused();
+  if (const auto address = environment_.elsewhere ? environment_.elsewhere(join.room) : std::nullopt)
+    return refuse(room_moved(join.room, *address));
   say(unknown_room(join.room, environment_.directory.names()));
 }
 
@@ -246,7 +248,9 @@ void Session::fail(const protocol::ErrorMessage& error) {
   if (error.code != code::kSlow) parting_ = Parting::kLeft;
   protocol::ErrorMessage fatal = error;
   fatal.fatal = true;
-  say_bye(fatal, {error.code, error.text, false}, Outbox::Replaceable::kDropped, kLinger);
+  const bool is_elsewhere = error.code == code::kMoved;  // and whoever goes there may go on
+  say_bye(fatal, {error.code, error.text, is_elsewhere, error.address}, Outbox::Replaceable::kDropped,
+          kLinger);
 }
 
 /// Whoever leaves gets all that it asked for before, map and keys too, in as long as any write may take.

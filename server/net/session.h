@@ -25,6 +25,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "server/access/standing.h"
 #include "server/frames/viewer.h"
@@ -65,6 +66,10 @@ struct SessionEnvironment {
                      std::function<void(protocol::ServerMessage)> answered)>
       moderate{};
   Doorman* doorman = nullptr;  ///< what the operator says; null: everybody may
+  /// Where a room is that is not here, as `host:port`; nothing: nobody knows. Any thread; null: no room is.
+  std::function<std::optional<std::string>(std::string_view room)> elsewhere{};
+  /// What hello names as `hosts`. Any thread; null: nothing.
+  std::function<std::vector<std::string>()> hosts{};
 };
 
 class Session final : public Subscriber, private Sender::Owner, public std::enable_shared_from_this<Session> {
@@ -160,18 +165,15 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   }
   void greet() {
     if (std::exchange(is_greeted_, true)) return;
-    say(hello_of(id_, environment_.server_name, environment_.directory.names(), *limits_));
+    say(hello_of(id_, environment_.server_name, environment_.directory.names(), *limits_,
+                 environment_.hosts ? environment_.hosts() : std::vector<std::string>{}));
   }
   void take_lines(Time now);
   void on_line(const protocol::LineFramer::Line& line, Time now);
   void on_message(protocol::ClientMessage message, Time now);
   void join(protocol::Join join, Time now);
   void moderate(protocol::Moderate wish) {
-    if (!standing_.may_moderate() || !environment_.moderate)
-      return say(protocol::ErrorMessage{std::string(protocol::code::kNoRight),
-                                        "moderate: you joined with no moderator's token",
-                                        false,
-                                        {}});
+    if (!standing_.may_moderate() || !environment_.moderate) return say(no_moderator());
     environment_.moderate(std::move(wish), door_->name(), "session " + core::to_hex(id_) + " of " + address(),
                           [session = weak_from_this()](protocol::ServerMessage message) {
                             if (const auto self = session.lock()) self->answer(std::move(message));

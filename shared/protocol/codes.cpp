@@ -60,6 +60,9 @@ constexpr std::array kCodes = {
     CodeEntry{code::kLeft, "bye", Ends::kYes, "the client sent `leave`, or ended its sending side"},
     CodeEntry{code::kShutdown, "bye", Ends::kYes, "the server stops"},
     CodeEntry{code::kReplaced, "bye", Ends::kYes, "the player came back over another connection"},
+    CodeEntry{code::kMoved, "error, bye", Ends::kYes,
+              "the room is at another server now, at `address` where that is known: join it there, with the "
+              "`resume_token` of the `welcome`"},
     CodeEntry{code::kRateLowered, "notice", Ends::kNo,
               "frames come at half the rate: the client reads slowly"},
     CodeEntry{code::kKeysOnly, "notice", Ends::kNo, "only keys come: the client reads very slowly"},

@@ -49,6 +49,7 @@ inline constexpr std::string_view kNoVote = "no_vote";
 inline constexpr std::string_view kLeft = "left";
 inline constexpr std::string_view kShutdown = "shutdown";
 inline constexpr std::string_view kReplaced = "replaced";
+inline constexpr std::string_view kMoved = "moved";
 // Notices.
 inline constexpr std::string_view kRateLowered = "rate_lowered";
 inline constexpr std::string_view kKeysOnly = "keys_only";

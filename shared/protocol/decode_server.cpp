@@ -9,6 +9,7 @@
 #include "shared/protocol/field_reader.h"
 #include "shared/protocol/field_texts.h"
 #include "shared/protocol/text_cleaning.h"
+#include "shared/protocol/whereabouts.h"
 
 namespace woodlouse::protocol {
 namespace {
@@ -28,6 +29,19 @@ void read_strings(FieldReader& reader, std::string_view name, std::vector<std::s
   });
 }
 
+void read_hosts(FieldReader& reader, std::vector<std::string>& hosts) {
+  constexpr std::string_view kWants = R"(an array of at most 16 texts "host:port")";
+  static_assert(kMaxHosts == 16);
+  reader.array(
+      "hosts", kWants,
+      [&](json::Value element, std::size_t index) {
+        const bool is_host = element.kind() == json::Kind::kString && parse_host_address(element.text());
+        if (!is_host || index == kMaxHosts) return reader.refuse("hosts", index, element, kWants);
+        hosts.emplace_back(element.text());
+      },
+      Presence::kOptional);
+}
+
 Decoded read_hello(FieldReader& reader, const Context&) {
   Hello hello;
   reader.integer("protocol", hello.protocol, {0, 0x7fff'ffff});
@@ -44,6 +58,7 @@ Decoded read_hello(FieldReader& reader, const Context&) {
                      field.is_old ? Presence::kRequired : Presence::kOptional);
     }
   });
+  read_hosts(reader, hello.hosts);
   return reader.finish<ServerMessage>(std::move(hello));
 }
 
@@ -223,12 +238,18 @@ Decoded read_notice(FieldReader& reader, const Context&) {
   return reader.finish<ServerMessage>(std::move(notice));
 }
 
+/// Whoever follows it judges its form: who only shows what was said need not care.
+void read_address(FieldReader& reader, std::string& address) {
+  reader.key_text("address", address, kMaxAddressBytes, Presence::kOptional);
+}
+
 Decoded read_error(FieldReader& reader, const Context&) {
   ErrorMessage error;
   reader.cleaned_text("code", error.code, kLabelBytes);
   reader.cleaned_text("text", error.text, kTextBytes);
   reader.boolean("fatal", error.fatal);
   reader.integer("retry_after_ms", error.retry_after_ms, kAnyUint32);
+  read_address(reader, error.address);
   return reader.finish<ServerMessage>(std::move(error));
 }
 
@@ -237,6 +258,7 @@ Decoded read_bye(FieldReader& reader, const Context&) {
   reader.cleaned_text("code", bye.code, kLabelBytes);
   reader.cleaned_text("text", bye.text, kTextBytes);
   reader.boolean("resumable", bye.resumable);
+  read_address(reader, bye.address);
   return reader.finish<ServerMessage>(std::move(bye));
 }
 

@@ -16,6 +16,7 @@ void append_line(std::string& out, const Hello& hello) {
   text.object("limits", [&](json::ObjectText& limits) {
     for (const LimitField& field : limit_fields()) limits.integer(field.name, hello.limits.*field.member);
   });
+  if (!hello.hosts.empty()) text.array("hosts", hello.hosts, json::append_string);
   text.end_line();
 }
 
@@ -101,12 +102,14 @@ void append_line(std::string& out, const ErrorMessage& error) {
   json::ObjectText text(out, "error");
   text.text("code", error.code).text("text", error.text).boolean("fatal", error.fatal);
   if (error.retry_after_ms) text.integer("retry_after_ms", *error.retry_after_ms);
+  if (!error.address.empty()) text.text("address", error.address);
   text.end_line();
 }
 
 void append_line(std::string& out, const Bye& bye) {
   json::ObjectText text(out, "bye");
   text.text("code", bye.code).text("text", bye.text).boolean("resumable", bye.resumable);
+  if (!bye.address.empty()) text.text("address", bye.address);
   text.end_line();
 }
 

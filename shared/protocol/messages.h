@@ -153,6 +153,9 @@ struct Hello {
   std::vector<std::string> rooms;
   std::vector<std::string> features;
   Limits limits;
+  /// `host:port` of other servers at which the rooms may be found when this one is gone; on the wire where
+  /// there are any.
+  std::vector<std::string> hosts{};
   friend bool operator==(const Hello&, const Hello&) = default;
 };
 
@@ -282,11 +285,13 @@ struct ErrorMessage {
   std::string code, text;
   bool fatal = false;
   std::optional<std::uint32_t> retry_after_ms;
+  std::string address{};  ///< with moved: `host:port` where the room is, unchecked; empty: not told
   friend bool operator==(const ErrorMessage&, const ErrorMessage&) = default;
 };
 struct Bye {
   std::string code, text;
   bool resumable = false;
+  std::string address{};  ///< with moved: `host:port` where the room is, unchecked; empty: not told
   friend bool operator==(const Bye&, const Bye&) = default;
 };
 

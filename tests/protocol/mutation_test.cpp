@@ -24,7 +24,7 @@ const std::vector<std::string> kClientLines = {
 };
 
 const std::vector<std::string> kServerLines = {
-    R"({"type":"hello","protocol":1,"behavior":1,"server":"w","session":"1","rooms":["a"],"features":[],"limits":{"line":4096,"depth":8,"messages_per_s":60,"burst":120,"outbox_bytes":4194304,"handshake_s":10,"idle_s":60,"per_address":256,"per_room":1024}})",
+    R"({"type":"hello","protocol":1,"behavior":1,"server":"w","session":"1","rooms":["a"],"features":[],"limits":{"line":4096,"depth":8,"messages_per_s":60,"burst":120,"outbox_bytes":4194304,"handshake_s":10,"idle_s":60,"per_address":256,"per_room":1024},"hosts":["10.0.0.6:7777","[::1]:7778"]})",
     R"({"type":"welcome","id":1,"resume_token":"","room":"a","tick":5,"tick_hz":60,"state_hz":20,"fields":["id","x"],"quantum":[1,0.0009765625],"format":"quantized","stream":"inputs","map":{"name":"a","hash":"0123456789abcdef","extent":[-1,-1,1,1],"bytes":9},"physics":{"gravity":9.81,"drag":0.2,"friction":0.05,"thrust_max":4,"edge_restitution":0.5},"mode":"roam","players":[{"id":1,"name":"a","role":"bot"}]})",
     R"({"type":"key","tick":60,"louse":[[1,512,-3,0,7],[2,0,0,0,0]],"hash":"00000000000000ff"})",
     R"({"type":"delta","tick":63,"base":60,"louse":[[1,512,-3,0,7]],"gone":[2]})",
@@ -33,6 +33,7 @@ const std::vector<std::string> kServerLines = {
     R"({"type":"event","n":3,"tick":9,"kind":"chat","id":1,"name":"a","text":"b"})",
     R"({"type":"rooms","rooms":[{"name":"a","map":"m","players":1,"bots":2,"spectators":3}]})",
     R"({"type":"error","code":"rate_limited","text":"t","fatal":false,"retry_after_ms":5})",
+    R"({"type":"bye","code":"moved","text":"t","resumable":true,"address":"10.0.0.6:7777"})",
 };
 
 std::string mutated(const std::vector<std::string>& lines, std::mt19937_64& random) {

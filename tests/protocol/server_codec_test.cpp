@@ -119,6 +119,7 @@ TEST_CASE("an ack carries every field of the louse, bit for bit") {
 
 TEST_CASE("every server message comes back as it was sent") {
   Hello hello{kProtocolVersion, 1, "woodlouse 0.1.0", "9f", {"volcano", "hills"}, {"exact"}, {}};
+  hello.hosts = {"10.0.0.6:7777", "[2001:db8::6]:7777", "farm.example:7778"};
   hello.limits.burst = 9;
   Welcome spectator = some_welcome(Format::kExact);
   spectator.id = 0;
@@ -151,7 +152,10 @@ TEST_CASE("every server message comes back as it was sent") {
       Notice{std::string(code::kRateLowered), "slow"},
       ErrorMessage{std::string(code::kBadField), "no", false, std::nullopt},
       ErrorMessage{std::string(code::kRateLimited), "slow down", false, 250u},
+      ErrorMessage{std::string(code::kMoved), "there", true, std::nullopt, "10.0.0.6:7777"},
       Bye{std::string(code::kShutdown), "", true},
+      Bye{std::string(code::kMoved), "there", true, "[2001:db8::6]:7777"},
+      Bye{std::string(code::kMoved), "", true, "what is no address is told as well"},
       Rooms{{{"volcano", "volcano", 1, 2, 3}, {"b", "hills", 0, 0, 0}}},
       Rooms{},
       MapMessage{"volcano", 0xfedcba9876543210,
@@ -253,6 +257,10 @@ TEST_CASE("server lines out of shape are refused with the code that says why") {
   CHECK(refused(R"({"type":"bye","code":"x","text":"","x":[[[[[[[[]]]]]]]]})") == code::kTooDeep);
   CHECK(refused(R"({"type":"bye","code":"x","text":""})") == code::kMissingField);
   CHECK(refused(R"({"type":"bye","code":"x","text":"","resumable":0})") == code::kBadField);
+  CHECK(refused(R"({"type":"bye","code":"moved","text":"","resumable":true,"address":7777})") ==
+        code::kBadField);
+  CHECK(refused(R"({"type":"bye","code":"moved","text":"","resumable":true,"address":")" +
+                std::string(262, 'a') + R"("})") == code::kBadField);
   CHECK(refused(R"({"type":"event","n":1,"tick":1,"kind":"eclipse","id":1,"name":""})") ==
         code::kUnknownType);
   CHECK(refused(R"({"type":"event","n":0,"tick":1,"kind":"left","id":1,"name":""})") == code::kBadField);

@@ -51,12 +51,13 @@ Input whole_input() {
 
 Hello whole_hello() {
   Hello hello;
-  [[maybe_unused]] const auto& [protocol, behavior, server, session, rooms, features, limits] = hello;
+  [[maybe_unused]] const auto& [protocol, behavior, server, session, rooms, features, limits, hosts] = hello;
   hello.behavior = 10;
   hello.server = "woodlouse-server 0.1.0";
   hello.session = "000000000000001f";
   hello.rooms = {"volcano", "hills"};
   hello.features = {"quantized", "exact"};
+  hello.hosts = {"10.0.0.6:7777", "[2001:db8::7]:7777"};
   return hello;
 }
 
@@ -165,14 +166,16 @@ Message coded(const char* code) {
 
 ErrorMessage whole_error() {
   auto error = coded<ErrorMessage>("rate_limited");
-  [[maybe_unused]] const auto& [code, text, fatal, retry_after_ms] = error;
+  [[maybe_unused]] const auto& [code, text, fatal, retry_after_ms, address] = error;
+  error.address = "10.0.0.6:7777";
   error.retry_after_ms = 250;
   return error;
 }
 
 Bye whole_bye() {
   auto bye = coded<Bye>("shutdown");
-  [[maybe_unused]] const auto& [code, text, resumable] = bye;
+  [[maybe_unused]] const auto& [code, text, resumable, address] = bye;
+  bye.address = "10.0.0.6:7777";
   return bye;
 }
 
