@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "server/option_checks.h"
-#include "server/quantities.h"
 #include "shared/core/joined.h"
 
 namespace woodlouse::server {

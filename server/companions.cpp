@@ -39,6 +39,13 @@ Watchers Companions::make(const std::string& room, const Start& start, std::vect
   }
   if (records_ && start.match->settings().mode == state::Mode::kRace)
     take(records_->open(room, *start.match, start.map_file));
+  if (cluster_ != nullptr) {
+    if (header.map_definition.empty())
+      failed.emplace_back(room, "its map is too big for the log of a cluster",
+                          "at most " + std::to_string(replay::kMaxInlineMapBytes) + " bytes");
+    else
+      watchers.push_back(cluster_->watch(room, header));
+  }
   if (shadows_)
     watchers.push_back(std::make_unique<Shadow>(
         room, start.map, std::move(header), dump_folder_ / ("shadow." + file_part(room)), *shadows_, log_));

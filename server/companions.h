@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "server/cluster/cluster.h"
 #include "server/config.h"
 #include "server/records/records.h"
 #include "server/room/start.h"
@@ -49,6 +50,8 @@ class Companions {
     const std::lock_guard lock(mutex_);
     unrecorded_.erase(room);
   }
+  /// Further games are logged there, too; outlives it.
+  void use(Cluster& cluster) { cluster_ = &cluster; }
   [[nodiscard]] bool has_recordings() const { return recordings_.has_value(); }
   /// How many recordings begin new files.
   std::size_t ask_for_next_files() { return recordings_ ? recordings_->ask_for_next_files() : 0; }
@@ -85,6 +88,7 @@ class Companions {
   std::optional<boost::asio::thread_pool> shadows_;
   std::optional<Recordings> recordings_;
   std::optional<Records> records_;
+  Cluster* cluster_ = nullptr;  ///< null: this server is alone
 };
 
 }  // namespace woodlouse::server

@@ -8,9 +8,10 @@
 #include <utility>
 
 #include "server/admin_options.h"
+#include "server/cluster_options.h"
 #include "server/config_file.h"
+#include "server/file_options.h"
 #include "server/limit_options.h"
-#include "server/map_options.h"
 #include "server/option_checks.h"
 #include "server/record_options.h"
 #include "server/records_options.h"
@@ -23,7 +24,6 @@ namespace {
 
 constexpr std::uint64_t kMaxTickHz = 1000;
 constexpr std::uint64_t kMaxBots = 1000;
-constexpr std::uint64_t kMaxJobs = 256;
 constexpr std::uint64_t kMostRounds = 1000;
 
 constexpr const char* kExamples = R"(Examples:
@@ -58,6 +58,7 @@ struct TypedServe {
   TypedWeb web;
   std::vector<std::string> trusted_proxies;
   TypedAdmin admin;
+  TypedCluster cluster;
   std::string config_file;
 };
 
@@ -71,6 +72,7 @@ struct Typed {
   InspectConfig inspect;
   RecordsConfig records;
   TypedErrand errand;
+  TypedClusterErrand cluster;
 };
 
 /// Which games; a fork takes all of it from its recording.
@@ -120,6 +122,7 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
       ->capture_default_str();
   add_record_options(app, typed.record);
   add_records_option(app, serve.records);
+  add_cluster_options(app, typed.cluster);
   app.add_flag("--shadow", serve.shadow,
                "Re-run every tick beside the game and compare; a difference is logged and kept")
       ->envname("WOODLOUSE_SHADOW");
@@ -163,13 +166,6 @@ void add_serve_options(CLI::App& app, TypedServe& typed) {
       ->envname("WOODLOUSE_CONFIG");
 }
 
-void add_maps(CLI::App& command, std::filesystem::path& maps) {
-  command
-      .add_option("--maps", maps,
-                  "Folder of the map, where the recording only names it and it is not beside it")
-      ->check(CLI::ExistingDirectory);
-}
-
 CLI::App* add_fork(CLI::App& app, Typed& typed) {
   CLI::App* fork = app.add_subcommand("fork", "Serve a live room that goes on from a tick of a recording");
   fork->add_option("file", typed.fork_point.recording, "A recording")->required();
@@ -180,42 +176,6 @@ CLI::App* add_fork(CLI::App& app, Typed& typed) {
   add_serve_options(*fork, typed.fork);
   fork->footer(kForkExamples);
   return fork;
-}
-
-CLI::App* add_verify(CLI::App& app, VerifyRequest& request) {
-  CLI::App* verify = app.add_subcommand(
-      "verify",
-      "Re-run a recording and compare: places and hashes, inputs, who joined under which name and left, and "
-      "the index. Chat, margins, that a server played this game and that it ended there are what the file "
-      "says");
-  verify->add_option("file", request.files, "Recordings")->required();
-  verify->add_option("--jobs", request.jobs, "Threads; each takes a stretch between keyframes")
-      ->check(whole_number(1, kMaxJobs))
-      ->capture_default_str();
-  verify->add_flag("--from-start", request.from_start, "Fail where the start is taken on trust");
-  verify->add_flag("--complete", request.complete, "Fail where the end is missing");
-  add_maps(*verify, request.maps);
-  return verify;
-}
-
-CLI::App* add_inspect(CLI::App& app, InspectRequest& request) {
-  CLI::App* inspect =
-      app.add_subcommand("inspect", "Say what a recording holds, or the exact state at a tick");
-  inspect->add_option("file", request.file, "A recording")->required();
-  CLI::Option* tick =
-      inspect->add_option("--tick", request.tick, "The state at this tick, as JSON")->check(whole_number(0));
-  inspect->add_option("--at", request.seconds, "The same, by seconds since the game began")
-      ->check(seconds())
-      ->excludes(tick);
-  add_maps(*inspect, request.maps);
-  inspect->add_flag(
-      "--rulings", request.rulings,
-      "What the rules of play said, re-run, a line each: moment (1/65536 of a tick), kind, louse, values");
-  inspect->add_flag("--error", request.error,
-                    "How far its steps err, re-run, and how far it goes astray in 10 s");
-  inspect->add_flag("--summary", request.summary,
-                    "Players, inputs, events, and who was late; also without an option");
-  return inspect;
 }
 
 /// Options that neither a flag nor a variable gave take the file's value.
@@ -272,6 +232,9 @@ core::Expected<Config> checked(CLI::App& app, TypedServe& typed) {
   auto record = checked_record(typed.record, serve.rotate ? 1 : serve.maps.size());
   if (!record) return tl::unexpected(record.error());
   serve.record = std::move(*record);
+  auto cluster = checked_cluster(typed.cluster, serve);
+  if (!cluster) return tl::unexpected(cluster.error());
+  serve.cluster = std::move(*cluster);
   serve.bots_skill = bots::skill_from_text(typed.bots_skill).value_or(bots::Skill::kFair);
   serve.bots_alone_play = typed.bots_alone == "play";
   serve.mode = state::mode_from_text(typed.mode);
@@ -316,6 +279,7 @@ core::Expected<Config> parse_config(int argc, const char* const* argv) {
   CLI::App* records = add_records_command(app, typed.records.request);
   CLI::App* fork = add_fork(app, typed);
   CLI::App* admin = add_admin_command(app, typed.errand);
+  CLI::App* cluster = add_cluster_command(app, typed.cluster);
   app.require_subcommand(0, 1);
   try {
     app.parse(argc, argv);
@@ -323,9 +287,10 @@ core::Expected<Config> parse_config(int argc, const char* const* argv) {
     return Config{PrintConfig{std::string(kServerName) + "\n"}};
   } catch (const CLI::CallForHelp&) {
     CLI::App* shown = &app;
-    for (CLI::App* command : {check, make_map, verify, inspect, records, fork, admin})
+    for (CLI::App* command : {check, make_map, verify, inspect, records, fork, admin, cluster})
       if (command->parsed())
-        shown = command == records || command == admin ? named_command(command) : command;
+        shown =
+            command == records || command == admin || command == cluster ? named_command(command) : command;
     return Config{PrintConfig{shown->help()}};
   } catch (const CLI::Error& error) {
     std::string hint = "see woodlouse-server ";
@@ -341,6 +306,11 @@ core::Expected<Config> parse_config(int argc, const char* const* argv) {
     auto errand = checked_errand(typed.errand);
     if (!errand) return tl::unexpected(errand.error());
     return Config{AdminConfig{std::move(*errand)}};
+  }
+  if (cluster->parsed()) {
+    auto errand = checked_cluster_errand(typed.cluster);
+    if (!errand) return tl::unexpected(errand.error());
+    return Config{ClusterConfig{std::move(*errand)}};
   }
   if (!fork->parsed()) return checked(app, typed.serve);
   typed.fork.serve.fork = typed.fork_point;

@@ -12,6 +12,8 @@
 
 #include "server/admin/admin_address.h"
 #include "server/bots/skill.h"
+#include "server/cluster/cluster_command.h"
+#include "server/cluster/cluster_settings.h"
 #include "server/commands/admin.h"
 #include "server/commands/fork.h"
 #include "server/commands/inspect.h"
@@ -45,6 +47,7 @@ struct ServeConfig {
   std::uint32_t state_hz = 20;                         ///< divides tick_hz
   std::optional<RecordSettings> record;
   std::optional<std::filesystem::path> records;  ///< the folder of the races' boards; empty: there are none
+  std::optional<ClusterSettings> cluster;        ///< empty: this server is alone
   bool shadow = false;                           ///< re-run and compare each tick beside the game
   std::optional<std::uint64_t> ticks;            ///< stop after so many
   std::optional<std::uint64_t> seed;             ///< empty: from the machine's entropy
@@ -76,6 +79,9 @@ struct InspectConfig {
 struct RecordsConfig {
   RecordsRequest request;
 };
+struct ClusterConfig {
+  ClusterErrand errand;
+};
 struct AdminConfig {
   AdminErrand errand;
 };
@@ -85,7 +91,7 @@ struct PrintConfig {
 };
 
 using Config = std::variant<ServeConfig, CheckConfig, MakeMapConfig, VerifyConfig, InspectConfig,
-                            RecordsConfig, AdminConfig, PrintConfig>;
+                            RecordsConfig, AdminConfig, ClusterConfig, PrintConfig>;
 
 /// Frames fall on ticks. Of a fork it is known once its recording is read.
 core::Expected<void> check_state_hz(std::uint32_t state_hz, std::uint32_t tick_hz);

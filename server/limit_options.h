@@ -45,4 +45,9 @@ inline protocol::Limits completed(protocol::Limits typed, std::uint32_t tick_hz)
   return typed;
 }
 
+struct ServeConfig;
+
+/// As many connections as there may be files open, some of which the server needs itself.
+protocol::Limits limits_of(const ServeConfig& config);
+
 }  // namespace woodlouse::server

@@ -15,6 +15,7 @@
 #include <utility>
 #include <variant>
 
+#include "server/cluster/cluster_command.h"
 #include "server/commands/admin.h"
 #include "server/commands/check.h"
 #include "server/commands/inspect.h"
@@ -62,6 +63,7 @@ int run(const CheckConfig& config) { return printed(check_command(config.maps, c
 int run(const MakeMapConfig& config) { return printed(make_map_command(config.request, std::cout)); }
 int run(const VerifyConfig& config) { return printed(verify_command(config.request, std::cout)); }
 int run(const RecordsConfig& config) { return printed(records_command(config.request, std::cout)); }
+int run(const ClusterConfig& config) { return printed(cluster_command(config.errand, std::cout, std::cerr)); }
 int run(const AdminConfig& config) { return printed(admin_command(config.errand, std::cout, std::cerr)); }
 int run(const InspectConfig& config) {
   return printed(inspect_command(config.request, std::cout, std::cerr));

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "server/quantities.h"
+#include "server/option_checks.h"
 
 namespace woodlouse::server {
 

@@ -26,6 +26,7 @@ core::Expected<std::shared_ptr<Room>> RoomOpener::make(const ServeConfig& config
   settings.tick_limit = config.ticks;
   settings.limits = *limits_.now();
   settings.adopts_by_name = config.fork && config.fork->adopts_by_name;
+  settings.ends_unclaimed = config.cluster.has_value();
   if (rotation != nullptr) settings.rounds_a_game = *config.rotate;
   std::vector<core::Error> failed;
   Watchers watchers = companions_.make(name, start, failed);

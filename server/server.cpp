@@ -53,20 +53,6 @@ std::uint64_t entropy() {
   return (static_cast<std::uint64_t>(device()) << 32) | device();
 }
 
-/// As many connections as there may be files open, some of which the server needs itself.
-protocol::Limits limits_of(const ServeConfig& config) {
-  constexpr std::uint64_t kOwnFiles = 64;
-  constexpr std::uint64_t kAdminFiles =
-      128;  // connections to its door, and recordings of rooms that it opens
-  protocol::Limits limits = completed(config.limits, config.tick_hz);
-  const std::size_t rooms = config.maps.size() * (config.mode ? 1 : state::kModes.size());
-  const std::uint64_t own = kOwnFiles + 2 * rooms + (config.admin ? kAdminFiles : 0);
-  const std::uint64_t files = std::max(own + 1, raise_descriptor_limit());
-  limits.max_connections =
-      static_cast<std::uint32_t>(std::min<std::uint64_t>(limits.max_connections, files - own));
-  return limits;
-}
-
 }  // namespace
 
 Server::Server(const ServeConfig& config, Outside outside, std::shared_ptr<spdlog::logger> log)
@@ -122,7 +108,9 @@ core::Expected<std::unique_ptr<Server>> Server::create(ServeConfig config, Outsi
   // The ports first: a busy one must not cost somebody his recording.
   if (const auto opened = server->open_ports(config); !opened) return tl::unexpected(opened.error());
   server->companions_.begin(config, tick_threads(std::max<std::size_t>(1, config.maps.size())));
-  const auto opened = fork ? server->open_fork_room(config, std::move(*fork)) : server->open_rooms(config);
+  const auto opened = fork             ? server->open_fork_room(config, std::move(*fork))
+                      : config.cluster ? server->join_cluster(config)
+                                       : server->open_rooms(config);
   if (!opened) return tl::unexpected(opened.error());
   return server;
 }
@@ -152,7 +140,7 @@ core::Expected<void> Server::open_rooms(const ServeConfig& config) {
   const std::uint64_t seed = config.seed ? *config.seed : entropy();
   auto games = choose_games(config);
   if (!games) return tl::unexpected(games.error());
-  take_signals();
+  if (!config.cluster) take_signals();
   if (config.rotate) return open_rotation(config, std::move(*games), seed);
   for (std::size_t k = 0; k < games->size(); ++k) {
     const ChosenGame& game = (*games)[k];
@@ -179,6 +167,33 @@ core::Expected<void> Server::open_rotation(const ServeConfig& config, std::vecto
     return next;
   });
   return open_room(config, kRotationRoom, std::move(first));
+}
+
+core::Expected<void> Server::join_cluster(const ServeConfig& config) {
+  // What can't be played is said now, not when this host's turn comes.
+  const auto games = choose_games(config);
+  if (!games) return tl::unexpected(games.error());
+  if (games->size() > kMostRoomsOfShard)
+    return core::fail("--map", fmt::format("{} rooms are more than a cluster's shard has", games->size()),
+                      fmt::format("at most {}; --mode makes fewer of them", kMostRoomsOfShard));
+  cluster_.emplace(strand_, lobby_, limits_,
+                   ClusterDesk::Rooms{[this, config] { return open_rooms(config); },
+                                      [this, config](const std::string& name, Start start) {
+                                        return open_room(config, name, std::move(start));
+                                      },
+                                      [this](const std::string& name) { rooms_running_.erase(name); },
+                                      [this](const std::string& why) {
+                                        log_event(*log_, LogEvent::kClusterFault, why);
+                                        stop("the server stops", why);
+                                      }},
+                   log_);
+  if (const auto opened = cluster_->open(*config.cluster, address_); !opened)
+    return tl::unexpected(opened.error());
+  companions_.use(cluster_->cluster());
+  environment_.elsewhere = [this](std::string_view room) { return cluster_->elsewhere(room); };
+  environment_.hosts = [this] { return cluster_->cluster().hosts(); };
+  take_signals();
+  return {};
 }
 
 core::Expected<void> Server::open_fork_room(const ServeConfig& config, Start start) {
@@ -221,10 +236,11 @@ void Server::run() {
   const std::size_t rooms = lobby_.rooms().size();  // their first ticks are due when the threads run
   acceptor_.start();
   admin_.start();
+  if (cluster_) cluster_->start();
 
   std::vector<std::jthread> threads;
   try {
-    for (std::size_t i = 0; i < tick_threads(admin_address_.empty() ? rooms : kMaxRooms); ++i)
+    for (std::size_t i = 0; i < tick_threads(admin_address_.empty() && !cluster_ ? rooms : kMaxRooms); ++i)
       threads.emplace_back([this] { ticks_.run(); });
     for (std::size_t i = 0; i < kIoThreads; ++i) threads.emplace_back([this] { io_.run(); });
   } catch (const std::system_error&) {
@@ -232,15 +248,10 @@ void Server::run() {
     throw;
   }
   threads.clear();
+  if (cluster_) cluster_->leave();
   rotation_.reset();
   room_control_.end();
   companions_.end();
-}
-
-void Server::await_signal() {
-  signals_.async_wait([this](const boost::system::error_code& error, int signal) {
-    if (!error) on_signal(signal);
-  });
 }
 
 void Server::on_signal(int signal) {
@@ -307,7 +318,8 @@ void Server::reopen() {
 
 void Server::stop(const std::string& text, const std::string& reason) {
   if (std::exchange(stopping_, true)) return;
-  const protocol::Bye bye{std::string(protocol::code::kShutdown), text, false};
+  protocol::Bye bye{std::string(protocol::code::kShutdown), text, false};
+  if (cluster_) bye = cluster_->begin_leaving(bye);
   deadline_.expires_after(kStopWithin);
   deadline_.async_wait([this](const boost::system::error_code& error) {
     if (!error) give_up_waiting();
@@ -318,22 +330,11 @@ void Server::stop(const std::string& text, const std::string& reason) {
   admin_.stop(part_done);
 }
 
-void Server::part_stopped() {
-  if (--parts_running_ > 0) return;
-  deadline_.cancel();
-  stop_contexts();
-}
-
 void Server::give_up_waiting() {
   log_event(*log_, LogEvent::kStopIncomplete,
             fmt::format("{} of rooms and port did not stop within {} ms", parts_running_,
                         std::chrono::duration_cast<std::chrono::milliseconds>(kStopWithin).count()));
   stop_contexts();
-}
-
-void Server::stop_contexts() {
-  ticks_.stop();
-  io_.stop();
 }
 
 void Server::print_summary(std::ostream& out) const {

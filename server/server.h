@@ -28,6 +28,7 @@
 #include "server/admin/admin_door.h"
 #include "server/ban_desk.h"
 #include "server/chosen_games.h"
+#include "server/cluster_desk.h"
 #include "server/companions.h"
 #include "server/config.h"
 #include "server/game_rotation.h"
@@ -99,6 +100,7 @@ class Server {
   core::Expected<void> open_rooms(const ServeConfig& config);
   core::Expected<void> open_rotation(const ServeConfig& config, std::vector<ChosenGame> games,
                                      std::uint64_t seed);
+  core::Expected<void> join_cluster(const ServeConfig& config);
   core::Expected<void> open_fork_room(const ServeConfig& config, Start start);
   /// From here on a signal waits for run(), which writes down and says bye. Before, nothing is begun that it
   /// would cut short: maps, which may take long, are loaded, and no recording is created.
@@ -109,7 +111,11 @@ class Server {
   core::Expected<void> open_room(const ServeConfig& config, const std::string& name, Start start);
   /// False: there is one of its name, or it is too late. Before the threads run, or on the strand.
   bool open(std::shared_ptr<Room> room);
-  void await_signal();
+  void await_signal() {
+    signals_.async_wait([this](const boost::system::error_code& error, int signal) {
+      if (!error) on_signal(signal);
+    });
+  }
   void on_signal(int signal);
   /// who: asks for it, for the log. done: called once, on some thread.
   void reload(const std::string& who, Operator::Reloaded done);
@@ -118,9 +124,16 @@ class Server {
     if (rooms_running_.empty()) stop("the game is over", "ticks done");
   }
   void stop(const std::string& text, const std::string& reason);
-  void part_stopped();
+  void part_stopped() {
+    if (--parts_running_ > 0) return;
+    deadline_.cancel();
+    stop_contexts();
+  }
   void give_up_waiting();
-  void stop_contexts();
+  void stop_contexts() {
+    ticks_.stop();
+    io_.stop();
+  }
 
   std::shared_ptr<spdlog::logger> log_;
   Companions companions_;
@@ -154,6 +167,7 @@ class Server {
   std::size_t parts_running_ = 0;        ///< once stopping: rooms and the acceptor
   bool stopping_ = false;
   std::optional<GameRotation> rotation_;
+  std::optional<ClusterDesk> cluster_;
 };
 
 }  // namespace woodlouse::server

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "shared/core/joined.h"
-#include "shared/protocol/text_cleaning.h"
 #include "shared/replay/archive.h"
 #include "shared/replay/recorded_map_file.h"
 #include "shared/replay/source_file.h"
@@ -25,20 +23,6 @@ core::Error without_tick(const ReplayArchive& archive, const ForkPoint& point) {
           joined({"has no tick ", std::to_string(point.tick), ", only ", std::to_string(archive.first_tick()),
                   " to ", last}),
           joined({"try:  woodlouse-server fork ", point.recording.string(), " --tick ", last})};
-}
-
-/// By louse. A louse that nobody named can't be asked for.
-std::vector<Seat> unclaimed_seats(const match::Match& match) {
-  std::vector<Seat> seats;
-  for (const match::PlayerSeq& player : match.state().players) {
-    if (!match.contains(player.player)) continue;
-    const match::PlayerLabel& label = match.labels().at(player.player);
-    std::string name = protocol::clean_text(label.name, protocol::kMaxNameBytes);
-    if (name.empty()) continue;
-    seats.push_back(
-        {player.player, std::move(name), label.role, player.last_seq ? *player.last_seq + 1 : 0, Nobody{}});
-  }
-  return seats;
 }
 
 core::Error with_advice(const core::Error& error, const ForkPoint& point) {
@@ -86,18 +70,6 @@ std::string on_trust(const replay::Playback& playback, std::size_t inputs) {
   if (inputs == 0) return text;
   return joined({text, text.empty() ? "" : " and ", std::to_string(inputs),
                  inputs == 1 ? " waiting input" : " waiting inputs"});
-}
-
-/// Inputs are counted anew from here on, or who sent the last one there is a number for is never heard again:
-/// those that wait come first.
-match::MatchState counted_anew(match::MatchState state) {
-  std::map<match::PlayerId, std::uint32_t> next;
-  for (match::AppliedInput& input : state.waiting) input.seq = next[input.player]++;
-  for (match::PlayerSeq& player : state.players) {
-    const auto waiting = next.find(player.player);
-    player.last_seq = waiting == next.end() ? std::nullopt : std::optional(waiting->second - 1);
-  }
-  return state;
 }
 
 }  // namespace

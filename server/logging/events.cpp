@@ -67,8 +67,18 @@ constexpr std::array<LogEventEntry, kLogEventCount> kEvents{{
     {"run_left_out", level::warn, "too many runs wait to be re-run"},
     {"records_not_written", level::err, "runs stand on a board and in no file yet"},
     {"records_written_again", level::warn, "they are written now"},
+    {"cluster_follows", level::info, "this host follows the log of another one, and stands by"},
+    {"cluster_owns", level::warn, "the rooms of the shard are this host's from now on"},
+    {"cluster_fenced", level::err, "another host has taken the log over; the rooms end here"},
+    {"cluster_hole", level::err, "something is missing in the log: the line says what, and what goes on"},
+    {"cluster_differs", level::err,
+     "what this host re-runs is not what the log says; it takes nothing of it over"},
+    {"cluster_not_durable", level::err, "nothing has been stored for 10 s; the rooms go on"},
+    {"cluster_durable", level::warn, "what is played is stored again"},
+    {"cluster_fault", level::warn,
+     "NATS does not answer as it should, or what it brings is no log; told once in a row"},
 }};
-static_assert(static_cast<std::size_t>(LogEvent::kRecordsWrittenAgain) + 1 == kLogEventCount);
+static_assert(static_cast<std::size_t>(LogEvent::kClusterFault) + 1 == kLogEventCount);
 
 /// A message carries its event where spdlog's macros leave the name of the function that logs. Line 0: it is
 /// no place in the code.

@@ -76,8 +76,17 @@ enum class LogEvent : std::uint8_t {
   kRunLeftOut,
   kRecordsNotWritten,
   kRecordsWrittenAgain,
+  // The cluster.
+  kClusterFollows,
+  kClusterOwns,
+  kClusterFenced,
+  kClusterHole,
+  kClusterDiffers,
+  kClusterNotDurable,
+  kClusterDurable,
+  kClusterFault,
 };
-inline constexpr std::size_t kLogEventCount = 55;
+inline constexpr std::size_t kLogEventCount = 63;
 
 struct LogEventEntry {
   std::string_view name;  ///< a literal

@@ -104,6 +104,10 @@ std::string where_http_is(std::string_view line, std::string_view web_url) {
 }
 
 protocol::ErrorMessage room_moved(const std::string& asked, std::string address) {
+  constexpr std::uint32_t kAskAgainMs = 200;
+  if (address.empty())
+    return {std::string(code::kMoved),
+            core::joined({"join.room: \"", asked, "\" is about to go on: join again"}), false, kAskAgainMs};
   ErrorMessage moved =
       error(code::kMoved, core::joined({"join.room: \"", asked, "\" is at ", address, " now"}));
   moved.fatal = true;

@@ -66,7 +66,8 @@ struct SessionEnvironment {
                      std::function<void(protocol::ServerMessage)> answered)>
       moderate{};
   Doorman* doorman = nullptr;  ///< what the operator says; null: everybody may
-  /// Where a room is that is not here, as `host:port`; nothing: nobody knows. Any thread; null: no room is.
+  /// Where a room is that is not here, as `host:port`; empty: it is about to go on somewhere;
+  /// nothing: nobody knows it. Any thread; null: no room is.
   std::function<std::optional<std::string>(std::string_view room)> elsewhere{};
   /// What hello names as `hosts`. Any thread; null: nothing.
   std::function<std::vector<std::string>()> hosts{};

@@ -40,6 +40,7 @@ Members::Members(const Lanes& lanes, const RoomSettings& settings, match::Match&
       budgets_(settings.limits, now) {
   inputs_.emplace(settings_, *game_, seats_);
   name_map();
+  place_vacant();
 }
 
 void Members::name_map() {
@@ -142,11 +143,11 @@ void Members::admit(Arrival arrival) {
   const bool plays = join.role != protocol::Role::kSpectator;
   Seat fresh{0, join.name, join.role, 0, SessionOccupant{arrival.session, arrival.subscriber, 0}};
   fresh.address = arrival.address;
-  if (plays && join.may_resume) fresh.token = make_resume_token();
   if (plays)
     give_louse(fresh);
   else
     fresh.name = seats_.free_name(join.name, arrival.session);
+  if (plays && join.may_resume) give_token(fresh);
   places_.take(fresh.role, fresh.address);
   count(fresh.role, +1);  // who has his welcome finds himself counted
   seat(std::move(fresh), arrival, false);
@@ -157,7 +158,7 @@ bool Members::welcome_back(const Arrival& arrival) {
   const protocol::Join& join = arrival.join;
   const auto token = resume_token_from(join.resume);
   if (!token || join.role == protocol::Role::kSpectator) return false;
-  std::optional<Seat> taken = seats_.take_back(*token);
+  std::optional<Seat> taken = seats_.take_back(digest_of(*token));
   if (!taken) return false;
   if (const auto* old = std::get_if<SessionOccupant>(&taken->occupant)) {
     skip_votes_.erase(old->session);
@@ -168,6 +169,7 @@ bool Members::welcome_back(const Arrival& arrival) {
   places_.give_back(taken->role, taken->address);
   places_.take(taken->role, arrival.address);
   taken->address = arrival.address;
+  taken->token = token;
   taken->last_seq.reset();
   taken->occupant = SessionOccupant{arrival.session, arrival.subscriber, 0};
   seat(std::move(*taken), arrival, true);
@@ -194,6 +196,7 @@ void Members::begin(match::Match& game, std::unique_ptr<bots::Team> team) {
   skip_votes_.clear();
   count(protocol::Role::kBot, -static_cast<std::int32_t>(settings_.bots));
   add_house_bots(std::move(team));
+  for (const auto& watcher : watchers_) tell_claims(*watcher);
   display_.begin(game, seats_, company());
 }
 
@@ -207,7 +210,7 @@ void Members::remove(SessionId session, Parting parting) {
   std::optional<Seat> seat = seats_.take_away(session);
   if (!seat) return;
   display_.unsubscribe(std::get<SessionOccupant>(seat->occupant));
-  if (parting == Parting::kLost && seat->token && settings_.limits.resume_s > 0)
+  if (parting == Parting::kLost && seat->claim && settings_.limits.resume_s > 0)
     return hold(std::move(*seat));
   end(*seat);
 }

@@ -5,6 +5,7 @@
 #include <spdlog/logger.h>
 
 #include <atomic>
+#include <cassert>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -52,6 +53,20 @@ class Members {
   void begin(match::Match& game, std::unique_ptr<bots::Team> team);
   /// Of more than half of the addresses from which players are here, one has voted for the next game.
   [[nodiscard]] bool wants_next() const { return !skip_votes_.empty() && votes() >= votes_needed(); }
+  /// Who may come back to which louse; behind the watcher's begin().
+  void tell_claims(TickWatcher& watcher) {
+    const auto tell = [&watcher](const Seat& seat, const auto&) {
+      if (seat.claim && seat.louse != 0) watcher.claimed({seat.louse, seat.name, seat.role, *seat.claim});
+    };
+    seats_.for_each<SessionOccupant>(tell);
+    seats_.for_each<Vacant>(tell);
+  }
+  /// The lice go that were somebody's in the game that this one goes on from, and are nobody's here.
+  void end_unclaimed() {
+    std::vector<const Seat*> unclaimed;
+    seats_.for_each<Nobody>([&](const Seat& seat, const Nobody&) { unclaimed.push_back(&seat); });
+    for (const Seat* seat : unclaimed) end(seats_.take_away(*seat));
+  }
   void steer_house_bots() {
     for (const Seat* seat : crew_.steer(*game_)) send(events_.respawned(game_->tick(), *seat));
   }
@@ -118,6 +133,19 @@ class Members {
   void seat(Seat seat, const Arrival& arrival, bool is_back);
   [[nodiscard]] Company company() const { return {seats_.entries(), spectators_.load()}; }
   void give_louse(Seat& seat);
+  /// Who may come back from the start has his place.
+  void place_vacant() {
+    seats_.for_each<Vacant>([this](const Seat& seat, const Vacant&) {
+      places_.take(seat.role, seat.address);
+      count(seat.role, +1);
+    });
+  }
+  void give_token(Seat& seat) {
+    assert(seat.louse != 0);
+    seat.token = make_resume_token();
+    seat.claim = digest_of(*seat.token);
+    for (const auto& watcher : watchers_) watcher->claimed({seat.louse, seat.name, seat.role, *seat.claim});
+  }
   void hold(Seat seat);
   void end(const Seat& seat);
   void on_message(Seat& seat, SessionOccupant& occupant, const protocol::Input& input, Time arrived) {

@@ -81,8 +81,10 @@ void Room::start(std::function<void()> ended) {
     ended_ = std::move(ended);
     state_ = State::kRunning;
     begin_watching();
+    for (const auto& watcher : watchers_) members_.tell_claims(*watcher);
     look_for_recording();
     members_.add_house_bots(std::move(team_));
+    if (settings_.ends_unclaimed) members_.end_unclaimed();
     clock_.emplace(game_->settings().tick_hz, std::chrono::ceil<Beat>(timekeeper_.now()));
     await_tick();
   });

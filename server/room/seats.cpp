@@ -27,7 +27,8 @@ Seats::Place Seats::place_of(const Seat& seat) {
 
 Seats::Seats(std::vector<Seat> unclaimed) {
   for (Seat& seat : unclaimed) {
-    assert(std::holds_alternative<Nobody>(seat.occupant) && seat.louse != 0);
+    assert(seat.louse != 0 &&
+           (std::holds_alternative<Nobody>(seat.occupant) || std::holds_alternative<Vacant>(seat.occupant)));
     add(std::move(seat));
   }
 }
@@ -40,7 +41,8 @@ Seat& Seats::add(Seat seat) {
   if (is_session && seat.role == protocol::Role::kPlayer) ++players_of_[seat.address];
   vacant_ += std::holds_alternative<Vacant>(seat.occupant) ? 1 : 0;
   names_.insert(seat.name);
-  if (seat.token) tokens_.emplace(*seat.token, place);
+  assert(!seat.token || seat.claim);
+  if (seat.claim) tokens_.emplace(*seat.claim, place);
   const auto [at, is_new] = seats_.emplace(place, std::move(seat));
   assert(is_new);
   return at->second;
@@ -60,7 +62,7 @@ Seat Seats::take(std::map<Place, Seat>::iterator at) {
   const auto name = names_.find(seat.name);
   assert(name != names_.end());
   names_.erase(name);
-  if (seat.token) tokens_.erase(*seat.token);
+  if (seat.claim) tokens_.erase(*seat.claim);
   return seat;
 }
 
@@ -72,7 +74,7 @@ std::optional<Seat> Seats::take_over(std::string_view name) {
   return take(found);
 }
 
-std::optional<Seat> Seats::take_back(const ResumeToken& token) {
+std::optional<Seat> Seats::take_back(const TokenDigest& token) {
   const auto place = tokens_.find(token);
   if (place == tokens_.end()) return std::nullopt;
   return take(seats_.find(place->second));

@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "server/access/claim.h"
 #include "server/access/resume_token.h"
 #include "server/frames/layouts.h"
 #include "server/room/house_bots.h"
@@ -69,8 +70,10 @@ struct Seat {
   /// Under which the match files its next input, whatever its occupants count: each begins anew.
   std::uint32_t next_seq = 0;
   std::variant<Nobody, BotOccupant, SessionOccupant, Vacant> occupant;
-  AddressId address = 0;                    ///< of its session, or of the one it had
-  std::optional<ResumeToken> token{};       ///< by which its player comes back; none: it never asked to
+  AddressId address = 0;  ///< of its session, or of the one it had
+  /// By which its player comes back; none: it never asked to, or (claim) another server gave it.
+  std::optional<ResumeToken> token{};
+  std::optional<TokenDigest> claim{};       ///< of the token; by it the seat is found
   std::optional<std::uint32_t> last_seq{};  ///< of its session's own count
   std::uint32_t dropped_below = 0;  ///< inputs that were filed under less, and not taken, never will be
   Time muted_until{};               ///< by an operator; also when its player comes back
@@ -78,7 +81,7 @@ struct Seat {
 
 class Seats {
  public:
-  /// Unclaimed seats; each has a louse.
+  /// Unclaimed seats and vacant ones; each has a louse.
   explicit Seats(std::vector<Seat> unclaimed);
 
   /// REQUIRES that its occupant (or its louse, where it is nobody's) has no seat yet. The seat stays where it
@@ -87,7 +90,7 @@ class Seats {
   /// The first unclaimed seat of that name, which is gone from here; nothing where there is none.
   std::optional<Seat> take_over(std::string_view name);
   /// The seat, of a session or vacant, of that token, which is gone from here; nothing where there is none.
-  std::optional<Seat> take_back(const ResumeToken& token);
+  std::optional<Seat> take_back(const TokenDigest& token);
   /// The vacant seat of a louse that nobody comes back to, which is gone from here. REQUIRES that there is
   /// one.
   Seat take_vacant(match::PlayerId louse);
@@ -95,7 +98,8 @@ class Seats {
   Seat take_away(const Seat& seat);
   /// Nobody comes back to it any more.
   void forget_token(Seat& seat) {
-    if (seat.token) tokens_.erase(*std::exchange(seat.token, std::nullopt));
+    if (seat.claim) tokens_.erase(*std::exchange(seat.claim, std::nullopt));
+    seat.token.reset();
   }
   /// The session's seat, which is gone from here; nothing where it has none.
   std::optional<Seat> take_away(SessionId session);
@@ -161,7 +165,7 @@ class Seats {
 
   std::map<Place, Seat> seats_;
   std::multiset<std::string, std::less<>> names_;
-  std::map<ResumeToken, Place> tokens_;
+  std::map<TokenDigest, Place> tokens_;
   std::size_t sessions_ = 0;
   std::size_t vacant_ = 0;
   std::map<AddressId, std::size_t> players_of_;  ///< sessions of players, by their address

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "server/access/claim.h"
 #include "server/frames/line.h"
 #include "server/stream/recorded_step.h"
 #include "server/timing/figures.h"
@@ -16,9 +17,9 @@
 
 namespace woodlouse::server {
 
-/// The room's strand calls it, in this order: attach(), begin(), then chat(), step() and rest() as they
-/// happen, fall_asleep() and wake() around a time in which no tick passes, finish(). Every call returns at
-/// once.
+/// The room's strand calls it, in this order: attach(), begin(), then claimed(), chat(), step() and rest() as
+/// they happen, fall_asleep() and wake() around a time in which no tick passes, finish(). Every call returns
+/// at once.
 class TickWatcher {
  public:
   /// Tells every session of the room, those that join later too; any thread.
@@ -38,6 +39,9 @@ class TickWatcher {
   virtual void begin(const match::Match& game) = 0;
   virtual void chat(std::uint64_t /*tick*/, match::PlayerId /*player*/, const std::string& /*name*/,
                     const std::string& /*text*/) {}
+  /// Somebody may come back to his louse by a token: who could already follows begin(), others as they come.
+  /// The louse joins with the next step at the latest; what it leads to ends when the louse leaves.
+  virtual void claimed(const Claim& /*claim*/) {}
   /// After the step. `game`: as the step left it, nothing queued since.
   virtual void step(const LiveStep& /*step*/, const match::Match& /*game*/) {}
   /// After everything else of the tick is done: who is in the room was answered and shown it.

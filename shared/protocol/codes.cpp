@@ -79,6 +79,11 @@ constexpr std::array kCodes = {
     CodeEntry{code::kRecordingEnded, "notice", Ends::kNo,
               "the game goes on, but is no longer recorded: the disk is full or too slow, or its share is "
               "used up. Whoever joins later hears it behind the welcome"},
+    CodeEntry{
+        code::kNotDurable, "notice", Ends::kNo,
+        "nothing that is played reaches the cluster's log: it would be lost with this server, and the game "
+        "goes on. Whoever joins later hears it behind the welcome"},
+    CodeEntry{code::kDurable, "notice", Ends::kNo, "what is played is in the cluster's log again"},
 };
 
 }  // namespace

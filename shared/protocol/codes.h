@@ -60,6 +60,8 @@ inline constexpr std::string_view kResumed = "resumed";
 inline constexpr std::string_view kOperator = "operator";
 inline constexpr std::string_view kModerated = "moderated";
 inline constexpr std::string_view kRecordingEnded = "recording_ended";
+inline constexpr std::string_view kNotDurable = "not_durable";
+inline constexpr std::string_view kDurable = "durable";
 }  // namespace code
 
 /// Whether the connection ends with it. kRepeated: when three lines running were not JSON.

@@ -1,4 +1,4 @@
-#include "server/quantities.h"
+#include "server/option_checks.h"
 
 #include <string>
 

@@ -1,0 +1,12 @@
+// In a build without NATS.
+#include "server/cluster/cluster.h"
+
+namespace woodlouse::server {
+
+core::Expected<std::unique_ptr<Cluster>> Cluster::open(ClusterSettings, Hooks,
+                                                       std::shared_ptr<spdlog::logger>) {
+  return core::fail("--cluster", "this server was built without NATS",
+                    "install libnats-dev and build it again with -DWOODLOUSE_CLUSTER=ON");
+}
+
+}  // namespace woodlouse::server

@@ -1,0 +1,172 @@
+#include "server/cluster/host_table.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "shared/core/joined.h"
+#include "shared/core/stable_hash.h"
+#include "shared/json/document.h"
+#include "shared/json/fields.h"
+#include "shared/json/object_text.h"
+
+namespace woodlouse::server {
+namespace {
+
+constexpr json::Limits kBeatLimits{4, 32 + 8 * kMostRoomsOfShard};
+constexpr std::size_t kMostBeatBytes = 16384;
+constexpr std::size_t kMostAddressBytes = 261;
+
+protocol::RoomEntry read_room(const json::Value& value, json::Problems& problems) {
+  protocol::RoomEntry room;
+  if (!value.is(json::Kind::kObject)) {
+    problems.add(value, "is to be an object");
+    return room;
+  }
+  const json::Fields fields(value, {"name", "map", "players", "bots", "spectators"}, problems);
+  room.name = fields.text("name", kMostRoomBytes);
+  room.map = fields.text("map", kMostRoomBytes);
+  room.players = static_cast<std::uint32_t>(fields.integer("players", 0, UINT32_MAX));
+  room.bots = static_cast<std::uint32_t>(fields.integer("bots", 0, UINT32_MAX));
+  room.spectators = static_cast<std::uint32_t>(fields.integer("spectators", 0, UINT32_MAX));
+  return room;
+}
+
+bool flag_of(const json::Fields& fields, std::string_view key, json::Problems& problems) {
+  const auto value = fields.demand(key);
+  if (value && !value->is(json::Kind::kBoolean)) problems.add(*value, "is to be true or false");
+  return value && value->is(json::Kind::kBoolean) && value->boolean();
+}
+
+}  // namespace
+
+std::string to_text(const Beat& beat) {
+  std::string text;
+  json::ObjectText line(text);
+  line.text("host", beat.host)
+      .text("address", beat.address)
+      .text("shard", beat.shard)
+      .boolean("owns", beat.owns)
+      .boolean("leaves", beat.leaves)
+      .text("writer", beat.writer.host)
+      .integer("epoch", beat.writer.epoch)
+      .hash("nonce", beat.writer.nonce[0])
+      .hash("nonce2", beat.writer.nonce[1])
+      .integer("sequence", beat.sequence)
+      .integer("silent_ms", beat.silent_ms)
+      .objects("rooms", beat.rooms, [](json::ObjectText& object, const protocol::RoomEntry& room) {
+        object.text("name", room.name)
+            .text("map", room.map)
+            .integer("players", room.players)
+            .integer("bots", room.bots)
+            .integer("spectators", room.spectators);
+      });
+  line.end();
+  return text;
+}
+
+core::Expected<Beat> beat_from(std::string_view text) {
+  if (text.size() > kMostBeatBytes) return core::fail("a beat", "is longer than one may be");
+  const auto document = json::parse_file(text, "a beat", kBeatLimits, 1);
+  if (!document) return tl::unexpected(document.error());
+  json::Problems problems("a beat");
+  if (!document->root().is(json::Kind::kObject)) return core::fail("a beat", "is no object");
+  const json::Fields fields(document->root(),
+                            {"host", "address", "shard", "owns", "leaves", "writer", "epoch", "nonce",
+                             "nonce2", "sequence", "silent_ms", "rooms"},
+                            problems);
+  Beat beat;
+  beat.host = fields.text("host", kMostHostBytes);
+  beat.address = fields.text("address", kMostAddressBytes);
+  beat.shard = fields.text("shard", kMostHostBytes);
+  beat.owns = flag_of(fields, "owns", problems);
+  beat.leaves = flag_of(fields, "leaves", problems);
+  beat.writer.host = fields.text("writer", kMostHostBytes);
+  beat.writer.epoch = fields.integer("epoch", 0, UINT64_MAX);
+  beat.writer.nonce = {fields.hash("nonce"), fields.hash("nonce2")};
+  beat.sequence = fields.integer("sequence", 0, UINT64_MAX);
+  beat.silent_ms = fields.integer("silent_ms", 0, UINT64_MAX);
+  const auto rooms = fields.demand("rooms");
+  if (rooms && (!rooms->is(json::Kind::kArray) || rooms->size() > kMostRoomsOfShard))
+    problems.add(*rooms, "is to be a list of at most 16 rooms");
+  else if (rooms)
+    rooms->for_each([&](const json::Value& value) {
+      beat.rooms.push_back(read_room(value, problems));
+      return true;
+    });
+  if (problems.count() != 0) return tl::unexpected(problems.errors().front());
+  return beat;
+}
+
+void HostTable::take(Beat beat, Time now) {
+  const std::lock_guard lock(mutex_);
+  forget(now);
+  if (beat.host == own_ || beat.shard != shard_) return;
+  if (hosts_.size() >= kMostHosts && !hosts_.contains(beat.host)) return;
+  const std::string host = beat.host;
+  hosts_.insert_or_assign(host, Known{std::move(beat), now});
+}
+
+void HostTable::forget(Time now) {
+  std::erase_if(hosts_, [now](const auto& entry) { return now - entry.second.at > kForgottenAfter; });
+}
+
+Time HostTable::heard(const Writer& writer) const {
+  const std::lock_guard lock(mutex_);
+  const auto known = hosts_.find(writer.host);
+  if (known == hosts_.end() || !known->second.beat.owns || known->second.beat.writer != writer) return Time{};
+  return known->second.at;
+}
+
+bool HostTable::leaves(const Writer& writer) const {
+  const std::lock_guard lock(mutex_);
+  const auto known = hosts_.find(writer.host);
+  return known != hosts_.end() && known->second.beat.writer == writer && known->second.beat.leaves;
+}
+
+bool HostTable::may_take_over(Duration silence, Time now) const {
+  const std::lock_guard lock(mutex_);
+  return std::none_of(hosts_.begin(), hosts_.end(), [&](const auto& entry) {
+    const Known& known = entry.second;
+    if (known.beat.owns || now - known.at > silence) return false;
+    const Duration silent = std::chrono::milliseconds(known.beat.silent_ms) + (now - known.at);
+    return silent < silence / 2 || entry.first < own_;
+  });
+}
+
+std::optional<Beat> HostTable::owner(Time now) const {
+  const std::lock_guard lock(mutex_);
+  std::optional<Beat> found;
+  for (const auto& [host, known] : hosts_) {
+    if (!known.beat.owns || known.beat.leaves || now - known.at > std::chrono::seconds(1)) continue;
+    if (!found || known.beat.writer.epoch > found->writer.epoch) found = known.beat;
+  }
+  return found;
+}
+
+std::optional<std::string> HostTable::successor(Time now) const {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [host, known] : hosts_)
+    if (!known.beat.owns && !known.beat.leaves && now - known.at < std::chrono::seconds(1))
+      return known.beat.address;
+  return std::nullopt;
+}
+
+std::vector<std::string> HostTable::addresses(Time now, std::size_t most) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> found;
+  for (const auto& [host, known] : hosts_)
+    if (now - known.at <= kForgottenAfter && !known.beat.address.empty() && found.size() < most)
+      found.push_back(known.beat.address);
+  return found;
+}
+
+std::vector<Beat> HostTable::hosts(Time now) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Beat> found;
+  for (const auto& [host, known] : hosts_)
+    if (now - known.at <= kForgottenAfter) found.push_back(known.beat);
+  return found;
+}
+
+}  // namespace woodlouse::server

@@ -1,0 +1,76 @@
+// What the hosts of a cluster say of themselves, many times a second: who owns the shard, where its clients
+// are to go, whether he goes. Nothing here decides who may write the log: that the log does; a beat only
+// spares the waiting. Pure: times are arguments. Any thread, under its lock.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/cluster/batch.h"
+#include "server/timing/clock.h"
+#include "shared/core/error.h"
+#include "shared/protocol/messages.h"
+
+namespace woodlouse::server {
+
+struct Beat {
+  std::string host;
+  std::string address;  ///< for clients
+  std::string shard;
+  bool owns = false;
+  bool leaves = false;                     ///< it goes, and hands its rooms over
+  Writer writer;                           ///< where it owns: as whom; else the one it follows
+  std::uint64_t sequence = 0;              ///< of the log: acknowledged to an owner, read by a follower
+  std::uint64_t silent_ms = 0;             ///< of a follower: for how long it has heard nothing of the owner
+  std::vector<protocol::RoomEntry> rooms;  ///< an owner's
+  friend bool operator==(const Beat&, const Beat&) = default;
+};
+
+std::string to_text(const Beat& beat);
+/// Errors: it is none; what NATS brings came from outside.
+core::Expected<Beat> beat_from(std::string_view text);
+
+class HostTable {
+ public:
+  /// Of which nothing is known that is older.
+  static constexpr Duration kForgottenAfter = std::chrono::seconds(5);
+  static constexpr std::size_t kMostHosts = 256;
+
+  HostTable(std::string own_host, std::string shard) : own_(std::move(own_host)), shard_(std::move(shard)) {}
+
+  /// Another host's; others' shards are passed over.
+  void take(Beat beat, Time now);
+
+  /// When that writer was heard last.
+  [[nodiscard]] Time heard(const Writer& writer) const;
+  /// Whether it has said that it goes.
+  [[nodiscard]] bool leaves(const Writer& writer) const;
+  /// No other follower has heard of the owner within `silence`, nor is there one that takes over before this
+  /// host: whose name comes first.
+  [[nodiscard]] bool may_take_over(Duration silence, Time now) const;
+  /// Where the owner's clients go; nothing: no owner is heard, or it goes.
+  [[nodiscard]] std::optional<Beat> owner(Time now) const;
+  /// Of a host, not this one, that follows and has all.
+  [[nodiscard]] std::optional<std::string> successor(Time now) const;
+  /// Addresses of the others, at most `most`.
+  [[nodiscard]] std::vector<std::string> addresses(Time now, std::size_t most) const;
+  [[nodiscard]] std::vector<Beat> hosts(Time now) const;
+
+ private:
+  struct Known {
+    Beat beat;
+    Time at{};
+  };
+  void forget(Time now);
+
+  const std::string own_, shard_;
+  mutable std::mutex mutex_;
+  std::map<std::string, Known, std::less<>> hosts_;
+};
+
+}  // namespace woodlouse::server

@@ -1,0 +1,76 @@
+// What comes to a node's thread, from rooms and from NATS, in its order; what rooms tell is bounded.
+#pragma once
+
+#include <cassert>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "server/cluster/log_tap.h"
+#include "server/timing/clock.h"
+
+namespace woodlouse::server {
+
+struct LogMessage {
+  std::uint64_t sequence = 0;
+  std::string bytes;
+};
+struct Acknowledged {
+  std::uint64_t sequence = 0;
+};
+struct Refused {
+  std::string why;
+};
+using NodeEvent = std::variant<LogDesk::Job, LogMessage, Acknowledged, Refused>;
+
+/// Any thread.
+class Inbox final : public LogDesk {
+ public:
+  /// Of what rooms tell: 20 s of 16 rooms at 60 Hz.
+  static constexpr std::size_t kMostJobs = 16 * 1200;
+
+  [[nodiscard]] bool post(Job job) override {
+    const std::lock_guard lock(mutex_);
+    if (jobs_ >= kMostJobs) return false;
+    ++jobs_;
+    events_.emplace_back(std::move(job));
+    // A tick needn't wake anybody: its line waits for the batch.
+    return true;
+  }
+  void put(NodeEvent event) {
+    assert(!std::holds_alternative<LogDesk::Job>(event));
+    const std::lock_guard lock(mutex_);
+    events_.push_back(std::move(event));
+    changed_.notify_one();
+  }
+  void stop() {
+    const std::lock_guard lock(mutex_);
+    is_stopping_ = true;
+    changed_.notify_one();
+  }
+  [[nodiscard]] bool is_stopping() const {
+    const std::lock_guard lock(mutex_);
+    return is_stopping_;
+  }
+  /// Waits for something of NATS, or until then; all that has come.
+  [[nodiscard]] std::deque<NodeEvent> take(Time until) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_until(lock, until, [this] { return is_stopping_ || events_.size() > jobs_; });
+    jobs_ = 0;
+    return std::exchange(events_, {});
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<NodeEvent> events_;
+  std::size_t jobs_ = 0;
+  bool is_stopping_ = false;
+};
+
+}  // namespace woodlouse::server

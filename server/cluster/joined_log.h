@@ -1,0 +1,50 @@
+// A room's recordings, joined from a shard's log: one file as long as each step follows the one before,
+// whoever's host it was played on; another where the room's game ends, or the log has a hole. Writes them
+// into a folder, or only names the holes.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <string_view>
+
+#include "server/cluster/batch.h"
+#include "shared/core/error.h"
+
+namespace woodlouse::server {
+
+class JoinedLog {
+ public:
+  /// folder: empty: nothing is written. out: where holes are named.
+  JoinedLog(std::filesystem::path folder, std::ostream& out) : folder_(std::move(folder)), out_(out) {}
+
+  /// The stream's next batch, whose lines have been read by a ShardView before.
+  core::Expected<void> take(std::uint64_t sequence, const Batch& batch);
+  /// All is on its way to the disk. Error: something couldn't be written.
+  core::Expected<void> close();
+  [[nodiscard]] std::size_t holes() const { return holes_; }
+
+ private:
+  struct Room {
+    std::string header;
+    std::optional<std::uint64_t> due;  ///< the step that is to come; none: no keyframe yet
+    bool has_keyframe = false;         ///< of that tick
+    std::uint64_t files = 0;
+    std::filesystem::path path;
+    std::ofstream file;
+  };
+  core::Expected<void> record(const std::string& name, Room& room, std::string_view line);
+  core::Expected<void> begin_file(const std::string& name, Room& room);
+  void put(Room& room, std::string_view line);
+
+  const std::filesystem::path folder_;
+  std::ostream& out_;
+  std::map<std::string, Room, std::less<>> rooms_;
+  std::size_t holes_ = 0;
+};
+
+}  // namespace woodlouse::server

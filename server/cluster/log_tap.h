@@ -1,0 +1,58 @@
+// What a room's game tells the log: values are copied on the room's strand, lines are made of them on the
+// log's own thread. Where that can't keep up, lines are left out, and the game is told anew from its next
+// keyframe on.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "server/cluster/shard_text.h"
+#include "server/room/tick_watcher.h"
+#include "shared/match/match.h"
+#include "shared/replay/format.h"
+
+namespace woodlouse::server {
+
+/// Where taps hand over what their rooms tell. Any thread; returns at once.
+class LogDesk {
+ public:
+  using Job = std::function<void(ShardText& text, Time now)>;
+
+  LogDesk() = default;
+  LogDesk(const LogDesk&) = delete;
+  LogDesk& operator=(const LogDesk&) = delete;
+  virtual ~LogDesk() = default;
+  /// False, and nothing done: too much waits.
+  [[nodiscard]] virtual bool post(Job job) = 0;
+};
+
+class LogTap final : public TickWatcher {
+ public:
+  LogTap(std::shared_ptr<LogDesk> desk, std::string room, replay::Header header);
+
+  void attach(Announce announce) override { announce_ = std::move(announce); }
+  void begin(const match::Match& game) override;
+  void claimed(const Claim& claim) override;
+  void chat(std::uint64_t tick, match::PlayerId player, const std::string& name,
+            const std::string& text) override;
+  void step(const LiveStep& step, const match::Match& game) override;
+  void fall_asleep(const match::Match& game) override;
+  void finish(const std::string& reason, std::function<void()> done) override;
+
+ private:
+  [[nodiscard]] bool post(LogDesk::Job job);
+  void tell_begin(const match::Match& game);
+
+  const std::shared_ptr<LogDesk> desk_;
+  const TapNumber number_;
+  const std::string room_;
+  const replay::Header header_;
+  const std::uint64_t keyframe_ticks_;
+  Announce announce_;
+  bool has_begun_ = false;  ///< the log knows of the game
+  bool has_lost_ = false;   ///< something since the last keyframe that was taken
+};
+
+}  // namespace woodlouse::server

@@ -1,0 +1,108 @@
+#include "server/cluster/node.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+namespace woodlouse::server {
+Node::Node(ClusterSettings settings, Hooks hooks, std::shared_ptr<spdlog::logger> log)
+    : settings_(std::move(settings)),
+      hooks_(std::move(hooks)),
+      log_(std::move(log)),
+      table_(settings_.host, settings_.shard) {
+  assert(!settings_.host.empty() && hooks_.take_over && hooks_.step_down && hooks_.census);
+  beat_.host = settings_.host;
+  beat_.address = settings_.address;
+  beat_.shard = settings_.shard;
+}
+
+core::Expected<void> Node::connect() {
+  auto writing =
+      NatsLink::open(settings_, "log",
+                     {[inbox = inbox_](std::uint64_t sequence) { inbox->put(Acknowledged{sequence}); },
+                      [inbox = inbox_](std::string why) { inbox->put(Refused{std::move(why)}); },
+                      {}});
+  if (!writing) return tl::unexpected(writing.error());
+  auto beats = NatsLink::open(settings_, "beats", {});
+  if (!beats) return tl::unexpected(beats.error());
+  log_link_ = std::move(*writing);
+  beat_link_ = std::move(*beats);
+  if (const auto state = log_link_->stream_state(); !state)
+    return core::fail(state.error().where, "has no such stream: " + state.error().what,
+                      "make it, once:  woodlouse-server cluster init --cluster FILE");
+  return beat_link_->subscribe(settings_.beat_subject("*"),
+                               [this](const auto&, const std::string& bytes, auto) {
+                                 if (auto beat = beat_from(bytes))
+                                   table_.take(std::move(*beat), Clock::now());
+                               });
+}
+
+void Node::start() {
+  assert(log_link_ && beat_link_);
+  running_ = std::jthread([this] { run(); });
+  beating_ = std::jthread([this](const std::stop_token& stop) { beat(stop); });
+}
+
+void Node::leave() {
+  inbox_->stop();
+  if (running_.joinable()) running_.join();
+  beating_.request_stop();
+  if (beating_.joinable()) beating_.join();
+  log_link_.reset();
+  beat_link_.reset();
+}
+
+std::unique_ptr<TickWatcher> Node::watch(const std::string& room, replay::Header header) {
+  return std::make_unique<LogTap>(inbox_, room, std::move(header));
+}
+
+std::optional<std::string> Node::elsewhere(std::string_view room) const {
+  const auto owner = table_.owner(Clock::now());
+  if (!owner) return std::nullopt;
+  const bool is_there = std::any_of(owner->rooms.begin(), owner->rooms.end(),
+                                    [room](const protocol::RoomEntry& entry) { return entry.name == room; });
+  return is_there || (room.empty() && !owner->rooms.empty()) ? std::optional(owner->address) : std::nullopt;
+}
+
+bool Node::is_on_its_way(std::string_view room) const {
+  const std::lock_guard lock(mutex_);
+  return std::find(known_rooms_.begin(), known_rooms_.end(), room) != known_rooms_.end() ||
+         (room.empty() && !known_rooms_.empty());
+}
+
+std::vector<std::string> Node::hosts() const {
+  constexpr std::size_t kMost = 16;
+  return table_.addresses(Clock::now(), kMost);
+}
+
+void Node::run() {
+  while (!inbox_->is_stopping()) {
+    if (!follow()) return;
+    own();
+  }
+}
+
+// ---- signs of life -------------------------------------------------------------------------------------
+
+void Node::beat(const std::stop_token& stop) {
+  const auto tell = [this] {
+    Beat beat;
+    {
+      const std::lock_guard lock(mutex_);
+      beat = beat_;
+    }
+    if (beat.owns) beat.rooms = hooks_.census();
+    if (beat.rooms.size() > kMostRoomsOfShard) beat.rooms.resize(kMostRoomsOfShard);
+    // What is lost of it is told again.
+    static_cast<void>(beat_link_->publish(settings_.beat_subject(settings_.host), to_text(beat)));
+  };
+  Time next = Clock::now();
+  while (!stop.stop_requested()) {
+    tell();
+    next = std::max(next + kBeatEvery, Clock::now());
+    std::this_thread::sleep_until(next);
+  }
+  tell();
+}
+
+}  // namespace woodlouse::server

@@ -1,0 +1,117 @@
+// A host of a cluster: one thread that follows the shard's log and stands by, or owns it and writes. A second
+// one tells the others that it lives and hears them, by a connection of its own: a log that does not answer
+// must not make its owner look dead.
+//
+//   following --the owner is silent, or goes; the log takes this host's first batch--> owning
+//       ^---------------another host's batch stands in the log-------------------------'
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "server/cluster/cluster.h"
+#include "server/cluster/host_table.h"
+#include "server/cluster/inbox.h"
+#include "server/cluster/log_writer.h"
+#include "server/cluster/nats_link.h"
+#include "server/cluster/shard_text.h"
+#include "server/cluster/shard_view.h"
+#include "server/logging/events.h"
+
+namespace woodlouse::server {
+
+class Node final : public Cluster {
+ public:
+  static constexpr Duration kBeatEvery = std::chrono::milliseconds(50);
+  /// Between two looks at what has come.
+  static constexpr Duration kLook = std::chrono::milliseconds(5);
+  /// Text of a batch that waits for no time; a message of NATS is at most 1 MB, packed.
+  static constexpr std::size_t kCutBytes = 512u << 10;
+  /// Batches that are not acknowledged; then the log begins anew once it takes some.
+  static constexpr std::size_t kMostWaiting = 600;
+  /// Without an acknowledgement; then the rooms are told.
+  static constexpr Duration kNotDurableAfter = std::chrono::seconds(10);
+  static constexpr Duration kLeaveWithin = std::chrono::milliseconds(500);
+
+  Node(ClusterSettings settings, Hooks hooks, std::shared_ptr<spdlog::logger> log);
+  ~Node() override { leave(); }
+
+  core::Expected<void> connect();
+
+  void start() override;
+  void leave() override;
+  [[nodiscard]] std::unique_ptr<TickWatcher> watch(const std::string& room, replay::Header header) override;
+  [[nodiscard]] std::optional<std::string> elsewhere(std::string_view room) const override;
+  [[nodiscard]] bool is_on_its_way(std::string_view room) const override;
+  [[nodiscard]] std::vector<std::string> hosts() const override;
+  void begin_leaving() override { is_leaving_ = true; }
+  [[nodiscard]] std::optional<std::string> successor() const override {
+    return table_.successor(Clock::now());
+  }
+
+ private:
+  // The node's thread:
+  void run();
+  bool follow();
+  [[nodiscard]] bool begin_following();
+  [[nodiscard]] core::Expected<void> read_beginning(const NatsLink::Message& last);
+  [[nodiscard]] bool take_message(const LogMessage& message);
+  void tell_following(Time now);
+  [[nodiscard]] bool is_owner_gone(Time now) const;
+  [[nodiscard]] Duration silence(Time now) const;
+  [[nodiscard]] bool take_over();
+  [[nodiscard]] bool catch_up();
+  [[nodiscard]] bool take_log();
+  [[nodiscard]] std::vector<RoomToGoOn> rooms_to_go_on() const;
+  void own();
+  void tell_owning();
+  void hear(std::deque<NodeEvent> events);
+  void cut(Time now);
+  void write(Time now);
+  [[nodiscard]] bool begin_log_anew();
+  void watch_durability(Time now);
+  void step_down();
+  void hand_over();
+  [[nodiscard]] std::optional<LastBatch> read_last();
+  bool complain(const core::Error& error);
+
+  // The beating thread:
+  void beat(const std::stop_token& stop);
+
+  void say(LogEvent event, const std::string& text) const { log_event(*log_, event, "cluster: " + text); }
+
+  const ClusterSettings settings_;
+  const Hooks hooks_;
+  const std::shared_ptr<spdlog::logger> log_;
+  const std::shared_ptr<Inbox> inbox_ = std::make_shared<Inbox>();
+  HostTable table_;
+  std::unique_ptr<NatsLink> log_link_, beat_link_;
+
+  // The node's thread's:
+  std::optional<ShardView> view_;
+  std::uint64_t after_ = 0;  ///< the stream's last sequence number, where it holds nothing to read
+  Time heard_{};             ///< the owner, by its batches
+  std::optional<LogWriter> writer_;
+  Writer former_;  ///< this host's epoch before, where its log had to begin anew
+  std::optional<ShardText> text_;
+  Time cut_at_{};
+  bool is_told_not_durable_ = false;
+  bool is_difference_told_ = false;
+  std::string last_fault_;  ///< told already
+
+  std::atomic<bool> is_leaving_{false};
+  mutable std::mutex mutex_;  ///< of what follows
+  Beat beat_;
+  std::vector<std::string> known_rooms_;  ///< of the shard, as the log has them
+
+  std::jthread beating_, running_;
+};
+
+}  // namespace woodlouse::server

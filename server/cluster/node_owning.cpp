@@ -1,0 +1,162 @@
+#include "server/cluster/node.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+#include <variant>
+
+#include "server/access/resume_token.h"
+#include "shared/core/joined.h"
+#include "shared/protocol/codes.h"
+
+namespace woodlouse::server {
+
+using core::joined;
+
+void Node::own() {
+  assert(writer_ && text_);
+  while (!inbox_->is_stopping()) {
+    hear(inbox_->take(Clock::now() + kLook));
+    const Time now = Clock::now();
+    text_->renew(now);
+    if (now >= cut_at_ || text_->size() >= kCutBytes) cut(now);
+    write(now);
+    // Its own former epoch is no other host's: what said that it was gone was an old read.
+    const bool is_gone =
+        writer_->state() == LogWriter::State::kGone || (!writer_->is_open() && writer_->other() == former_);
+    if (is_gone ? !begin_log_anew() : !writer_->is_open()) return step_down();
+    if (!writer_->is_open()) continue;
+    tell_owning();
+    watch_durability(now);
+  }
+  hand_over();
+}
+
+void Node::tell_owning() {
+  const std::lock_guard lock(mutex_);
+  known_rooms_.clear();
+  for (const RoomPlace& place : text_->places()) known_rooms_.push_back(place.room);
+  beat_.owns = true;
+  beat_.writer = writer_->writer();
+  beat_.sequence = writer_->next_sequence() - 1 - writer_->waiting();
+  beat_.silent_ms = 0;
+}
+
+void Node::hear(std::deque<NodeEvent> events) {
+  const Time now = Clock::now();
+  if (is_leaving_) text_->keep_rooms();
+  for (NodeEvent& event : events) {
+    if (const auto* job = std::get_if<LogDesk::Job>(&event)) (*job)(*text_, now);
+    if (const auto* stored = std::get_if<Acknowledged>(&event)) writer_->acknowledged(stored->sequence, now);
+    if (std::holds_alternative<Refused>(event)) writer_->failed();
+  }
+}
+
+/// What there is to tell; the first batch of an epoch tells nothing, and an idle log is kept alive.
+void Node::cut(Time now) {
+  constexpr std::size_t kMostPacked = 1'000'000;
+  text_->flush();
+  const bool is_first = writer_->next_number() == 0;
+  const bool is_late = now - cut_at_ > settings_.keep / 3;
+  if (text_->size() == 0 && !is_first && !is_late) return;
+  const auto lose = [this](const std::string& why) {
+    text_->lose();
+    say(LogEvent::kClusterHole,
+        joined({"LOG HAS A HOLE: ", why, "; its rooms are told again from their next keyframes on"}));
+  };
+  if (writer_->waiting() >= kMostWaiting) {
+    if (text_->size() < kCutBytes) return;  // some may be taken yet
+    return lose("nothing is stored");
+  }
+  const std::string lines = text_->cut(writer_->next_sequence());
+  std::string packed =
+      pack({writer_->writer(), writer_->next_number(), match::kBehavior, text_->places()}, lines);
+  cut_at_ = now + settings_.batch;
+  if (packed.size() > kMostPacked) return lose("a batch is longer than a message may be");
+  writer_->add(std::move(packed));
+}
+
+void Node::write(Time now) {
+  if (writer_->is_to_ask(now)) {
+    const auto last = read_last();
+    writer_->read(last, Clock::now());
+  }
+  while (const auto publish = writer_->next(now)) {
+    const auto sent = log_link_->append(*publish->bytes, publish->after);
+    if (sent) continue;
+    complain(sent.error());
+    return writer_->failed();
+  }
+}
+
+std::optional<LastBatch> Node::read_last() {
+  const auto last = log_link_->last();
+  if (!last) return complain(last.error()), std::nullopt;
+  const auto batch = unpack(last->bytes, joined({"batch ", std::to_string(last->sequence)}));
+  if (!batch) return complain(batch.error()), std::nullopt;
+  return LastBatch{last->sequence, batch->head};
+}
+
+/// The stream has less than was stored, and more is missing than this host has kept: a new epoch goes on from
+/// what there is, and its rooms from their next keyframes. False: it is another host's.
+bool Node::begin_log_anew() {
+  const auto last = read_last();
+  if (!last) return true;  // and is read again
+  const Writer former = writer_->writer();
+  const bool is_own = last->head.writer == former || last->head.writer == former_;
+  if (last->head.writer.epoch >= former.epoch && !is_own) return false;
+  former_ = former;
+  say(LogEvent::kClusterHole,
+      joined({"LOG HAS A HOLE: its last batch is ", std::to_string(last->sequence), ", of ",
+              to_text(last->head.writer),
+              ", less than was stored; its rooms are told again from their next keyframes on"}));
+  writer_.emplace(
+      Writer{std::max(former.epoch, last->head.writer.epoch) + 1, settings_.host, make_resume_token()},
+      last->sequence);
+  text_->lose();
+  text_->forget_places();
+  cut(Clock::now());
+  return true;
+}
+
+void Node::watch_durability(Time now) {
+  const bool is_late = writer_->silence(now) > kNotDurableAfter;
+  if (is_late == is_told_not_durable_) return;
+  is_told_not_durable_ = is_late;
+  say(is_late ? LogEvent::kClusterNotDurable : LogEvent::kClusterDurable,
+      is_late ? "NOT DURABLE: nothing has been stored for 10 s; the rooms go on"
+              : "what is played is stored again");
+  text_->announce(
+      {std::string(is_late ? protocol::code::kNotDurable : protocol::code::kDurable),
+       is_late ? "what is played now would be lost with this server" : "what is played is safe again"});
+}
+
+void Node::step_down() {
+  const auto owner = table_.owner(Clock::now());
+  say(LogEvent::kClusterFenced,
+      joined({"FENCED: the log is that of ", to_text(writer_->other()),
+              owner ? " at " + owner->address : std::string(), "; the rooms end here"}));
+  {
+    const std::lock_guard lock(mutex_);
+    beat_.owns = false;
+  }
+  hooks_.step_down(owner ? owner->address : std::string());
+  writer_.reset();
+}
+
+void Node::hand_over() {
+  const Time until = Clock::now() + kLeaveWithin;
+  hear(inbox_->take(Clock::now()));
+  cut(Clock::now());
+  while (writer_->is_open() && writer_->waiting() > 0 && Clock::now() < until) {
+    write(Clock::now());
+    const Time next = Clock::now() + kLook;
+    hear(inbox_->take(next));
+    std::this_thread::sleep_until(next);  // the inbox of one that stops waits for nothing
+  }
+  tell_owning();
+  const std::lock_guard lock(mutex_);
+  beat_.leaves = true;
+}
+
+}  // namespace woodlouse::server

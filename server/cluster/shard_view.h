@@ -1,0 +1,78 @@
+// A shard as one who follows its log has it: each room's game re-run as its lines come, each tick proven, and
+// who may come back to which louse. From it the rooms go on when their host is gone. Pure. One thread.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/access/claim.h"
+#include "server/cluster/batch.h"
+#include "server/cluster/log_writer.h"
+#include "shared/core/error.h"
+#include "shared/follow/follower.h"
+#include "shared/replay/format.h"
+
+namespace woodlouse::server {
+
+class ShardView {
+ public:
+  struct Room {
+    std::string header;  ///< the line, without its newline
+    std::unique_ptr<follow::Follower> follower;
+    std::map<match::PlayerId, Claim> claims;
+  };
+  using Rooms = std::map<std::string, Room, std::less<>>;
+
+  /// Where one who knows nothing begins to read, by the last batch: every room's header and keyframe are in
+  /// what follows. `headers`: batches before it, of which a header is wanted first, by room.
+  struct Beginning {
+    std::uint64_t from = 0;
+    std::map<std::string, std::uint64_t, std::less<>> headers;
+  };
+  static Beginning beginning(const LastBatch& last);
+  /// The header of that room in a batch; nothing more of it is looked at.
+  core::Expected<void> take_header(std::string_view room, const Batch& batch, const std::string& place);
+
+  /// The stream's next batch. Errors: it can't follow what was read so far, or its lines are none of a log:
+  /// what is known is worth nothing any more.
+  core::Expected<void> take(std::uint64_t sequence, const Batch& batch);
+
+  /// Of the batch taken last; 0: none.
+  [[nodiscard]] std::uint64_t sequence() const { return sequence_; }
+  [[nodiscard]] const std::optional<BatchHead>& head() const { return head_; }
+  [[nodiscard]] const Rooms& rooms() const { return rooms_; }
+  /// Where a room's re-run was another one than its lines tell, the first time; empty: nowhere.
+  [[nodiscard]] const std::string& difference() const { return difference_; }
+  /// Ticks that were re-run and gave the hash of the log.
+  [[nodiscard]] std::uint64_t proven() const;
+
+ private:
+  [[nodiscard]] core::Expected<void> check_order(std::uint64_t sequence, const BatchHead& head) const;
+  core::Expected<void> take_line(const BatchLine& line);
+  void record(Room& room, std::string_view line);
+
+  Rooms rooms_;
+  std::optional<BatchHead> head_;
+  std::uint64_t sequence_ = 0;
+  std::string difference_;
+  std::string current_;  ///< the room whose lines follow; empty: none's so far
+};
+
+/// Calls visit(line) for each, without its newline, until it returns an error.
+template <typename Visit>
+core::Expected<void> for_each_line(std::string_view lines, const Visit& visit) {
+  while (!lines.empty()) {
+    const std::size_t end = lines.find('\n');
+    if (auto visited = visit(lines.substr(0, end)); !visited) return visited;
+    if (end == std::string_view::npos) break;
+    lines.remove_prefix(end + 1);
+  }
+  return {};
+}
+
+}  // namespace woodlouse::server

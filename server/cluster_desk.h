@@ -1,0 +1,77 @@
+// The server's part in a cluster: opens the rooms that are its own now, with what the log tells of them, and
+// closes those that are another host's.
+#pragma once
+
+#include <spdlog/logger.h>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/strand.hpp>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/cluster/cluster.h"
+#include "server/config.h"
+#include "server/room/lobby.h"
+#include "server/room/start.h"
+#include "server/timing/live_limits.h"
+#include "shared/core/error.h"
+#include "shared/protocol/messages.h"
+
+namespace woodlouse::server {
+
+/// The server's strand, where nothing else is said.
+class ClusterDesk {
+ public:
+  using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
+  struct Rooms {
+    std::function<core::Expected<void>()> open_all;  ///< those of the command line, anew
+    std::function<core::Expected<void>(const std::string& name, Start start)> open;
+    std::function<void(const std::string& name)> closed;
+    std::function<void(const std::string& why)> fail;  ///< ends the server
+  };
+
+  /// All outlive it.
+  ClusterDesk(Strand strand, Lobby& lobby, const LiveLimits& limits, Rooms rooms,
+              std::shared_ptr<spdlog::logger> log)
+      : strand_(std::move(strand)),
+        lobby_(lobby),
+        limits_(limits),
+        rooms_(std::move(rooms)),
+        log_(std::move(log)) {}
+
+  /// Before the threads run; waits for NATS. address: where this host's clients come, if the settings don't
+  /// say.
+  core::Expected<void> open(ClusterSettings settings, const std::string& address);
+  /// Rooms begin, here or elsewhere, from now on.
+  void start() { cluster_->start(); }
+  /// What is said to who is here when the server stops; rooms are not closed any more, but go on elsewhere.
+  protocol::Bye begin_leaving(const protocol::Bye& otherwise);
+  /// Any thread, when no room is here any more.
+  void leave() { cluster_->leave(); }
+  /// Where a room is that is not here; empty: it is about to go on; nothing: it is none of the cluster's. Any
+  /// thread.
+  [[nodiscard]] std::optional<std::string> elsewhere(std::string_view room) const {
+    if (auto address = cluster_->elsewhere(room)) return address;
+    return cluster_->is_on_its_way(room) ? std::optional<std::string>("") : std::nullopt;
+  }
+  /// Any thread.
+  [[nodiscard]] Cluster& cluster() { return *cluster_; }
+
+ private:
+  void take_over(std::vector<RoomToGoOn> rooms);
+  void step_down(const std::string& address);
+  [[nodiscard]] Start start_of(RoomToGoOn room) const;
+
+  Strand strand_;
+  Lobby& lobby_;
+  const LiveLimits& limits_;
+  const Rooms rooms_;
+  const std::shared_ptr<spdlog::logger> log_;
+  std::unique_ptr<Cluster> cluster_;
+};
+
+}  // namespace woodlouse::server

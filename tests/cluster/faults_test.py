@@ -1,0 +1,191 @@
+"""What becomes of a cluster's rooms when something of it fails, and what players see. Short here; longer by hand:
+
+Usage: faults_test.py [TestCase.test ...]      SECONDS_AWAY=300 faults_test.py Nats.test_away"""
+
+import asyncio
+import os
+import re
+import signal
+import sys
+import time
+import unittest
+
+import stage
+
+
+class Clients:
+    """Bots that run beside a test, on a thread of their own."""
+
+    def __init__(self, count, addresses):
+        import threading
+        self.bots = [stage.Bot(f"bot {k}", addresses) for k in range(count)]
+        self.notices = []
+        self.loop = asyncio.new_event_loop()
+        self.thread = threading.Thread(target=self.work)
+        self.thread.start()
+
+    def work(self):
+        asyncio.set_event_loop(self.loop)
+        self.loop.run_until_complete(asyncio.gather(*(bot.run() for bot in self.bots), return_exceptions=True))
+
+    def wait_for(self, condition, what, patience=stage.PATIENCE):
+        end = time.monotonic() + patience
+        while not all(condition(bot) for bot in self.bots):
+            assert time.monotonic() < end, what
+            time.sleep(0.02)
+
+    def wait_here(self):
+        self.wait_for(lambda bot: bot.welcomes and bot.newest and bot.newest[0] > bot.welcomes[-1][0], "no frames came")
+        time.sleep(0.5)  # what was played last is not in the log yet
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for bot in self.bots:
+            bot.stopped = True
+        self.thread.join(stage.PATIENCE)
+
+
+class Cluster(unittest.TestCase):
+    replicas = 1
+    settings = {"silence_ms": 300}
+
+    def setUp(self):
+        self.nats = self.enterContext(stage.Nats(self.replicas, **self.settings))
+
+    def host(self, name, *arguments, **options):
+        return self.enterContext(stage.Host(self.nats, name, *arguments, **options))
+
+    def two_hosts(self):
+        first = self.host("a")
+        first.wait_for("cluster_owns")
+        second = self.host("b")
+        second.wait_for("cluster_follows")
+        return first, second
+
+    def check_log(self, holes=0):
+        code, said, proofs = self.nats.joined()
+        self.assertEqual(code, 0 if holes == 0 else 1, said)
+        self.assertIn(f"{holes} holes", said)
+        self.assertTrue(proofs, said)
+        for name, (verified, text) in proofs.items():
+            self.assertEqual(verified, 0, f"{name}: {text}")
+        return said
+
+
+class Hosts(Cluster):
+    def test_a_host_that_stood_still_is_fenced_and_its_players_are_sent_on(self):
+        first, second = self.two_hosts()
+        with Clients(8, [first.address]) as clients:
+            clients.wait_here()
+            louse = {bot.name: bot.welcomes[-1][1]["id"] for bot in clients.bots}
+            first.signal(signal.SIGSTOP)
+            second.wait_for("cluster_owns")
+            time.sleep(float(os.environ.get("SECONDS_STOPPED", "2")))
+            for bot in clients.bots:
+                bot.addresses = [second.address]
+            first.signal(signal.SIGCONT)
+            first.wait_for("FENCED")
+            clients.wait_for(lambda bot: len(bot.welcomes) == 2, "not all came back: " + first.log() + second.log())
+            for bot in clients.bots:
+                self.assertEqual([bye["code"] for bye in bot.byes], ["moved"])
+                self.assertEqual(bot.byes[0]["address"], second.address)
+                self.assertTrue(bot.welcomes[-1][1]["resumed"])
+                self.assertEqual(bot.welcomes[-1][1]["id"], louse[bot.name])
+        first.wait_for("cluster_follows")  # and stands by again
+        said = self.check_log()
+        self.assertIn("epoch 2 of b", said)
+
+    def test_two_hosts_begin_at_once_and_one_owns(self):
+        hosts = [self.host(name) for name in "abc"]
+        end = time.monotonic() + stage.PATIENCE
+        while sum("cluster_owns" in host.log() for host in hosts) != 1 or not all(
+                "cluster_owns" in host.log() or "cluster_follows" in host.log() for host in hosts):
+            self.assertLess(time.monotonic(), end, [host.log() for host in hosts])
+            time.sleep(0.05)
+        time.sleep(1)
+        self.assertEqual(sum("cluster_owns" in host.log() for host in hosts), 1)
+
+    def test_all_hosts_gone_and_back_go_on_with_the_last_tick(self):
+        first = self.host("a")
+        first.wait_for("cluster_owns")
+        with Clients(3, [first.address]) as clients:
+            clients.wait_here()
+            time.sleep(6)  # past a keyframe
+            first.signal(signal.SIGKILL)
+            first.process.wait()
+            second = self.host("b")
+            second.wait_for("goes on from the log of main")
+            for bot in clients.bots:
+                bot.addresses = [second.address]
+            clients.wait_for(lambda bot: len(bot.welcomes) == 2 and bot.welcomes[-1][1]["resumed"], second.log())
+        self.check_log()
+
+    def test_who_asks_a_host_that_stands_by_is_told_where_the_room_is(self):
+        first, second = self.two_hosts()
+        time.sleep(0.3)
+
+        async def ask(join):
+            reader, writer = await asyncio.open_connection(*second.address.rsplit(":", 1))
+            await reader.readline()
+            writer.write(join)
+            said = await reader.read(65536)
+            writer.close()
+            return said.decode()
+
+        said = asyncio.run(ask(b'{"type":"join","protocol":1,"name":"ann","room":"volcano"}\n'))
+        self.assertIn('"code":"moved"', said)
+        self.assertIn(f'"address":"{first.address}"', said)
+        said = asyncio.run(ask(b'{"type":"join","protocol":1,"name":"ann"}\n'))
+        self.assertIn(f'"address":"{first.address}"', said)
+
+
+class Nats(Cluster):
+    def test_away(self):
+        """Nobody stores what is played: rooms go on, players hear of it after 10 s, and all is stored when NATS is back."""
+        first, second = self.two_hosts()
+        with Clients(4, [first.address]) as clients:
+            clients.wait_here()
+            self.nats.kill(0)
+            away = float(os.environ.get("SECONDS_AWAY", "12"))
+            time.sleep(away)
+            for bot in clients.bots:
+                self.assertEqual(len(bot.losses), 0)
+                self.assertLess(time.monotonic() - bot.newest[0], 2)
+            first.wait_for("NOT DURABLE")
+            self.assertEqual(first.log().count("cluster_owns"), 1)
+            self.nats.start(0)
+            first.wait_for("cluster_durable")
+            time.sleep(1)
+            self.assertNotIn("cluster_owns", second.log())
+        self.check_log(holes=0 if away < 50 else 1)
+
+
+class Replicas(Cluster):
+    replicas = 3
+    settings = {"silence_ms": 1000}
+
+    def test_leader_of_the_log_killed(self):
+        first, second = self.two_hosts()
+        with Clients(4, [first.address]) as clients:
+            clients.wait_here()
+            leader = self.nats.leader()
+            self.assertIsNotNone(leader)
+            self.nats.kill(leader)
+            time.sleep(8)
+            for bot in clients.bots:
+                self.assertEqual(len(bot.losses), 0)
+                self.assertLess(time.monotonic() - bot.newest[0], 2)
+            self.nats.start(leader)
+            time.sleep(1)
+            self.assertNotIn("cluster_owns", second.log())
+            self.assertEqual(first.log().count("cluster_owns"), 1, first.log())
+        self.check_log()
+
+
+if __name__ == "__main__":
+    stage.skip_where_missing()
+    if not hasattr(unittest.TestCase, "enterContext"):  # Python 3.11 has it
+        sys.exit("Python 3.11 is needed")
+    unittest.main(verbosity=2)

@@ -1,0 +1,236 @@
+"""NATS servers and hosts of a cluster on loopback addresses, and bots that come back to their lice."""
+
+import asyncio
+import json
+import os
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+PROGRAM = os.environ["WOODLOUSE_SERVER"]
+MAPS = os.environ["WOODLOUSE_MAPS"]
+PATIENCE = 30.0
+
+
+def missing():
+    """Why there is no cluster to test here; empty: there can be one."""
+    if shutil.which("nats-server") is None:
+        return "nats-server is missing:  apt-get install nats-server"
+    said = subprocess.run([PROGRAM, "cluster", "status", "/nonexistent"], capture_output=True, text=True)
+    built = subprocess.run([PROGRAM, "cluster", "status", os.devnull], capture_output=True, text=True)
+    if "built without NATS" in said.stderr + built.stderr:
+        return "woodlouse-server was built without NATS:  apt-get install libnats-dev, and -DWOODLOUSE_CLUSTER=ON"
+    return ""
+
+
+def free_ports(count):
+    sockets = [socket.socket() for _ in range(count)]
+    for one in sockets:
+        one.bind(("127.0.0.1", 0))
+    ports = [one.getsockname()[1] for one in sockets]
+    for one in sockets:
+        one.close()
+    return ports
+
+
+class Nats:
+    """As many nats-servers with JetStream as `replicas` says, and the file of a cluster that lives on them."""
+
+    def __init__(self, replicas=1, **settings):
+        self.folder = tempfile.mkdtemp(prefix="woodlouse-nats-")
+        self.replicas = replicas
+        ports = free_ports(2 * replicas)
+        self.ports, routes = ports[:replicas], ports[replicas:]
+        self.commands = []
+        for number, (port, route) in enumerate(zip(self.ports, routes)):
+            command = ["nats-server", "-a", "127.0.0.1", "-p", str(port), "-n", f"n{number}", "-js",
+                       "-sd", os.path.join(self.folder, f"store{number}"), "-l", os.path.join(self.folder, f"nats{number}.log")]
+            if replicas > 1:
+                command += ["--cluster_name", "test", "--cluster", f"nats://127.0.0.1:{route}",
+                            "--routes", ",".join(f"nats://127.0.0.1:{other}" for other in routes)]
+            self.commands.append(command)
+        self.processes = [None] * replicas
+        for number in range(replicas):
+            self.start(number)
+        self.file = os.path.join(self.folder, "cluster.json")
+        settings = {"nats": [f"nats://127.0.0.1:{port}" for port in self.ports], "replicas": replicas, **settings}
+        with open(self.file, "w") as out:
+            json.dump(settings, out)
+        self.settings = settings
+        end = time.monotonic() + PATIENCE
+        while self.command("init")[0] != 0:
+            assert time.monotonic() < end, self.command("init")
+            time.sleep(0.2)
+
+    def start(self, number):
+        self.processes[number] = subprocess.Popen(self.commands[number], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def kill(self, number, by=signal.SIGKILL):
+        self.processes[number].send_signal(by)
+        if by != signal.SIGSTOP:
+            self.processes[number].wait(PATIENCE)
+
+    def command(self, *arguments):
+        """`woodlouse-server cluster ...` of this cluster: (exit code, what it printed)."""
+        action, *rest = arguments
+        done = subprocess.run([PROGRAM, "cluster", action, self.file, *rest], capture_output=True, text=True, timeout=120)
+        return done.returncode, done.stdout + done.stderr
+
+    def leader(self):
+        """The number of the node that leads the log; None: there is none now."""
+        found = re.search(r"led by n(\d+)", self.command("status")[1])
+        return int(found.group(1)) if found else None
+
+    def joined(self):
+        """Each room's joined recordings, proven: {file's name: what verify says}."""
+        folder = tempfile.mkdtemp(dir=self.folder)
+        code, said = self.command("fsck", "--out", folder)
+        proofs = {}
+        for name in sorted(os.listdir(folder)):
+            verify = subprocess.run([PROGRAM, "verify", os.path.join(folder, name)], capture_output=True, text=True, timeout=300)
+            proofs[name] = (verify.returncode, verify.stdout + verify.stderr)
+        return code, said, proofs
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for process in self.processes:
+            if process is not None and process.poll() is None:
+                process.kill()
+                process.wait()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+class Host:
+    """A woodlouse-server of the cluster."""
+
+    def __init__(self, nats, name, *arguments, maps=("volcano",)):
+        self.name = name
+        self.log_file = os.path.join(nats.folder, f"{name}-{time.monotonic_ns()}.log")
+        games = [os.path.join(MAPS, each + ".json") for each in maps]
+        self.process = subprocess.Popen(
+            [PROGRAM, "--map", *games, "--mode", "roam", "--cluster", nats.file, "--cluster-host", name,
+             "--listen", "127.0.0.1:0", "--log-file", self.log_file, *arguments],
+            stdout=subprocess.PIPE, text=True)
+        first = self.process.stdout.readline()
+        assert first.startswith("listening "), first + self.log()
+        self.address = first.split()[1]
+
+    def log(self):
+        try:
+            with open(self.log_file) as file:
+                return file.read()
+        except FileNotFoundError:
+            return ""
+
+    def wait_for(self, text, count=1, patience=PATIENCE):
+        end = time.monotonic() + patience
+        while self.log().count(text) < count:
+            assert time.monotonic() < end, f"{self.name} never said {text!r}:\n{self.log()}"
+            assert self.process.poll() is None, f"{self.name} has ended:\n{self.log()}"
+            time.sleep(0.02)
+
+    def signal(self, by):
+        self.process.send_signal(by)
+
+    def end(self):
+        if self.process.poll() is None:
+            self.process.terminate()
+        code = self.process.wait(PATIENCE)
+        self.process.stdout.close()
+        return code
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.send_signal(signal.SIGCONT)
+        self.end()
+
+
+class Bot:
+    """Steers a louse, and comes back to it wherever its room is. addresses: of all hosts."""
+
+    def __init__(self, name, addresses, push=True):
+        self.name, self.addresses, self.push = name, list(addresses), push
+        self.token, self.louse, self.seq = "", None, 0
+        self.welcomes = []   # (time, message)
+        self.losses = []     # times at which the line was cut
+        self.byes = []
+        self.newest = None   # (time, tick) of the newest frame
+        self.stopped = False
+
+    async def run(self):
+        place = 0
+        while not self.stopped:
+            address = self.addresses[place % len(self.addresses)]
+            place += 1
+            try:
+                await self.visit(address)
+            except (OSError, asyncio.IncompleteReadError, ConnectionError):
+                pass
+            await asyncio.sleep(0.02)
+
+    async def visit(self, address):
+        host, port = address.rsplit(":", 1)
+        reader, writer = await asyncio.open_connection(host, int(port), limit=1 << 24)
+        pushing = None
+        try:
+            def say(**message):
+                writer.write(json.dumps(message).encode() + b"\n")
+
+            joined = False
+            while not self.stopped:
+                line = await reader.readline()
+                if not line:
+                    break
+                kind = line[9:line.index(b'"', 9)]
+                if kind == b"hello":
+                    say(type="join", protocol=1, role="bot", name=self.name, resume=self.token or True, state_hz=2,
+                        fields=["id", "x", "y"])
+                elif kind in (b"key", b"delta"):
+                    self.newest = (time.monotonic(), int(re.search(rb'"tick":(\d+)', line).group(1)))
+                elif kind == b"welcome":
+                    joined = True
+                    message = json.loads(line)
+                    self.token = message["resume_token"]
+                    self.welcomes.append((time.monotonic(), message))
+                    self.seq = 0
+                    if self.push:
+                        pushing = asyncio.ensure_future(self.steer(say))
+                elif kind == b"ping":
+                    say(type="pong", t=json.loads(line)["t"])
+                elif kind == b"bye":
+                    self.byes.append(json.loads(line))
+                elif kind == b"error" and not joined:
+                    return
+            if joined:
+                self.losses.append(time.monotonic())
+        finally:
+            if pushing:
+                pushing.cancel()
+            writer.close()
+
+    async def steer(self, say):
+        turn = sum(self.name.encode()) % 7 - 3
+        while True:
+            self.seq += 1
+            say(type="input", seq=self.seq, thrust=[0.8, turn / 6])
+            await asyncio.sleep(0.1)
+
+
+def play(coroutine):
+    return asyncio.run(coroutine)
+
+
+def skip_where_missing():
+    why = missing()
+    if why:
+        print("SKIPPED:", why)
+        sys.exit(77)
