@@ -128,6 +128,8 @@ test('a door asks for inputs where it can compute as the server does, else for f
   assert.equal(door.joinOf(HELLO).room, 'volcano');
   assert.equal(door.refused({ code: 'bad_field', fatal: false }), 'again');
   assert.equal(door.joinOf(HELLO).stream, undefined);
+  assert.equal(door.joinOf({ ...HELLO, rooms: ['other'] }).room, 'volcano');  // it may be at another server
+  assert.equal(door.refused({ code: 'unknown_room', fatal: false }), 'again');
   assert.equal(door.joinOf({ ...HELLO, rooms: ['other'] }).room, 'other');
   assert.equal(new Door({ role: 'spectator', name: 'eve', room: '', token: '' }, 9).joinOf(HELLO).stream, undefined);
   assert.equal(door.refused({ code: 'bad_token', fatal: false }), 'token');

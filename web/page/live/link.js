@@ -4,6 +4,7 @@
 // come in, and what is to be done where it is refused.
 import { decoded, isRecorded } from './messages.js';
 import { COLUMNS, RULES_COLUMNS } from './frames.js';
+import { movedTo } from './elsewhere.js';
 
 const PROTOCOL = 1;
 const GREET = 5, SILENCE = 5;                  // s until hello and welcome; without a word on a line that is open
@@ -11,12 +12,12 @@ const FIRST_WAIT = 0.25, LONGEST_WAIT = 8;     // s, between attempts
 const MOST_UNSENT = 1 << 18, MOST_READ = 1 << 26;  // bytes; of one message
 
 /** Ends that pass by themselves: trying again is worth it. */
-const PASSING = ['', 'rate_limited', 'too_many_connections', 'handshake_timeout', 'idle', 'slow', 'left', 'shutdown', 'draining', 'paused', 'room_full'];
+const PASSING = ['', 'rate_limited', 'too_many_connections', 'handshake_timeout', 'idle', 'slow', 'left', 'shutdown', 'draining', 'paused', 'room_full', 'moved'];
 
 /** How long to wait before the n-th attempt (from 0) [s]; chance: 0 to 1. */
 export function waitBefore(n, chance) { return Math.min(LONGEST_WAIT, FIRST_WAIT * 2 ** n) * (0.5 + chance); }
 
-/** @typedef {{code: string, reason: string}} Closing code: of a `bye` or a fatal error; empty: the line broke */
+/** @typedef {{code: string, reason: string, address?: string}} Closing code: of a `bye` or a fatal error; empty: the line broke. address: of another server that has the room now */
 
 export class Link {
   #timer = 0; #watch = 0; #attempt = 0;
@@ -111,6 +112,7 @@ export class Link {
       this.#attempt = 0;
       this.phase = 'joined';
     }
+    if (message.code === 'moved' && (message.type === 'error' || message.type === 'bye')) return this.#end(movedTo(message, this.options.url));
     if ((message.type === 'error' && message.fatal) || message.type === 'bye') this.#farewell ??= { code: message.code, reason: message.text };
     this.options.on(message, line);
     if (message.type === 'hello') this.#join();
@@ -134,7 +136,7 @@ export class Link {
     clearTimeout(this.#watch);
     socket?.close();
     let again = null;
-    if (PASSING.includes(closing.code)) {
+    if (PASSING.includes(closing.code) && !closing.address) {
       again = Math.max(least, waitBefore(this.#attempt++, Math.random()));
       this.phase = 'waiting';
       this.#timer = setTimeout(() => this.start(), again * 1000);
@@ -150,6 +152,7 @@ const PLAYER_HZ = 20, WATCHER_HZ = 10, STREAM_HZ = 20, HIDDEN_HZ = 1;
 export class Door {
   #byFrames = false; #halves = 0;
   /** The token of the louse that waits; '' none. */ resume = '';
+  /** The one that was joined last. */ room = '';
   /** Nobody looks at the page. */ isHidden = false;
   /** The map is too big for the page to know its heights. */ wantsHeights = false;
   /** The server's behavior; null before its hello. @type {number|null} */ behavior = null;
@@ -181,7 +184,7 @@ export class Door {
     if (this.ownBehavior === null) return null;
     ({ behavior: this.behavior, features: this.features, rooms: this.rooms } = hello);
     const { role, name, token } = this.wish, isPlayer = role === 'player';
-    const room = hello.rooms.includes(this.wish.room) ? this.wish.room : hello.rooms[0] ?? '';
+    const room = this.room || this.wish.room || (hello.rooms[0] ?? '');  // one that is not among them may be elsewhere
     const hz = isPlayer ? PLAYER_HZ : this.isByInputs ? STREAM_HZ : WATCHER_HZ;
     const fields = [...COLUMNS, ...(this.wantsHeights ? ['z'] : []), ...(this.has('rules') ? RULES_COLUMNS : [])];
     return {
@@ -194,7 +197,7 @@ export class Door {
   refused(error) {
     if (error.code === 'bad_field' && this.isByInputs) { this.watchByFrames(); return 'again'; }
     if (error.code === 'bad_token') return 'token';
-    if (error.code === 'unknown_room') { this.wish.room = ''; return 'again'; }
+    if (error.code === 'unknown_room') { this.room = this.wish.room = ''; return 'again'; }
     return error.fatal || ['bad_field', 'bad_json', 'missing_field'].includes(error.code) ? 'over' : 'wait';
   }
 }

@@ -27,7 +27,7 @@ const run = { board: text, name: text, time: whole, splits: listOf(whole) };
 const said = { code: text, text };
 
 const SHAPES = {
-  hello: { protocol: whole, behavior: whole, rooms: listOf(text, MOST_OF_RULES), features: listOf(text), limits: objectOf({}) },
+  hello: { protocol: whole, behavior: whole, rooms: listOf(text, MOST_OF_RULES), features: listOf(text), limits: objectOf({}), 'hosts?': listOf(text) },
   welcome: {
     id: whole, 'name?': text, 'resume_token?': text, 'resumed?': flag, room: text, mode: text, tick: whole, tick_hz: rate, state_hz: rate,
     fields: listOf(text), quantum: listOf(number), format: text, 'stream?': text,
@@ -50,8 +50,8 @@ const SHAPES = {
   ghost: { ...run, start: whole, behavior: whole, tick_hz: whole, spawn: whole, ticks: whole, inputs: listOf(listOf(number), 100000) },
   rooms: { rooms: listOf(objectOf({ name: text, map: text, players: whole, bots: whole, spectators: whole }), MOST_OF_RULES) },
   notice: said,
-  error: { ...said, fatal: flag, 'retry_after_ms?': number },
-  bye: { ...said, resumable: flag },
+  error: { ...said, fatal: flag, 'retry_after_ms?': number, 'address?': text },
+  bye: { ...said, resumable: flag, 'address?': text },
   ping: { t: whole },
   pong: { t: whole },
 };

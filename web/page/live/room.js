@@ -36,7 +36,7 @@ export class Room {
     /** As of the last update. @type {any[]} */ this.lice = []; /** Whether it was told yet who there is. */ this.isKnown = false;
     /** The table of scores, as it was made last. @type {ReturnType<import('./goal.js').scoreRows>} */ this.rows = [];
     /** The rooms with their counts. @type {any[]} */ this.rooms = [];
-    /** Why the line is down, and when it is tried again [s, of performance.now()]; null while it is up. @type {{reason: string, code: string, again: number|null}|null} */ this.lost = null;
+    /** Why the line is down, when it is tried again [s, of performance.now()], and at which other server the room is; null while it is up. @type {{reason: string, code: string, again: number|null, address: string}|null} */ this.lost = null;
     this.#link = new Link({
       url, Socket, joinOf: (hello) => this.door.joinOf(hello), on: (message, line) => this.#on(message, line, seconds()),
       onRecorded: (line) => this.#follow(line, seconds()), onBatch: () => this.#afterBatch(seconds()), onLost: (closing, again) => this.#onLost(closing, again),
@@ -160,7 +160,7 @@ export class Room {
     if (this.welcome) this.lice = [];
     this.#was = true;
     this.lost = null;
-    if (welcome.resume_token) this.door.resume = welcome.resume_token;
+    [this.door.room, this.door.resume] = [welcome.room, welcome.resume_token || this.door.resume];
     this.welcome = this.shown = welcome;
     this.roster.welcome(welcome);
     this.#time = new Timeline(welcome, now);
@@ -243,6 +243,6 @@ export class Room {
   #onLost(closing, again) {
     if (!this.#core && again !== null) return;  // the server waits for no join that long: it is asked again, and nothing was shown yet
     this.#cut();
-    this.lost = { reason: farewell(closing), code: closing.code, again: again === null ? null : seconds() + again };
+    this.lost = { reason: farewell(closing), code: closing.code, again: again === null ? null : seconds() + again, address: closing.address ?? '' };
   }
 }

@@ -72,10 +72,13 @@ export class TopBar {
 
   line(text) { setText(byId('line'), text); }
 
-  /** @param {string} text what is wrong with the line; '': nothing @param {boolean} mayAsk a person can do something */
-  lost(text, mayAsk) {
+  /** @param {string} text what is wrong with the line; '': nothing @param {boolean} mayAsk a person can do something @param {string} [link] where else the room is */
+  lost(text, mayAsk, link = '') {
+    const [said, away] = byId('lost').children;
     setHidden(byId('lost'), !text);
-    setText(byId('lost').firstElementChild, text);
+    setText(said, text);
+    setHidden(away, !link);
+    if (link && away.href !== link) away.href = link;
     setHidden(byId('lost').lastElementChild, !mayAsk);
   }
 }

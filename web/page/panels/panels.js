@@ -1,5 +1,6 @@
 // @ts-check
 // All panels together, told what there is: some things with each frame, the rest ten times a second.
+import { linkTo } from '../live/elsewhere.js';
 import { goalLines, podium, proofOf, scoreRows } from '../live/goal.js';
 import { rulesInWords } from '../live/words.js';
 import { Chat } from './chat.js';
@@ -116,7 +117,7 @@ export class Panels {
   #line(room) {
     const lost = room?.lost, again = lost?.again == null ? null : Math.max(0, lost.again - performance.now() / 1000);
     const silence = room?.silence ?? null;
-    if (lost) this.top.lost(`${capital(lost.reason)}. ${again === null ? '' : `Trying again in ${again.toFixed(0)} s.`}`, true);
+    if (lost) this.top.lost(`${capital(lost.reason)}. ${again === null ? '' : `Trying again in ${again.toFixed(0)} s.`}`, true, lost.address && linkTo(lost.address, room.door.room || room.door.wish.room, location.href));
     else if (silence !== null) this.top.lost(`The server has not spoken for ${silence.toFixed(1)} s.`, false);
     else this.top.lost(room?.stands && room.lice.length ? 'The room is paused: no tick passes.' : '', false);
   }
