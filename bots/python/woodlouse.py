@@ -48,9 +48,10 @@ def connect(address=DEFAULT_ADDRESS, name="louse", role="bot", room=None, fields
     it. Left out: everybody.
     verify: recompute the hash of every key from its rows. Asks for all fields in exact format, so leave out `fields`
     and `format`; game.verified counts the keys, and one that differs raises WoodlouseError with the code "differs".
-    resume: where the connection breaks, come back within 30 s, into the louse that waits for so long; what is sent
-    meanwhile is dropped. That is what a loop over states() is written for, so it is the default; with False a broken
-    connection raises WoodlouseError, and the louse goes with it.
+    resume: where the connection breaks, come back within 60 s, into the louse if it has waited (30 s, of a server left as it
+    is), and where the room moves to another server, go on there; what is sent meanwhile is dropped. That is what a loop over
+    states() is written for, so it is the default; with False a broken connection raises WoodlouseError, and the louse goes
+    with it.
     token: a password, where the server has some.
     stream: "inputs", of a spectator: the room's recording instead of states; take recorded() then, not states().
     """
@@ -240,7 +241,7 @@ class Game(Session):
     def on_comeback(self):
         """Called when it is back; override or assign it."""
         back = "back in louse %d" if self.welcome.get("resumed") else "back, in a new louse, %d"
-        print("woodlouse: " + (back % self.id if self.id else "watching again"), file=sys.stderr)
+        print("woodlouse: " + (back % self.id if self.id else "watching again") + self.whereabouts(), file=sys.stderr)
 
     # ---- the wire ----
 
@@ -317,7 +318,7 @@ class Game(Session):
 
     def _on_error(self, message):
         if message["fatal"]:
-            raise WoodlouseError(message["code"], message["text"])
+            raise WoodlouseError(message["code"], message["text"], address=message.get("address", ""))
         self.errors.append(message)
         self.on_error(message)
 

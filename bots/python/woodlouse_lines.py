@@ -1,23 +1,28 @@
 """A connection's JSON lines, and what may go wrong with them."""
 
+import ipaddress
 import json
+import re
 import select
 import socket
 
 DEFAULT_ADDRESS = "127.0.0.1:7777"
 MAX_LINE_BYTES = 128 << 20
+MAX_ADDRESS = 261  # of HOST:PORT, as a server tells it
 SILENCE_S = 15.0  # a server that says nothing for so long is gone
 
 
 class WoodlouseError(Exception):
     """What went wrong; `code` is the server's (docs/protocol.md), or "connection", "protocol" or "differs" (a key
-    that was verified). retry_after_s: for so long it is of no use to ask again; 0 where the server did not say."""
+    that was verified). retry_after_s: for so long it is of no use to ask again; 0 where the server did not say. address: of
+    "moved", where the room is, as a stranger told it; empty where it was not told."""
 
-    def __init__(self, code, text, retry_after_s=0.0):
+    def __init__(self, code, text, retry_after_s=0.0, address=""):
         super().__init__("%s: %s" % (code, text))
         self.code = code
         self.text = text
         self.retry_after_s = retry_after_s
+        self.address = address
 
 
 class Lines:
@@ -87,6 +92,33 @@ class Lines:
         except (ValueError, TypeError, KeyError):
             raise WoodlouseError("protocol", "not a message: %r" % line[:80]) from None
         return message
+
+
+def told_address(text):
+    """Of a HOST:PORT that a server told: the same text, where it is one and nothing else - no link, no path, no port left
+    out; else None. IPv6 stands in brackets."""
+    if not isinstance(text, str) or len(text) > MAX_ADDRESS:
+        return None
+    parts = re.fullmatch(r"(?:\[([0-9A-Fa-f:.]+)\]|([A-Za-z0-9][A-Za-z0-9._-]*)):([1-9][0-9]{0,4})", text, re.ASCII)
+    if not parts or int(parts[3]) > 65535:
+        return None
+    try:
+        if parts[1]:
+            ipaddress.IPv6Address(parts[1])
+        elif not re.search(r"[^0-9.]", parts[2]):
+            ipaddress.IPv4Address(parts[2])
+    except ValueError:
+        return None
+    return text
+
+
+def is_this_machine(address):
+    """Whether HOST:PORT names it as such."""
+    host = address.rpartition(":")[0].strip("[]")
+    try:
+        return ipaddress.ip_address(host or "127.0.0.1").is_loopback
+    except ValueError:
+        return host == "localhost"
 
 
 def open_lines(address):

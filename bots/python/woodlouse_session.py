@@ -7,13 +7,24 @@ from woodlouse_lines import WoodlouseError
 
 class Session:
     """Takes messages from the lines that a Door opens, and opens again: each goes to the method _on_TYPE of who inherits, if
-    there is one. Who inherits has on_lost(error) and on_comeback(), too."""
+    there is one. Who inherits has room, on_lost(error) and on_comeback(), too."""
 
     def __init__(self, door):
         self._door = door
         self.comebacks = 0
         self.bye = None
         self._recorded = collections.deque()
+        self._told = None  # the address, before the connection broke
+
+    @property
+    def address(self):
+        """HOST:PORT of the server: a room may move to another one."""
+        return self._door.address
+
+    def whereabouts(self):
+        """Where the room is, in words, behind others; empty where it was there before the connection broke."""
+        room = "".join(letter for letter in self.room if letter.isprintable())
+        return "" if self.address == self._told else "; room %s is at %s now" % (room, self.address)
 
     def recorded(self):
         """Of who watches by inputs: yields the lines of the room's recording as they come, text without newlines: a header,
@@ -51,8 +62,9 @@ class Session:
 
     def _come_back(self, error):
         self._lines.close()
+        self._told = self.address
         self.on_lost(error)
-        self._begin(*self._door.come_back())
+        self._begin(*self._door.come_back(error))
         self.comebacks += 1
         self.on_comeback()
 
@@ -97,7 +109,8 @@ class Session:
         self._send({"type": "pong", "t": message["t"]})
 
     def _on_bye(self, message):
-        unasked = WoodlouseError(message["code"], message["text"])
-        if message["code"] == "left" and self._door.brings_back(unasked):
-            raise unasked  # something between us and the server ended our side: who leaves does not listen any more
+        unasked = WoodlouseError(message["code"], message["text"], address=message.get("address", ""))
+        # left: something between us and the server ended our side; who leaves does not listen any more.
+        if message["code"] in ("left", "moved") and self._door.brings_back(unasked):
+            raise unasked
         self.bye = message

@@ -45,7 +45,7 @@ def ends(send, receive):
 
 class ComingBack(unittest.TestCase):
     def setUp(self):
-        for name, seconds in (("ATTEMPT_S", 0.05), ("PATIENCE_S", 0.5)):
+        for name, seconds in (("LONGEST_WAIT_S", 0.1), ("PATIENCE_S", 0.5)):
             quicker = mock.patch.object(woodlouse_door, name, seconds)
             quicker.start()
             self.addCleanup(quicker.stop)
@@ -178,7 +178,7 @@ class ComingBack(unittest.TestCase):
 
 class Joining(unittest.TestCase):
     def test_a_join_that_comes_too_fast_is_made_again_when_the_server_says(self):
-        with mock.patch.object(woodlouse_door, "ATTEMPT_S", 0.05):
+        with mock.patch.object(woodlouse_door, "LONGEST_WAIT_S", 0.1):
             begun = time.monotonic()
             with Scripted(refuses(code="rate_limited", retry_after_ms=200), joins(True, ends)) as server:
                 with woodlouse.connect(server.address, name="ann") as game:
