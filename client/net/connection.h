@@ -1,5 +1,6 @@
 // The line to the server over its breaks: one Link after another. Who was welcomed once comes back with the
-// token of its louse, at once and then each second, for as long as a server keeps the louse.
+// token of its louse, soon and then later and later, where it was and at the hosts that were named there; who
+// is sent on to where the room is follows at once.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -8,10 +9,12 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "client/net/closing.h"
 #include "client/net/link.h"
 #include "shared/core/clock.h"
+#include "shared/protocol/whereabouts.h"
 
 namespace woodlouse::client {
 
@@ -30,8 +33,8 @@ class Connection final : public LinkListener {
  public:
   enum class Phase : std::uint8_t { kConnecting, kJoined, kWaiting, kStopped };
 
-  static constexpr std::chrono::seconds kComesBackFor{30};  ///< limits.resume_s of a server left as it is
-  static constexpr std::chrono::seconds kAttemptEvery{1};
+  /// Longer than a server left as it is keeps a louse (limits.resume_s): another one takes the room over.
+  static constexpr std::chrono::seconds kComesBackFor{60};
   static constexpr std::chrono::seconds kFirstPatience{10};  ///< from the greeting to the first welcome
   static constexpr std::chrono::seconds kPatience{5};        ///< until the welcome of an attempt to come back
 
@@ -50,8 +53,9 @@ class Connection final : public LinkListener {
   /// The line's socket; -1: there is none.
   [[nodiscard]] int descriptor() const { return link_ ? link_->descriptor() : -1; }
   [[nodiscard]] Phase phase() const { return phase_; }
+  /// Of the server that is joined or tried.
   [[nodiscard]] const Address& address() const { return address_; }
-  /// The room that was asked for; empty: the server's first.
+  /// The one joined last, or the one asked for; empty: the server's first.
   [[nodiscard]] const std::string& room() const { return join_.room; }
   /// Why the last link ended, or the last attempt to get a new one.
   [[nodiscard]] const Closing& closing() const { return closing_; }
@@ -70,11 +74,17 @@ class Connection final : public LinkListener {
   void on_closed(const Closing& closing) override;
 
  private:
+  /// Whether it goes on at once where it was sent. What came of it is in closing_.
+  bool follows(std::optional<double> up_for);
   void try_again(core::Time at);
+  [[nodiscard]] bool may_say_password() const;
 
   boost::asio::io_context& context_;
+  Address asked_;  ///< for, by who began it
   Address address_;
-  protocol::Join join_;  ///< with the token of the louse that we have, or had
+  protocol::Whereabouts places_;
+  std::vector<std::string> hosts_;  ///< as the last hello named them
+  protocol::Join join_;             ///< with the token of the louse that we have, or had
   ConnectionListener& listener_;
   boost::asio::steady_timer retry_;
   std::shared_ptr<Link> link_;
@@ -82,7 +92,7 @@ class Connection final : public LinkListener {
   Closing closing_;
   bool was_joined_ = false;
   int losses_ = 0;
-  core::Time started_{};             ///< the last attempt
+  core::Time joined_at_{};           ///< the last time
   std::optional<core::Time> until_;  ///< while the line is down: when nothing is tried any more
 };
 

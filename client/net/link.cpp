@@ -141,11 +141,13 @@ void Link::take(const protocol::ServerMessage& message) {
       write(protocol::encode(protocol::ClientMessage(*std::exchange(by_frames_, std::nullopt))));
       return;
     }
-    farewell_ = Closing{error->text, error->code};
+    farewell_ = Closing{error->text, error->code, {}, {}, error->address};
     if (error->retry_after_ms) farewell_->retry_after = std::chrono::milliseconds(*error->retry_after_ms);
     if (!joined_) return end(*farewell_);
   } else if (const auto* bye = std::get_if<protocol::Bye>(&message)) {
-    if (!farewell_) farewell_ = Closing{bye->text, bye->code};
+    if (!farewell_) farewell_ = Closing{bye->text, bye->code, {}, {}, bye->address};
+    // Whoever is sent on need not wait until this server has ended the line, too.
+    if (farewell_->code == protocol::code::kMoved) return end(*farewell_);
   }
   if (listener_ != nullptr) listener_->on_message(message, std::chrono::steady_clock::now());
 }

@@ -6,6 +6,7 @@
 
 #include "client/net/unreachable.h"
 #include "client/terminal/terminal_guard.h"
+#include "shared/core/joined.h"
 #include "shared/protocol/codec.h"
 #include "shared/protocol/codes.h"
 
@@ -21,7 +22,7 @@ void say_good_bye_by_signal(int socket) {
 }  // namespace
 
 Session::Session(boost::asio::io_context& context, const Address& address, protocol::Join join)
-    : context_(context), connection_(context, address, std::move(join), *this) {}
+    : context_(context), connection_(context, address, std::move(join), *this), told_(address) {}
 
 core::Expected<void> Session::join() {
   const core::Time begin = std::chrono::steady_clock::now();
@@ -55,12 +56,23 @@ void Session::leave() {
 }
 
 void Session::on_message(const protocol::ServerMessage& message, core::Time arrival) {
-  if (std::holds_alternative<protocol::Welcome>(message)) say_good_bye_by_signal(connection_.descriptor());
+  const auto* const welcome = std::get_if<protocol::Welcome>(&message);
+  if (welcome != nullptr) say_good_bye_by_signal(connection_.descriptor());
   const auto taken = room_.on_message(message, arrival);
+  if (welcome != nullptr) tell_where(*welcome, arrival);
   for (const protocol::ClientMessage& answer : room_.take_outgoing()) connection_.send(answer);
   if (taken) return;
   failure_ = taken.error();
   connection_.stop();
+}
+
+void Session::tell_where(const protocol::Welcome& welcome, core::Time now) {
+  if (connection_.address() == told_) return;
+  told_ = connection_.address();
+  const std::string& before = room_.notice_line();  // what became of the louse
+  room_.notice(core::joined({before, before.empty() ? "" : "; ", "room ", welcome.room, " is at ",
+                             told_.text(), " now"}),
+               now);
 }
 
 void Session::on_recorded(std::string_view line, core::Time arrival) {

@@ -44,12 +44,15 @@ class Session final : private ConnectionListener {
   void on_message(const protocol::ServerMessage& message, core::Time arrival) override;
   void on_recorded(std::string_view line, core::Time arrival) override;
   void on_lost() override;
+  /// Where the room is, to whom that is news.
+  void tell_where(const protocol::Welcome& welcome, core::Time now);
   /// What to tell when the connection is over.
   [[nodiscard]] core::Error farewell() const;
 
   boost::asio::io_context& context_;
   RoomView room_;
   Connection connection_;
+  Address told_;  ///< where the room is, as the player knows it
   std::optional<core::Error> failure_;
   std::chrono::milliseconds join_time_{0};
 };
