@@ -70,8 +70,8 @@ int failed(const core::Error& error) {
 
 int main(int argc, char** argv) {
   const std::string address = argc > 1 ? argv[1] : "127.0.0.1:7777";
-  const std::size_t colon = address.rfind(':');
-  if (argc > 2 || colon == std::string::npos) {
+  const auto server = protocol::parse_host_address(address);
+  if (argc > 2 || !server) {
     std::cerr << "usage: woodlouse-chaser [HOST:PORT]\n";
     return 2;
   }
@@ -81,11 +81,12 @@ int main(int argc, char** argv) {
   join.may_resume = true;
   join.fields = protocol::default_columns();
   bots::LineClient client;
-  auto welcome = client.join(address.substr(0, colon), address.substr(colon + 1), join);
+  auto welcome = client.join(*server, join);
   while (welcome) {
     std::cout << (welcome->resumed ? "back in louse " : "louse ") << welcome->id << " in room "
-              << welcome->room << "\n"
-              << std::flush;
+              << welcome->room;
+    if (client.address() != *server) std::cout << ", which is at " << client.address().text() << " now";
+    std::cout << "\n" << std::flush;
     const auto played = play(client, welcome->id);
     if (played) return 0;
     if (!client.is_broken()) return failed(played.error());

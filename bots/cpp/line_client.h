@@ -6,12 +6,14 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <chrono>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "shared/core/error.h"
 #include "shared/protocol/framing.h"
 #include "shared/protocol/messages.h"
+#include "shared/protocol/whereabouts.h"
 
 namespace woodlouse::bots {
 
@@ -30,19 +32,24 @@ class WorldView {
 
 class LineClient {
  public:
-  static constexpr std::chrono::seconds kComesBackFor{30};  ///< a louse waits for so long
+  /// Longer than a server left as it is keeps a louse: another one takes the room over.
+  static constexpr std::chrono::seconds kComesBackFor{60};
   static constexpr std::chrono::seconds kSilence{15};  ///< a server that says nothing for so long is gone
   static constexpr std::chrono::seconds kPatience{5};  ///< to connect, and at an attempt to come back
 
-  /// Connects and joins, as soon as the server lets one more join. Errors: no server there, or why it
-  /// refused.
+  /// Connects and joins, as soon as the server lets one more join, and where it says that the room is.
+  /// Errors: no server there, or why it refused.
+  core::Expected<protocol::Welcome> join(const protocol::HostAddress& address, const protocol::Join& join);
   core::Expected<protocol::Welcome> join(const std::string& host, const std::string& port,
                                          const protocol::Join& join);
-  /// Joins there once more, tried each second for kComesBackFor: Welcome::resumed says whether into the louse
-  /// that it had. REQUIRES a join before, with Join::may_resume.
+  /// Joins once more: at once where the room has moved, else where it was and at the hosts that were named
+  /// there in turn, later and later for kComesBackFor. Welcome::resumed says whether into the louse that it
+  /// had. REQUIRES a join before, with Join::may_resume.
   core::Expected<protocol::Welcome> come_back();
-  /// Whether the last error was the connection's: who joined may come back.
+  /// Whether the last error was the connection's, or the room has moved: who joined may come back.
   [[nodiscard]] bool is_broken() const { return is_broken_; }
+  /// Of the server that was joined last. REQUIRES a join before.
+  [[nodiscard]] const protocol::HostAddress& address() const { return places_->place(); }
   core::Expected<void> send(const protocol::ClientMessage& message);
   /// Waits for the next message that this version knows. Errors: the connection ended, a line out of shape.
   core::Expected<protocol::ServerMessage> receive();
@@ -52,15 +59,24 @@ class LineClient {
 
   core::Expected<protocol::Welcome> try_until_joined(Trying trying);
   core::Expected<protocol::Welcome> connect_and_join(std::chrono::seconds patience);
+  core::Expected<void> connect();
   core::Expected<protocol::ServerMessage> receive(std::chrono::seconds patience);
   void take(const protocol::Welcome& welcome);
+  [[nodiscard]] bool may_say_password() const;
+  bool follows();
+  std::chrono::steady_clock::duration wait();
+  tl::unexpected<core::Error> moved(const std::string& text, const std::string& address);
   void run(std::chrono::seconds patience);
   tl::unexpected<core::Error> broken(const std::string& where, const std::string& what,
                                      const std::string& hint = {});
 
-  std::string host_, port_;
-  protocol::Join join_;  ///< with the token of the louse that it has, or had
+  protocol::HostAddress asked_;
+  std::optional<protocol::Whereabouts> places_;
+  std::vector<std::string> hosts_;  ///< as the last hello named them
+  protocol::Join join_;             ///< with the token of the louse that it has, or had
+  std::optional<std::chrono::steady_clock::time_point> joined_at_;  ///< none: it is not
   bool is_broken_ = false;
+  std::optional<std::string> moved_to_;  ///< of the last error, where that says so: as a stranger told it
   std::chrono::milliseconds retry_after_{0};  ///< of the last refusal
   boost::asio::io_context context_;
   boost::asio::ip::tcp::socket socket_{context_};

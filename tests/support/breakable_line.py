@@ -64,35 +64,44 @@ class BreakableLine:
                 client, _ = self._listener.accept()
             except OSError:
                 return  # stopped
-            with self._lock:
-                ends = [_End(client)]
-                try:
-                    ends += [_End(socket.create_connection(self._server))] if self._passes else []
-                except OSError:
-                    pass  # there is no server: nobody is there for the client
-                if len(ends) < 2:
-                    ends[0].reset()
-                    continue
-                self._ends += ends
-            for end, other, look in ((ends[0], ends[1], None), (ends[1], ends[0], self._look)):
-                threading.Thread(target=end.carry, args=(other, look), daemon=True).start()
+            threading.Thread(target=self._serve_one, args=(client,), daemon=True).start()
+
+    def _serve_one(self, client):
+        with self._lock:
+            ends = [_End(client)]
+            try:
+                ends += [_End(socket.create_connection(self._server))] if self._passes else []
+            except OSError:
+                pass  # there is no server: nobody is there for the client
+            if len(ends) < 2:
+                return ends[0].reset()
+            self._ends += ends
+        for end, other, look in ((ends[0], ends[1], None), (ends[1], ends[0], self._look)):
+            threading.Thread(target=end.carry, args=(other, look), daemon=True).start()
 
     def _look(self, data):
+        """What is passed on of what the server has said."""
         self.tokens += [token.decode() for token in re.findall(rb'"resume_token":"([0-9a-f]+)"', data)]
+        return data
 
 
 class _End:
     def __init__(self, connection):
         self._socket = connection
         self.hushed = False
+        self.last_word = b""  # passed on behind the next whole line instead of all that follows
 
     def carry(self, other, look):
         try:
             while data := self._socket.recv(65536):
                 if look:
-                    look(data)
+                    data = look(data)
                 if not (self.hushed or other.hushed):
                     other._socket.sendall(data)
+                if self.last_word and data.endswith(b"\n"):
+                    other._socket.sendall(self.last_word)
+                    other._socket.shutdown(socket.SHUT_WR)
+                    return self.reset()
             if not self.hushed:
                 other._socket.shutdown(socket.SHUT_WR)
         except OSError:

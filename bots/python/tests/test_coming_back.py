@@ -17,6 +17,7 @@ from running import ROOT, Running, program, serve
 
 sys.path.insert(0, os.path.join(ROOT, "tests", "support"))
 from breakable_line import BreakableLine
+from moving_line import MovingLine
 
 
 class ComingBack(unittest.TestCase):
@@ -86,6 +87,68 @@ class ComingBack(unittest.TestCase):
             self.assertGreater(time.monotonic() - begun, 0.5)
             with woodlouse.connect(address, name="late") as game:
                 self.assertIn("Chaser", game.players.values())
+
+
+class Moving(unittest.TestCase):
+    """The chaser goes where its room goes. The Python module does so in test_woodlouse_moving."""
+
+    def lines(self, count):
+        server = serve(self, "volcano", "--ping-s", "1", "--vacant-s", "1")
+        lines = [MovingLine(server) for _ in range(count)]
+        for line in lines:
+            self.addCleanup(line.stop)
+        return lines
+
+    def test_the_chaser_goes_on_in_its_louse_where_the_room_goes(self):
+        first, second = self.lines(2)
+        with Running(program("woodlouse-chaser"), first.address) as chaser:
+            louse = chaser.wait_for(r"^louse (\d+) in room volcano$").group(1)
+            first.move(second.address)
+            chaser.wait_for(r"moved: the room has moved; coming back$")
+            chaser.wait_for(r"^back in louse %s in room volcano, which is at %s now$" % (louse, second.address))
+            chaser.interrupt()
+
+    def test_a_python_bot_does_too(self):
+        first, second = self.lines(2)
+        with contextlib.redirect_stderr(io.StringIO()) as told, woodlouse.connect(first.address, name="ann") as game:
+            louse, states = game.id, game.states()
+            next(states)
+            first.move(second.address)
+            while not game.comebacks:
+                next(states)
+            self.assertEqual((game.id, game.welcome["resumed"], game.address), (louse, True, second.address))
+        self.assertIn("back in louse %d; room volcano is at %s now\n" % (louse, second.address), told.getvalue())
+
+    def test_the_chaser_is_sent_on_twice_and_no_more(self):
+        first, second, third, fourth = self.lines(4)
+        first.sends_on, second.sends_on = second.address, third.address
+        with Running(program("woodlouse-chaser"), first.address) as chaser:
+            chaser.wait_for(r"^louse \d+ in room volcano, which is at %s now$" % third.address)
+            chaser.interrupt()
+        third.sends_on = fourth.address
+        with Running(program("woodlouse-chaser"), first.address) as chaser:
+            chaser.wait_for("moved: sent on from server to server, to %s last$" % fourth.address)
+            self.assertEqual(chaser.result(), 1)
+        self.assertEqual(fourth.tokens, [])
+
+    def test_the_chaser_goes_to_no_place_that_is_none(self):
+        [line] = self.lines(1)
+        with Running(program("woodlouse-chaser"), line.address) as chaser:
+            louse = chaser.wait_for(r"^louse (\d+) in room").group(1)
+            line.move("/tmp/socket")
+            chaser.wait_for('moved: the room has moved to "/tmp/socket", which is no HOST:PORT; coming back$')
+            chaser.wait_for("^back in louse %s in room volcano$" % louse)
+            chaser.interrupt()
+
+    def test_the_chaser_looks_for_its_louse_at_the_hosts_that_were_named(self):
+        first, second, third = self.lines(3)
+        second.stop()
+        first.hosts = [second.address, third.address]
+        with Running(program("woodlouse-chaser"), first.address) as chaser:
+            louse = chaser.wait_for(r"^louse (\d+) in room").group(1)
+            first.stop()
+            chaser.wait_for("^back in louse %s in room volcano, which is at %s now$" % (louse, third.address))
+            chaser.interrupt()
 
 
 if __name__ == "__main__":
