@@ -1,7 +1,7 @@
 #!/bin/sh
 # pack_page.sh OUT PAGE CORE: the page's files and core.wasm as a C++ file that has them in it (server/web/page_files.h).
-# The modules are joined into few (esbuild): sixty small ones cost a stranger a dozen round trips, and a quarter more bytes. What only
-# recordings or the laboratory want stays apart (later.js), and each worker has its own. index.html names its scripts and styles below the version of all files together, which
+# The modules are joined into few (esbuild): eighty small ones cost a stranger a dozen round trips, and a quarter more bytes. What the first picture does without
+# stays apart (whole.js), what only recordings, the laboratory and the error figure want (later.js), and each worker has its own. index.html names its scripts and styles below the version of all files together, which
 # are therefore good for ever, and what the first picture wants at once: else a browser learns of it one after the other.
 # Packed by zopfli where it is installed: a twentieth less than gzip, for any gunzip.
 set -eu
@@ -23,7 +23,8 @@ done
 cp "$core" "$out/files/core.wasm"
 names=$(cd "$out/files" && find . -type f | sed 's#^\./##' | LC_ALL=C sort)
 version=$(cd "$out/files" && sha256sum $names | sha256sum | cut -c1-16)
-modules=$(printf '%s\n' $names | grep -E '^(page|parts/chunk-[A-Z0-9]*)\.js$' | sed 's#.*#<link rel="modulepreload" href="&">#' | tr -d '\n')
+# What page.js imports at once: without what import() loads behind the first picture.
+modules=$({ echo page.js; grep -oE '(from|import)"\./parts/[^"]*' "$out/files/page.js" | sed 's#.*/parts#parts#'; } | sed 's#.*#<link rel="modulepreload" href="&">#' | tr -d '\n')
 sed -E -e "s#^<script type=\"module\"#$modules\n&#" -e "s#(href|src)=\"(\./)?([A-Za-z0-9_][A-Za-z0-9_./-]*\.(js|css|svg|png|wasm))\"#\1=\"/$version/\3\"#g" "$page/index.html" > "$out/files/index.html"
 
 {

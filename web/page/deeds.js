@@ -6,26 +6,26 @@ import { toast } from './panels/elements.js';
 
 const VIEWS = ['orbit', 'follow', 'map'];
 
-/** What a button or a key does. @param {import('./stage.js').Stage} stage @param {string|undefined} action */
-export function act(stage, action) {
-  const { player, room, picture: { camera } } = stage;
+/** What a button or a key does. @param {import('./hands.js').Hands} hands @param {string|undefined} action */
+export function act(hands, action) {
+  const { stage, panels } = hands, { player, room, picture: { camera } } = stage;
   switch (action) {
     case 'orbit': case 'follow': case 'map': return stage.view(action);
     case 'view': return stage.view(VIEWS[(VIEWS.indexOf(camera.view) + 1) % VIEWS.length]);
     case 'slope': stage.picture.setShading(stage.picture.shading === 'slope' ? 'height' : 'slope'); return;
-    case 'theme': return stage.setTheme(theme() === 'dark' ? 'light' : 'dark');
+    case 'theme': return hands.setTheme(theme() === 'dark' ? 'light' : 'dark');
     case 'turn-left': return camera.turn(60, 0);
     case 'turn-right': return camera.turn(-60, 0);
     case 'nearer': return camera.zoom(1.25);
     case 'farther': return camera.zoom(0.8);
-    case 'next': return stage.step(1);
-    case 'previous': return stage.step(-1);
-    case 'talk': return stage.panels.chat.open();
-    case 'error': stage.panels.toggleError(player); return;
-    case 'help': return stage.panels.help(stage.source);
+    case 'next': return hands.step(1);
+    case 'previous': return hands.step(-1);
+    case 'talk': return panels.chat.open();
+    case 'error': panels.toggleError(player); return;
+    case 'help': return panels.help(stage.source);
     case 'pad': document.body.toggleAttribute('data-pad'); return;
-    case 'pick': return stage.drop?.pick();
-    case 'join': stage.join(); return;
+    case 'pick': return hands.drop.pick();
+    case 'join': hands.join(); return;
     case 'again': return stage.room ? stage.room.start() : stage.enter();
     case 'respawn': return room?.send({ type: 'respawn' });
     case 'cruise': return room?.own.steering.toggleCruise();

@@ -1,15 +1,12 @@
 // @ts-check
-// What is shown: a room that is watched or played, a recording, or two runs side by side; wired to the picture and the panels.
-import { act } from './deeds.js';
+// What is shown: a room that is watched or played, a recording, or two runs side by side; wired to the picture. What the first
+// picture does without comes behind it, or when it is asked for: hands.js, by whole.js.
 import { Room } from './live/room.js';
-import { sceneOf } from './live/goal.js';
-import { Teacher } from './live/own/lesson.js';
-import { CanvasInput, Touch } from './panels/pointers.js';
-import { ask, Drop } from './panels/dialogs.js';
+import { sceneOf } from './live/scene.js';
+import { CanvasInput } from './panels/pointers.js';
+import { EarlyKeys } from './panels/early.js';
 import { byId, toast } from './panels/elements.js';
-import { Keys } from './panels/keys.js';
-import { Panels } from './panels/panels.js';
-import { keep, kept, onName, onPalette, onSystemTheme, setTheme, shortName, storage, theme } from './panels/settings.js';
+import { kept, onSystemTheme, setTheme, storage, theme } from './panels/settings.js';
 import { Picture } from './picture/picture.js';
 
 const HIDDEN_AFTER = 3000, PANELS_EVERY = 100;  // ms
@@ -28,6 +25,12 @@ export class Stage {
   /** How the last room was entered; also after a recording. @type {any} */ #wish = {};
   #panelsAt = 0; #hiding = 0; /* whether the panels are there */ #isWhole = false;
   /** The recording's name. */ file = '';
+  /** Panels, keys, what they do; null: they are still to come. @type {import('./hands.js').Hands|null} */ hands = null;
+  /** @type {typeof import('./whole.js')|null} */ #parts = null;
+  /** @type {Promise<import('./hands.js').Hands>|null} */ #coming = null;
+  /** The picture has begun. @type {() => void} */ #onBegun = () => {};
+  /** @type {Promise<void>} */ #begun = new Promise((resolve) => { this.#onBegun = resolve; });
+  #isAsked = false; #early = new EarlyKeys(() => this.whole().catch(() => {}));
 
   /** @type {any} */ #core = null;
   /** Not before begin(). @type {Picture} */ picture = /** @type {any} */ (null);
@@ -37,15 +40,42 @@ export class Stage {
     this.workers = workers;
     const chosen = params.get('theme') || kept('theme');
     if (chosen) setTheme(chosen);
-    this.teacher = new Teacher(!kept('lesson'), () => keep('lesson', 'had'), matchMedia('(pointer: coarse)').matches);
-    this.panels = new Panels({ follow: (id) => this.follow(id), say: (text) => this.room?.say(text), choose: (room) => this.choose(room), seek: (tick) => this.player?.seek(tick) });
   }
 
   /** Makes the picture, and lets people at it. Throws an Error where there is no WebGL 2. */
   begin() {
     this.picture = new Picture(byId('picture'), byId('labels'), { calm: calm.matches, baker: this.workers.baker });
     this.picture.setTheme(theme());
-    this.#bindHands();
+    new CanvasInput({ turn: (dx, dy) => this.picture.camera.turn(dx, dy), zoom: (factor) => this.picture.camera.zoom(factor), click: (x, y) => { const id = this.picture.pick(x, y); if (id) this.follow(id); } });
+    onSystemTheme(() => this.picture.setTheme(theme()));
+    document.addEventListener('visibilitychange', () => {
+      clearTimeout(this.#hiding);
+      if (document.hidden) this.#hiding = setTimeout(() => this.room?.hide(true), HIDDEN_AFTER); else this.room?.hide(false);
+    });
+    this.#onBegun();
+    if (!this.picture.drawing.isSoftware) this.whole().catch(() => {});  // what a graphics card draws is as it stays from the first picture on
+  }
+
+  /** Has the rest of the page come. @returns {Promise<import('./hands.js').Hands>} */
+  whole() {
+    this.#coming ??= this.#complete();
+    return this.#coming;
+  }
+
+  async #complete() {
+    try {
+      this.#parts = await import('./whole.js');
+    } catch (error) {
+      this.#coming = null;  // who asks next tries again
+      toast('This page did not load whole: reload it.', 'bad');
+      throw error;
+    }
+    this.room?.setParts(this.#parts);
+    await this.#begun;
+    this.picture.complete(this.#parts);
+    this.hands = new this.#parts.Hands(this, params);
+    this.#early.pass();
+    return this.hands;
   }
 
   /** The physics, which comes after the page; null before. @returns {any} */
@@ -72,34 +102,24 @@ export class Stage {
     const lines = wish.room === this.#wish.room ? this.room?.roster.lines ?? [] : [];  // what was said stays, in the same room
     this.#wish = wish;
     this.room?.stop();
-    this.#show('live');
+    this.show('live');
     this.followed = 0;
-    this.room = new Room({ url: new URL('ws', location.href).href.replace(/^http/, 'ws'), core: this.core, wish, storage, onNotice: toast, onTokenWanted: (why) => this.#askToken(why) });
+    this.room = new Room({ url: new URL('ws', location.href).href.replace(/^http/, 'ws'), core: this.core, wish, parts: this.#parts, storage, onNotice: toast, onTokenWanted: (why) => void this.whole().then((hands) => hands.askToken(why), () => {}) });
     for (const line of lines) this.room.roster.say(line.from, line.text, line.id);
     document.body.dataset.role = wish.role;
     this.room.start();
+    if (wish.role === 'player') this.whole().catch(() => {});  // there is no playing without
   }
 
   /** What a page that is loaded anew needs to be put back into its louse; null: nobody plays. */
   get back() { return this.isPlaying && this.room?.door.resume ? { name: this.room.door.wish.name, room: this.room.welcome?.room ?? '', resume: this.room.door.resume } : null; }
 
-  /** Into another room; the address names it, for a reload or a friend. @param {string} room */
-  choose(room) {
-    params.set('room', room);
-    history.replaceState(null, '', `${location.pathname}?${params}`.replaceAll('%2F', '/'));
-    this.enter({ room });
-  }
-
   /** Plays, or watches again. */
-  async join() {
-    if (this.source !== this.room || this.room?.door.wish.role === 'player') return this.enter({ role: 'spectator' });
-    const name = shortName(kept('name') || await ask({ title: 'What is your louse called?', label: 'Name' }) || '');
-    if (!name) return;
-    keep('name', name);
-    this.enter({ role: 'player', name });
-    this.view('follow');
-    byId('picture').focus();
-  }
+  async join() { return (await this.whole()).join(); }
+  /** A recording's bytes. @param {Blob} blob @param {string} name */
+  async open(blob, name) { return (await this.whole()).open(blob, name); }
+  /** The laboratory. */
+  async compare() { return (await this.whole()).compare(); }
 
   follow(id) {
     this.followed = id;
@@ -112,91 +132,25 @@ export class Stage {
     if (name === 'follow' && !this.followed && this.room?.door.wish.role !== 'player') this.followed = this.source?.rows?.[0]?.id ?? 0;  // the one that the panel names
   }
 
-  setTheme(name) {
-    setTheme(name);
-    this.picture.setTheme(theme());
-  }
-
-  /** A recording's bytes. @param {Blob} blob @param {string} name */
-  async open(blob, name) {
-    toast(`opening ${name}`);
-    const { Recording, Player } = await import('./later.js');
-    const recording = await Recording.open(this.core, blob, this.workers.reader).catch((error) => toast(`${name}: ${error.message}`, 'bad'));
-    if (!recording) return;
-    this.player?.close();
-    this.#show('recording');
-    const isFirst = !this.file;
-    this.file = name;
-    this.followed = 0;
-    const player = this.player = new Player(recording, toast);
-    player.isPlaying = !calm.matches;
-    player.onSeek = () => this.picture.clearTrails();
-    this.panels.recording(player);
-    const at = isFirst ? hash().get('t') : null;  // the address means the one it came with
-    if (at !== null && at !== '') player.seek(Number(at) || player.info.first);
-    if (player.info.is_cut_off) toast('this recording ends before its game did');
-  }
-
-  async compare() {
-    const { SideBySide, LabPanel, Curves } = await import('./later.js');
-    this.#show('lab');
-    this.lab = new SideBySide(this.core);
-    const lab = this.lab, rub = () => { lab.rubs = !lab.rubs; lab.begin(); this.picture.clearTrails(); };
-    const begin = (isNext) => { lab.begin(isNext); this.picture.clearTrails(); };
-    this.panels.lab?.end();
-    this.panels.lab = new LabPanel(Curves, { again: () => begin(false), next: () => begin(true), pause: () => { lab.isPlaying = !lab.isPlaying; }, rub });
-  }
-
-  #show(kind) {
-    if (kind !== 'recording') { this.player?.close(); this.player = null; this.panels.recording(null); }
+  /** @param {'live'|'recording'|'lab'} kind */
+  show(kind) {
+    if (kind !== 'recording') { this.player?.close(); this.player = null; }
     if (kind !== 'live') { this.room?.stop(); this.room = null; }
-    if (kind !== 'lab') { this.lab = null; this.panels.lab?.end(); this.panels.lab = null; }
-    this.panels.chat.clear();
+    if (kind !== 'lab') this.lab = null;
+    this.hands?.show(kind);
     document.body.dataset.source = kind;
     if (kind !== 'live') document.body.dataset.role = 'none';
-  }
-
-  async #askToken(why) {
-    const token = await ask({ title: 'A password, please', label: why, isSecret: true, most: 256 });
-    if (token) this.room?.enter(token); else this.room?.stop();
-  }
-
-  /** Follows the next louse by its number, or the one before. */
-  step(by) {
-    const ids = (this.source?.lice ?? []).map(({ id }) => id).sort((a, b) => a - b);
-    if (!ids.length) return;
-    const k = ids.indexOf(this.followed);
-    this.follow(ids[(k < 0 ? (by > 0 ? 0 : ids.length - 1) : k + by + ids.length) % ids.length]);
-  }
-
-  #bindHands() {
-    const steering = () => (this.isPlaying ? this.room?.own.steering : null), seconds = () => performance.now() / 1000;
-    const hold = (control) => steering()?.hold(control, seconds()), release = (control) => steering()?.release(control);
-    new Keys({ isRecording: () => !!this.player, isPlaying: () => this.isPlaying, hold, release, releaseAll: () => steering()?.releaseAll(), act: (action) => act(this, action) });
-    new Touch({ stick: (vector) => steering()?.stick(vector), brake: (isHeld) => (isHeld ? hold('brake') : release('brake')) });
-    new CanvasInput({ turn: (dx, dy) => this.picture.camera.turn(dx, dy), zoom: (factor) => this.picture.camera.zoom(factor), click: (x, y) => { const id = this.picture.pick(x, y); if (id) this.follow(id); } });
-    this.drop = new Drop((file) => this.open(file, file.name), (text) => toast(text, 'bad'));
-    document.addEventListener('click', (event) => {
-      const button = /** @type {HTMLElement} */ (event.target).closest('[data-do]');
-      if (!(button instanceof HTMLElement)) return;
-      act(this, button.dataset.do);
-      if (event.detail > 0 && this.isPlaying && !document.querySelector('dialog[open]')) byId('picture').focus();  // by a pointer: Space brakes again
-    });
-    addEventListener('keydown', (event) => { if (event.key === 'Escape' && event.target !== byId('say') && !document.querySelector('dialog[open]')) this.teacher.dismiss(); });
-    onName();
-    onPalette(params.get('palette'), (palette) => this.picture.setPalette(palette));
-    onSystemTheme(() => this.picture.setTheme(theme()));
-    document.addEventListener('visibilitychange', () => {
-      clearTimeout(this.#hiding);
-      if (document.hidden) this.#hiding = setTimeout(() => this.room?.hide(true), HIDDEN_AFTER); else this.room?.hide(false);
-    });
-    addEventListener('hashchange', () => { const at = hash().get('t'); if (this.player && at) this.player.seek(Number(at) || 0); });
   }
 
   frame(now) {
     requestAnimationFrame((next) => this.frame(next));
     const { source, picture } = this, seconds = performance.now() / 1000;  // what is sent bears the time at which it is, not the picture's
-    if (this.isPlaying) this.room?.own.steering.lookAlong(this.picture.camera.azimuth);
+    const isLate = now > PANELS_BY;
+    if (!this.#isAsked && (picture.peopled > 0 || isLate)) {  // the frame behind the first picture
+      this.#isAsked = true;
+      this.whole().catch(() => {});
+    }
+    if (this.isPlaying) this.room?.own?.steering.lookAlong(this.picture.camera.azimuth);
     source?.update(seconds);
     if (source?.ground && source.ground !== this.#ground) this.#setGround(source.ground);
     if (source?.ground && source.isKnown !== false) {  // a ground without its lice would only hold up the first picture
@@ -204,15 +158,15 @@ export class Stage {
       const facts = source.facts?.(this.followed || source.you || 0);
       byId('picture').classList.remove('early');
       picture.draw(sceneOf(source, this.followed || source.you || 0, facts ? source.marks(facts) : null), now);
-      if (facts && this.#isWhole) this.panels.every(source, { ...facts, azimuth: picture.camera.azimuth }, seconds);
+      if (facts && this.#isWhole) this.hands?.panels.every(source, { ...facts, azimuth: picture.camera.azimuth }, seconds);
     }
-    if (!this.#isWhole && (picture.peopled > 1 || now > PANELS_BY)) {
+    if (!this.#isWhole && this.hands && (picture.peopled > 1 || isLate)) {
       this.#isWhole = true;
       byId('over').classList.remove('early');
     }
     if (this.#isWhole && now - this.#panelsAt >= PANELS_EVERY) {
       this.#panelsAt = now;
-      this.panels.update(this);
+      this.hands?.panels.update(this);
     }
   }
 

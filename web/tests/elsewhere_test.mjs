@@ -3,7 +3,10 @@ import test, { afterEach } from 'node:test';
 import { linkTo, movedTo, toldAddress } from '../page/live/elsewhere.js';
 import { Door, Link } from '../page/live/link.js';
 import { decoded } from '../page/live/messages.js';
+import { factsOf, marksIn } from '../page/live/goal.js';
+import { OwnGame } from '../page/live/own/own_game.js';
 import { Room } from '../page/live/room.js';
+import { told } from '../page/live/words.js';
 
 const HELLO = { type: 'hello', protocol: 1, behavior: 10, server: 's', session: '1', rooms: ['hills', 'volcano'], features: [], limits: {}, hosts: ['10.0.0.6:7778'] };
 const WELCOME = {
@@ -95,7 +98,7 @@ test('a door asks for the room it was in, also where the server does not name it
 test('a room says where it is, keeps its token and its name, and asks this server again only when a person wants it', () => {
   Wire.all = [];
   const notices = [], wish = { role: 'player', name: 'ann', room: '', token: '' };
-  const room = new Room({ url: 'wss://farm.example/ws', core: { behavior: 10 }, wish, storage: null, onNotice: (text) => notices.push(text), onTokenWanted: () => assert.fail(), Socket: Wire });
+  const room = new Room({ url: 'wss://farm.example/ws', core: { behavior: 10 }, wish, parts: { factsOf, marksIn, OwnGame, told }, storage: null, onNotice: (text) => notices.push(text), onTokenWanted: () => assert.fail(), Socket: Wire });
   try {
     room.start();
     Wire.all[0].say(HELLO, WELCOME, moved('bye', '10.0.0.6:7778'));

@@ -1,7 +1,8 @@
 // A louse lies on the ground as the document turns it: yaw about z, then pitch about the turned y, then roll about x.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { bodyAxes, louseMesh } from '../page/picture/louse.js';
+import { bodyAxes } from '../page/picture/louse.js';
+import { louseMesh } from '../page/picture/louse_mesh.js';
 import { sequence } from './sequence.mjs';
 
 /**

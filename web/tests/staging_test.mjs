@@ -2,7 +2,8 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { Camera } from '../page/picture/camera.js';
-import { buildScenery } from '../page/picture/marks.js';
+import { drawMarks } from '../page/picture/marks.js';
+import { buildScenery } from '../page/picture/scenery.js';
 import { Batch } from '../page/picture/batch.js';
 import { Relief } from '../page/picture/relief.js';
 import { Staging } from '../page/picture/staging.js';
@@ -19,6 +20,7 @@ const MARKS = {
 
 function staged(scene, { f = hill, more = {}, view = 'orbit', now = 1000, width = 1280, height = 800, palette = 'default', calm = true } = {}) {
   const relief = new Relief(groundOf([-20, -20, 20, 20], 41, 41, f, more)), camera = new Camera(calm), staging = new Staging();
+  staging.drawMarks = drawMarks;
   camera.setStage(relief.stage(relief.lowest - 3));
   camera.view = view;
   staging.setRelief(relief);
@@ -106,7 +108,7 @@ test('what flies is drawn at its height, with its shadow on the ground', () => {
 
 test('over an edge that wraps all goes on: the camera, others, trails, gates', () => {
   const relief = new Relief(groundOf([-20, -20, 20, 20], 41, 41, (x, y) => Math.cos(Math.PI * x / 20) + Math.cos(Math.PI * y / 20), { wraps: [true, true] }));
-  const camera = new Camera(false), staging = new Staging(), look = { camera, palette: 'default', theme: 'dark', calm: false };
+  const camera = new Camera(false), staging = Object.assign(new Staging(), { drawMarks }), look = { camera, palette: 'default', theme: 'dark', calm: false };
   camera.setStage(relief.stage(-5));
   camera.view = 'follow';
   staging.setRelief(relief);

@@ -1,6 +1,6 @@
 // @ts-check
 // What the rules of play want and show: the lines over the picture, the marks on the ground, the table, the podium. And what there
-// is to see of a room: its facts, what is proven, the scene for the picture.
+// is to say of a room: its facts, what is proven.
 import { leftText, medalOf, medalToWin, MOMENTS, pointer, scoreText, spanText } from './words.js';
 
 const HARVEST = 30, TOLD_BEFORE = 15;  // s
@@ -171,29 +171,4 @@ export function proofOf(room) {
   if (room.welcome?.stream === 'inputs') return { text: `state ok ${room.stream?.proven ?? 0}`, tone: 'ok', why: 'so many ticks were run again here from the inputs alone, each equal to the server\'s, bit for bit' };
   const { exact = 0, corrected = 0 } = room.own.pilot?.prediction ?? {};
   return exact + corrected ? { text: `predicted ${exact}/${exact + corrected}`, tone: corrected ? '' : 'ok', why: 'so many of the server\'s answers said of your louse what this page had computed before they came, bit for bit' } : { text: '', tone: '' };
-}
-
-/** The colours of ghosts, by kind; their outlines and names tell them from lice. */
-const GHOSTS = { record: 2, author: 4, own: 'you' };
-
-/** A louse with the ground under it and what it is called. */
-function placed(louse, ground) {
-  const sample = ground.sample(louse.x, louse.y);  // of a big map the server knows how high they are
-  return !ground.isExact && louse.z !== undefined ? { ...louse, zx: sample.zx, zy: sample.zy } : { ...louse, z: sample.z, zx: sample.zx, zy: sample.zy };
-}
-
-/**
- * @param {any} source a room, a player or the lab
- * @param {number} followed the louse that is followed, or 0
- * @param {any} marks what the rules show
- */
-export function sceneOf(source, followed, marks) {
-  const { ground, you = 0 } = source;
-  const lice = source.lice.map((louse) => {
-    const { id, phase, x, y, vx, vy, heading_x, heading_y, flight_z, flight_vz, distance, outline } = louse, sample = ground.sample(x, y);
-    const z = !ground.isExact && louse.z !== undefined ? louse.z : sample.z;  // as in placed(); to copy hundreds as they come takes tens of times as long as to name what is drawn
-    return { id, phase, x, y, vx, vy, heading_x, heading_y, flight_z, flight_vz, distance, outline, z, zx: sample.zx, zy: sample.zy, name: source.nameOf(id), colour: id, isYou: id === you && you !== 0 };
-  });
-  const ghosts = (marks?.ghosts ?? []).map((ghost) => ({ ...placed(ghost, ground), colour: GHOSTS[ghost.kind] }));
-  return { lice, you, follow: followed, marks: { ...marks, ghosts } };
 }

@@ -1,6 +1,5 @@
 // @ts-check
 // Who is in the room and what was said: names from the welcome and from events, the chat and the game's own notices.
-import { told } from './words.js';
 
 /** The oldest lines are forgotten beyond. */
 const LINES = 60;
@@ -10,6 +9,14 @@ export class Roster {
   /** @type {{from: string, id: number, text: string}[]} `from` is empty for a notice of the game */ lines = [];
   /** How many lines there ever were: tells what is new. */ said = 0;
   spectators = 0;
+  /** Words for an event, which come behind the first picture; null before. @type {typeof import('./words.js').told|null} */ #told = null;
+  /** Events that have none yet. @type {Parameters<typeof import('./words.js').told>[]} */ #untold = [];
+
+  /** @param {typeof import('./words.js').told} told */
+  setWords(told) {
+    this.#told = told;
+    for (const what of this.#untold.splice(0)) this.note(told(...what));
+  }
 
   /** A new session: who is there replaces who was; the chat stays. */
   welcome(welcome) {
@@ -22,7 +29,14 @@ export class Roster {
     if (event.id !== 0 && event.kind === 'joined') this.#residents.set(event.id, { name: event.name, role: event.role ?? 'player' });
     if (event.id !== 0 && event.kind === 'left') this.#residents.delete(event.id);
     if (event.kind === 'chat') this.say(event.name, event.text ?? '', event.id);
-    else this.note(told(event, you, hz, (id) => this.nameOf(id), isPlayed));
+    else this.#tell([event, you, hz, (id) => this.nameOf(id), isPlayed]);
+  }
+
+  /** @param {Parameters<typeof import('./words.js').told>} what */
+  #tell(what) {
+    if (this.#told) return this.note(this.#told(...what));
+    this.#untold.push(what);
+    if (this.#untold.length > LINES) this.#untold.shift();
   }
 
   note(text) { if (text) this.say('', text, 0); }

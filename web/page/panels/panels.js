@@ -2,7 +2,7 @@
 // All panels together, told what there is: some things with each frame, the rest ten times a second.
 import { linkTo } from '../live/elsewhere.js';
 import { goalLines, podium, proofOf, scoreRows } from '../live/goal.js';
-import { rulesInWords } from '../live/words.js';
+import { farewell, rulesInWords } from '../live/words.js';
 import { Chat } from './chat.js';
 import { showHelp } from './dialogs.js';
 import { byId, setHidden, setPressed, setText } from './elements.js';
@@ -23,8 +23,9 @@ export class Panels {
   /** @type {any} */ #facts = null;
   #scoredAt = -Infinity; #scored = 0; #haveMoved = true;
 
-  /** @param {{follow: (id: number) => void, say: (text: string) => void, choose: (room: string) => void, seek: (tick: number) => void}} hands */
-  constructor({ follow, say, choose, seek }) {
+  /** @param {{follow: (id: number) => void, say: (text: string) => void, choose: (room: string) => void, seek: (tick: number) => void, figure: () => Promise<import('./error_figure.js').ErrorFigure>}} hands */
+  constructor({ follow, say, choose, seek, figure }) {
+    this.figure = figure;
     this.top = new TopBar(choose);
     this.scores = new Scores(follow);
     this.louse = new LousePanel();
@@ -47,8 +48,8 @@ export class Panels {
       this.#error = null;
       return;
     }
-    const { ErrorFigure } = await import('./error_figure.js');
-    this.#error ??= new ErrorFigure();  // asked twice while it came
+    const figure = await this.figure();
+    this.#error ??= figure;  // asked twice while it came
   }
 
   /** With each frame. @param {any} source @param {any} facts @param {number} now [s] */
@@ -75,7 +76,7 @@ export class Panels {
       this.#insets(camera);
       this.#haveMoved = false;
     }
-    if (room && source === room) this.#room(room, picture, colourOf, isPlaying ? page.teacher.observe(room, performance.now() / 1000) : []);
+    if (room && source === room) this.#room(room, picture, colourOf, isPlaying ? page.hands.teacher.observe(room, performance.now() / 1000) : []);
     if (player) this.bar.update(player);
     if (page.lab) { setText(byId('proof'), ''); this.top.line('a laboratory'); return this.lab?.update(page.lab); }
     if (player) { this.chat.update(player, colourOf); setText(byId('proof'), ''); this.top.line(`${player.info.name}${player.info.mode === 'roam' ? '' : `/${player.info.mode}`}, a recording`); }
@@ -117,7 +118,7 @@ export class Panels {
   #line(room) {
     const lost = room?.lost, again = lost?.again == null ? null : Math.max(0, lost.again - performance.now() / 1000);
     const silence = room?.silence ?? null;
-    if (lost) this.top.lost(`${capital(lost.reason)}. ${again === null ? '' : `Trying again in ${again.toFixed(0)} s.`}`, true, lost.address && linkTo(lost.address, room.door.room || room.door.wish.room, location.href));
+    if (lost) this.top.lost(`${capital(farewell(lost))}. ${again === null ? '' : `Trying again in ${again.toFixed(0)} s.`}`, true, lost.address && linkTo(lost.address, room.door.room || room.door.wish.room, location.href));
     else if (silence !== null) this.top.lost(`The server has not spoken for ${silence.toFixed(1)} s.`, false);
     else this.top.lost(room?.stands && room.lice.length ? 'The room is paused: no tick passes.' : '', false);
   }

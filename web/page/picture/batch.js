@@ -3,6 +3,8 @@
 
 /** Numbers a vertex: x, y, z, 1 and red, green, blue, alpha, the colour already times alpha. */
 const STRIDE = 8;
+/** Numbers a louse that is drawn: x, y, z, half length; forward, phase of the walk; up, 1 a ghost; colour, unused. */
+export const INSTANCE = 16;
 
 /** Three numbers from 0 to 1. @typedef {[number, number, number]} Light */
 /** @typedef {(x: number, y: number) => number} HeightAt of the drawn ground [m] */

@@ -2,7 +2,7 @@
 // How a ground looks before it is painted well: the colours of its grid's points and the light on them, without shadows and grain,
 // as the shader `paint` mixes them (shaders.js). Some 5 ms here; where a processor draws the shader is not even compiled after 100.
 import { along } from './colours.js';
-import { STEEPEST } from './shaders.js';
+import { STEEPEST } from './relief.js';
 import { SUN } from './vectors.js';
 
 const SKY_LIGHT = [.30, .38, .52], SUN_LIGHT = [1.18, 1.06, .88];

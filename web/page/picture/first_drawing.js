@@ -5,8 +5,16 @@
 import { THEMES, rgb } from './colours.js';
 import { firstCoat, rampsOf } from './first_coat.js';
 import { layOut, makeBuffer, use } from './gl.js';
-import { INSTANCE } from './lice_drawing.js';
+import { INSTANCE } from './batch.js';
 import { clamp } from './vectors.js';
+
+/** Of every shader. */
+export const HEAD = '#version 300 es\nprecision highp float;\n';
+
+export const FLAT = HEAD + 'layout(location=0) in vec4 p; layout(location=1) in vec4 k; uniform mat4 M; uniform float nearer; out vec4 c; void main(){ c=k; gl_Position=M*p; gl_Position.z-=nearer*gl_Position.w; }';
+
+/** Triangles with a colour at each corner. @type {Record<string, [string, string]>} */
+export const PLAIN = { plain: [FLAT, HEAD + 'in vec4 c; out vec4 o; void main(){ o=c; }'] };
 
 export const NO_CHANGE = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 /** Of the sky, each way. */

@@ -2,16 +2,15 @@
 // The ground with its sides and the sky behind it.
 import { THEMES, rgb } from './colours.js';
 import { firstCoat, rampsOf } from './first_coat.js';
-import { fillTexture, layOut, makeBuffer, use } from './gl.js';
+import { layOut, makeBuffer, use } from './gl.js';
+import { bottomOf } from './relief.js';
+import { fillTexture } from './surface.js';
 import { SUN } from './vectors.js';
 
 /** Of the map's width: so much of a map that wraps is shown again beyond each edge, fading. */
 const MARGIN = .22;
 /** Units of the textures. */
 const SHAPE = { unit: 0 }, LIGHT = { unit: 1 }, RAMPS = { unit: 2 }, PAINTED = { unit: 3 };
-
-/** How low the underside of the block is [m]. @param {import('./relief.js').Relief} relief */
-export const bottomOf = relief => relief.lowest - .07 * (relief.highest - relief.lowest) - .045 * relief.radius / relief.exaggeration;
 
 export class GroundDrawing {
   /** @param {WebGL2RenderingContext} gl @param {Record<string, import('./gl.js').Program>} programs @param {boolean} isSoftware */

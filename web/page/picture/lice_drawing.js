@@ -1,11 +1,11 @@
 // @ts-check
 // Lice: one mesh for those near, plainer ones for those far off, all of one kind in a call.
-import { DEPTHS, layOut, makeBuffer, use } from './gl.js';
-import { louseMesh } from './louse.js';
+import { INSTANCE } from './batch.js';
+import { layOut, makeBuffer, use } from './gl.js';
+import { louseMesh } from './louse_mesh.js';
+import { DEPTHS } from './drawing.js';
 import { SUN } from './vectors.js';
 
-/** Numbers an instance: x, y, z, half length; forward, phase of the walk; up, 1 a ghost; colour, unused. */
-export const INSTANCE = 16;
 /** From so many pixels of half length on a louse has head and legs, and all of it; where there are many, later. */
 const FINER = [9, 20], FINER_OF_MANY = [17, 30], MANY = 60;
 

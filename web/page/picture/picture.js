@@ -4,13 +4,13 @@
 import { Camera } from './camera.js';
 import { THEMES, css, louseColour } from './colours.js';
 import { Drawing } from './drawing.js';
-import { buildScenery } from './marks.js';
-import { Names } from './names.js';
-import { Relief } from './relief.js';
-import { STEEPEST } from './shaders.js';
+import { Relief, STEEPEST } from './relief.js';
+import { buildScenery } from './scenery.js';
 import { Staging } from './staging.js';
 
 const EMPTY = 2500;  // ms from the navigation on; a room that has shown nobody by then may be empty
+
+/** @typedef {Pick<typeof import('./fine_drawing.js') & typeof import('./marks.js') & typeof import('./names.js'), 'FineDrawing' | 'Names' | 'drawMarks'>} Parts */
 
 export class Picture {
   /**
@@ -23,7 +23,9 @@ export class Picture {
     this.baker = baker;
     this.calm = calm;
     this.camera = new Camera(calm);
-    this.names = new Names(labels);
+    this.labels = labels;
+    /** Not before complete(). @type {import('./names.js').Names | null} */
+    this.names = null;
     this.staging = new Staging();
     this.fit(SCALES[SCALES.length - 1]);  // a context is made for a canvas of this size, and made anew for another one
     this.drawing = new Drawing(canvas);
@@ -47,6 +49,13 @@ export class Picture {
     this.isFirst = true;
     /** Milliseconds of own script in the last frame. */
     this.cost = 0;
+  }
+
+  /** What a first picture of plain triangles does without has come; until then each one is such. @param {Parts} parts */
+  complete({ FineDrawing, Names, drawMarks }) {
+    this.staging.drawMarks = drawMarks;
+    this.drawing.Fine = FineDrawing;
+    this.names = new Names(this.labels);
   }
 
   /** How many points a grid of this ground should have: more than the machine can draw help nobody. @param {number[]} domain */
@@ -151,8 +160,8 @@ export class Picture {
     const { w, h, width, height } = this.fit(this.resolution.scale);
     camera.update(w, h, now, staging.find(scene, scene.follow || camera.follow), scene.marks?.arrow);
     staging.stage(scene, this, now, width, height);
-    drawing.draw(this, staging, width, height, now);
-    if (!this.isFirst) {
+    if (!drawing.draw(this, staging, width, height, now)) return;
+    if (!this.isFirst && this.names) {
       this.names.draw(staging.names, camera, this.theme, staging.arrows);
       if (!this.isBaked) this.bake(this.relief);
     }

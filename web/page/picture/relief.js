@@ -9,6 +9,9 @@ import { clamp, mix } from './vectors.js';
  *   centre?: any, edges?: 'walls' | 'wrap' | 'open'}} GroundData
  */
 
+/** The end of the slopes' colours: so many times what 5 % of the map exceed. */
+export const STEEPEST = 1.25;
+
 /** The least of 1, 2, 5, 10, ... times a power of ten that is `least` or more. @param {number} least above 0 */
 export function roundStep(least) {
   const power = 10 ** Math.floor(Math.log10(least));
@@ -114,3 +117,6 @@ export class Relief {
     };
   }
 }
+
+/** How low the underside of the block is [m]. @param {import('./relief.js').Relief} relief */
+export const bottomOf = relief => relief.lowest - .07 * (relief.highest - relief.lowest) - .045 * relief.radius / relief.exaggeration;

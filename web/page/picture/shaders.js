@@ -1,11 +1,9 @@
 // @ts-check
-// What the graphics processor runs. A ground's light and colours are painted once into a texture (PAINT), which
+// What the graphics processor runs behind the first picture. A ground's light and colours are painted once into a texture (PAINT), which
 // each frame only looks up; contours are drawn by the frame, one pixel wide at any distance.
 
-/** The end of the slopes' colours: so many times what 5 % of the map exceed. */
-export const STEEPEST = 1.25;
-
-const HEAD = '#version 300 es\nprecision highp float;\n';
+import { FLAT, HEAD } from './first_drawing.js';
+import { STEEPEST } from './relief.js';
 
 /** The sky at a place of the picture, 0 to 1. */
 const SKY = `
@@ -18,7 +16,6 @@ uniform highp sampler2D depths; uniform float hides; bool isHidden(){ return hid
 
 const WHOLE = HEAD + `out vec2 t; void main(){ vec2 p=vec2(gl_VertexID&1,gl_VertexID>>1)*4.-1.; t=p*.5+.5; gl_Position=vec4(p,.999999,1); }`;
 
-const FLAT = HEAD + 'layout(location=0) in vec4 p; layout(location=1) in vec4 k; uniform mat4 M; uniform float nearer; out vec4 c; void main(){ c=k; gl_Position=M*p; gl_Position.z-=nearer*gl_Position.w; }';
 
 /** @type {Record<string, [string, string]>} */
 export const SHADERS = {
@@ -89,7 +86,6 @@ void main(){ if(isHidden()) discard; vec3 n=normalize(N), v=normalize(eye-W); fl
   o=vec4(sqrt(clamp(lit,0.,1.)),1); }`],
 
   // as flat, of what nothing hides: of a first picture all
-  plain: [FLAT, HEAD + 'in vec4 c; out vec4 o; void main(){ o=c; }'],
 
   flat: [FLAT, HEAD + HIDE + 'in vec4 c; out vec4 o; void main(){ if(isHidden()) discard; o=c; }'],
 };

@@ -1,10 +1,10 @@
 // @ts-check
 // Turns a scene into what is drawn of it: instances of lice, triangles, ribbons, names.
-import { bodyAxes } from './louse.js';
+import { arrowTo } from './arrows.js';
 import { Batch } from './batch.js';
 import { GOALS, OTHERS, louseColour, rgb } from './colours.js';
-import { POSTS, centreOf, drawCrumbs, drawGates, drawRing, drawSun, middleOf } from './marks.js';
-import { arrowTo } from './names.js';
+import { bodyAxes } from './louse.js';
+import { centreOf, drawSun } from './scenery.js';
 import { POINTS, Ribbons, Trails } from './trails.js';
 import { clamp } from './vectors.js';
 
@@ -51,6 +51,8 @@ export class Staging {
     /** What stage() was given last. @type {{camera: import('./camera.js').Camera, theme: import('./colours.js').ThemeName} | undefined} */
     this.look = undefined;
     this.seconds = 0;
+    /** marks.js, which comes behind the first picture; null before. @type {typeof import('./marks.js').drawMarks | null} */
+    this.drawMarks = null;
     this.goal = GOALS.default;
     this.wraps = false;
     /** @type {any} */
@@ -115,16 +117,7 @@ export class Staging {
       size: (x, y) => size(x, y, this.heightAt(x, y)), louse: index => rgb(louseColour(palette, index)), goal: rgb(GOALS[palette]), nearest: (a, b) => relief.nearest(a, b),
     };
     this.goal = GOALS[palette];
-    if (marks.ring) drawRing(board, { ...this.near(marks.ring), next: marks.ring.next && this.near(marks.ring.next) });
-    if (marks.gates) {
-      const gates = !this.wraps ? marks.gates : marks.gates.map(gate => {
-        const [x, y] = middleOf(gate), at = this.near({ x, y }), move = p => [p[0] + at.x - x, p[1] + at.y - y];
-        return { ...gate, a: move(gate.a), b: move(gate.b) };
-      });
-      drawGates(board, gates);
-      this.nameGates(gates, board);
-    }
-    if (marks.crumbs) drawCrumbs(board, marks.crumbs.map(crumb => this.near(crumb)));
+    if (scene.marks) this.drawMarks?.(this, board, scene.marks);
     const lice = marks.ghosts?.length ? scene.lice.concat(marks.ghosts.map((g, k) => {
       const [name, colour] = GHOSTS[g.kind] ?? ['ghost', 0];
       return { ...g, id: `ghost ${k}`, isGhost: true, name: g.name ?? name, colour: g.colour ?? colour };
@@ -220,14 +213,5 @@ export class Staging {
     }
     if (Math.hypot(at.x - x, at.y - y) > this.trails.leap(Math.hypot(louse.vx, louse.vy), (now - this.trails.last) / 1000)) return;
     ribbons.add(at.x, at.y, at.z + lift, wide, red, green, blue, strength);
-  }
-
-  /** @private @param {import('./marks.js').Gate[]} gates @param {import('./marks.js').Board} board */
-  nameGates(gates, board) {
-    for (const gate of gates) {
-      const [x, y] = middleOf(gate), isNext = gate.state === 'next', z = this.heightAt(x, y) + board.size(x, y) * POSTS * (isNext ? 1.3 : .8);
-      const p = this.look?.camera.project(x, y, z);
-      if (p) this.names.push({ key: `gate ${gate.number}`, text: String(gate.number) + (gate.air ? ' air' : ''), colour: isNext ? this.goal : null, badge: isNext, x: p.x, y: p.y, reach: 2, rank: isNext ? 1e7 : 10 });
-    }
   }
 }

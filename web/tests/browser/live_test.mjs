@@ -148,6 +148,20 @@ test('a page of which a part does not come says so', async () => {
   }
 });
 
+test('a key that is pressed before the page is whole is not lost', async () => {
+  const other = await context.newPage();
+  let pass = () => {};
+  const pressed = new Promise((resolve) => { pass = resolve; });
+  await other.route(/\/whole-[^/]*\.js$/, async (route) => { await pressed; await route.continue(); });
+  await other.goto(`${served.web}?room=hills`);
+  await until(other, () => window.woodlouse?.picture?.peopled > 0);
+  await other.keyboard.press('x');
+  assert.deepEqual(await known(other, () => [window.woodlouse.hands, window.woodlouse.picture.shading]), [null, 'height']);
+  pass();
+  await until(other, () => window.woodlouse.picture.shading === 'slope');
+  await other.close();
+});
+
 test('a page that is loaded anew is put back into its louse, and a watcher into none', async () => {
   await shown(page, `${served.web}?room=hills`);
   await known(page, () => { window.woodlouse.join(); });
