@@ -26,19 +26,22 @@ const spread = (values, digits = 0) => `${median(values).toFixed(digits)} (${Mat
 const say = (what, is, goal) => console.log(`${what.padEnd(72)} ${is}${goal ? `   goal ${goal}` : ''}`);
 const CROWD = ['--map', 'volcano', '--bots', '200', '--bots-alone', 'play', '--seed', '5'];
 
+/** Within a page, before it begins: notes when the first frame with lice in it is computed to its last pixel. */
+function noteFirstPicture() {
+  const look = () => {
+    const { picture } = window.woodlouse ?? {};
+    if (!picture?.peopled) return void requestAnimationFrame(look);
+    picture.drawing.gl.readPixels(0, 0, 1, 1, WebGL2RenderingContext.RGBA, WebGL2RenderingContext.UNSIGNED_BYTE, new Uint8Array(4));
+    window.firstPicture = performance.now();
+  };
+  requestAnimationFrame(look);
+}
+
 /** Milliseconds from the navigation until the first frame with lice in it is computed to its last pixel, in a browser that runs but
  * has nothing of the page: a new profile, and STARTING ms after its start. */
 async function firstPicture(served) {
   const context = await browsed(), page = context.pages()[0];
-  await page.addInitScript(() => {
-    const look = () => {
-      const { picture } = window.woodlouse ?? {};
-      if (!picture?.peopled) return void requestAnimationFrame(look);
-      picture.drawing.gl.readPixels(0, 0, 1, 1, WebGL2RenderingContext.RGBA, WebGL2RenderingContext.UNSIGNED_BYTE, new Uint8Array(4));
-      window.firstPicture = performance.now();
-    };
-    requestAnimationFrame(look);
-  });
+  await page.addInitScript(noteFirstPicture);
   await page.waitForTimeout(STARTING);
   await page.goto(served.web);
   await until(page, () => window.firstPicture > 0, 60000);
@@ -57,8 +60,10 @@ async function bytes(served) {
   const index = await (await fetch(served.web)).text();
   const asked = new Set(['', ...[...index.matchAll(/(?:href|src)="([^"]+)"/g)].map(([, name]) => name)]);
   const context = await browsed(), page = context.pages()[0];
+  await page.addInitScript(noteFirstPicture);
   await shown(page, served.web);
-  const first = await page.evaluate(() => performance.getEntriesByType('resource').map(({ name, encodedBodySize }) => [name, encodedBodySize]));
+  await until(page, () => window.firstPicture > 0, 60000);
+  const first = await page.evaluate(() => performance.getEntriesByType('resource').filter(({ startTime }) => startTime < window.firstPicture).map(({ name, encodedBodySize }) => [name, encodedBodySize]));
   await context.close();
   const document = gzipSync(index, { level: 9 }).length;
   const core = first.filter(([name]) => name.endsWith('.wasm')), rest = first.filter(([name]) => /\.(js|css|svg)$/.test(name));
