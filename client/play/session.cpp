@@ -69,9 +69,9 @@ void Session::on_message(const protocol::ServerMessage& message, core::Time arri
 void Session::tell_where(const protocol::Welcome& welcome, core::Time now) {
   if (connection_.address() == told_) return;
   told_ = connection_.address();
-  const std::string& before = room_.notice_line();  // what became of the louse
-  room_.notice(core::joined({before, before.empty() ? "" : "; ", "room ", welcome.room, " is at ",
-                             told_.text(), " now"}),
+  const std::string& louse = room_.notice_line();  // what became of it, the picture shows, too
+  room_.notice(core::joined({"room ", welcome.room, " is at ", told_.text(), " now",
+                             louse.empty() ? "" : "; ", louse}),
                now);
 }
 

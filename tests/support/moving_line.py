@@ -29,7 +29,7 @@ class MovingLine(BreakableLine):
     def move(self, address):
         """Says so to everybody who is there, and ends. The server hears nothing of it: a louse waits."""
         with self._lock:
-            for end in self._ends:
+            for end in self._ends[1::2]:  # the server's
                 end.last_word = moved("bye", address)
 
     def _serve_one(self, client):
