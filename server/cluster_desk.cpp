@@ -53,12 +53,11 @@ protocol::Bye ClusterDesk::begin_leaving(const protocol::Bye& otherwise) {
 
 void ClusterDesk::take_over(std::vector<RoomToGoOn> rooms) {
   const auto opened = [&]() -> core::Expected<void> {
-    if (rooms.empty()) return rooms_.open_all();
     for (RoomToGoOn& room : rooms) {
       const std::string name = room.name;
       if (auto one = rooms_.open(name, start_of(std::move(room))); !one) return one;
     }
-    return {};
+    return rooms_.open_missing();
   }();
   if (!opened) rooms_.fail(opened.error().text());
 }

@@ -28,7 +28,7 @@ class ClusterDesk {
  public:
   using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
   struct Rooms {
-    std::function<core::Expected<void>()> open_all;  ///< those of the command line, anew
+    std::function<core::Expected<void>()> open_missing;  ///< those of the command line that are not here
     std::function<core::Expected<void>(const std::string& name, Start start)> open;
     std::function<void(const std::string& name)> closed;
     std::function<void(const std::string& why)> fail;  ///< ends the server

@@ -1,6 +1,7 @@
 // What comes to a node's thread, from rooms and from NATS, in its order; what rooms tell is bounded.
 #pragma once
 
+#include <atomic>
 #include <cassert>
 #include <condition_variable>
 #include <cstddef>
@@ -42,6 +43,10 @@ class Inbox final : public LogDesk {
     // A tick needn't wake anybody: its line waits for the batch.
     return true;
   }
+  void doubt() override { is_in_doubt_ = true; }
+  [[nodiscard]] bool is_in_doubt() const override { return is_in_doubt_; }
+  /// The log has been asked: it is this host's.
+  void settle() { is_in_doubt_ = false; }
   void put(NodeEvent event) {
     assert(!std::holds_alternative<LogDesk::Job>(event));
     const std::lock_guard lock(mutex_);
@@ -71,6 +76,7 @@ class Inbox final : public LogDesk {
   std::deque<NodeEvent> events_;
   std::size_t jobs_ = 0;
   bool is_stopping_ = false;
+  std::atomic<bool> is_in_doubt_{false};
 };
 
 }  // namespace woodlouse::server

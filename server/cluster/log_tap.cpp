@@ -16,12 +16,13 @@ TapNumber next_number() {
 
 }  // namespace
 
-LogTap::LogTap(std::shared_ptr<LogDesk> desk, std::string room, replay::Header header)
+LogTap::LogTap(std::shared_ptr<LogDesk> desk, std::string room, replay::Header header, Duration away)
     : desk_(std::move(desk)),
       number_(next_number()),
       room_(std::move(room)),
       header_(std::move(header)),
-      keyframe_ticks_(replay::keyframe_ticks(header_.tick_hz)) {
+      keyframe_ticks_(replay::keyframe_ticks(header_.tick_hz)),
+      away_(away) {
   assert(desk_ != nullptr && !room_.empty());
 }
 
@@ -56,6 +57,9 @@ void LogTap::chat(std::uint64_t tick, match::PlayerId player, const std::string&
 }
 
 void LogTap::step(const LiveStep& step, const match::Match& game) {
+  const Time now = Clock::now();
+  if (stepped_at_ != Time::max() && now - stepped_at_ > away_) desk_->doubt();
+  stepped_at_ = now;
   if (!has_lost_)
     static_cast<void>(
         post([number = number_, step = step.shared()](ShardText& text, Time) { text.step(number, *step); }));

@@ -10,6 +10,7 @@
 
 #include "server/cluster/shard_text.h"
 #include "server/room/tick_watcher.h"
+#include "server/timing/clock.h"
 #include "shared/match/match.h"
 #include "shared/replay/format.h"
 
@@ -26,11 +27,15 @@ class LogDesk {
   virtual ~LogDesk() = default;
   /// False, and nothing done: too much waits.
   [[nodiscard]] virtual bool post(Job job) = 0;
+  /// Whoever was away may have lost his rooms meanwhile: they are in doubt until the log is asked.
+  virtual void doubt() = 0;
+  [[nodiscard]] virtual bool is_in_doubt() const = 0;
 };
 
 class LogTap final : public TickWatcher {
  public:
-  LogTap(std::shared_ptr<LogDesk> desk, std::string room, replay::Header header);
+  /// away: between two ticks; after that the game is in doubt.
+  LogTap(std::shared_ptr<LogDesk> desk, std::string room, replay::Header header, Duration away);
 
   void attach(Announce announce) override { announce_ = std::move(announce); }
   void begin(const match::Match& game) override;
@@ -39,6 +44,8 @@ class LogTap final : public TickWatcher {
             const std::string& text) override;
   void step(const LiveStep& step, const match::Match& game) override;
   void fall_asleep(const match::Match& game) override;
+  void wake(const match::Match&) override { stepped_at_ = Time::max(); }
+  [[nodiscard]] bool may_show() const override { return !desk_->is_in_doubt(); }
   void finish(const std::string& reason, std::function<void()> done) override;
 
  private:
@@ -50,6 +57,8 @@ class LogTap final : public TickWatcher {
   const std::string room_;
   const replay::Header header_;
   const std::uint64_t keyframe_ticks_;
+  const Duration away_;
+  Time stepped_at_ = Time::max();  ///< the last step; max: none since it began, or stood still
   Announce announce_;
   bool has_begun_ = false;  ///< the log knows of the game
   bool has_lost_ = false;   ///< something since the last keyframe that was taken

@@ -30,11 +30,15 @@ core::Expected<void> Node::connect() {
   if (const auto state = log_link_->stream_state(); !state)
     return core::fail(state.error().where, "has no such stream: " + state.error().what,
                       "make it, once:  woodlouse-server cluster init --cluster FILE");
-  return beat_link_->subscribe(settings_.beat_subject("*"),
-                               [this](const auto&, const std::string& bytes, auto) {
-                                 if (auto beat = beat_from(bytes))
-                                   table_.take(std::move(*beat), Clock::now());
-                               });
+  return beat_link_->subscribe(settings_.beat_subject("*"), [this](const auto&, const std::string& bytes,
+                                                                   auto) {
+    auto beat = beat_from(bytes);
+    if (!beat) return;
+    if (beat->host == settings_.host && beat->address != settings_.address && !is_twin_told_.exchange(true))
+      say(LogEvent::kClusterFault,
+          "another host, at " + beat->address + ", has this one's name: give each its own by --cluster-host");
+    table_.take(std::move(*beat), Clock::now());
+  });
 }
 
 void Node::start() {
@@ -53,7 +57,7 @@ void Node::leave() {
 }
 
 std::unique_ptr<TickWatcher> Node::watch(const std::string& room, replay::Header header) {
-  return std::make_unique<LogTap>(inbox_, room, std::move(header));
+  return std::make_unique<LogTap>(inbox_, room, std::move(header), settings_.silence / 2);
 }
 
 std::optional<std::string> Node::elsewhere(std::string_view room) const {

@@ -72,6 +72,7 @@ class Node final : public Cluster {
   [[nodiscard]] std::vector<RoomToGoOn> rooms_to_go_on() const;
   void own();
   void tell_owning();
+  void ask_the_log();
   void hear(std::deque<NodeEvent> events);
   void cut(Time now);
   void write(Time now);
@@ -103,10 +104,12 @@ class Node final : public Cluster {
   std::optional<ShardText> text_;
   Time cut_at_{};
   bool is_told_not_durable_ = false;
+  Time doubted_at_{};  ///< Time{}: the rooms are this host's, as far as is known
   bool is_difference_told_ = false;
   std::string last_fault_;  ///< told already
 
   std::atomic<bool> is_leaving_{false};
+  std::atomic<bool> is_twin_told_{false};
   mutable std::mutex mutex_;  ///< of what follows
   Beat beat_;
   std::vector<std::string> known_rooms_;  ///< of the shard, as the log has them

@@ -56,7 +56,18 @@ core::Expected<void> Node::read_beginning(const NatsLink::Message& last) {
   const std::string place = joined({"batch ", std::to_string(last.sequence)});
   const auto batch = unpack(last.bytes, place);
   if (!batch) return tl::unexpected(batch.error());
-  const auto beginning = ShardView::beginning({last.sequence, batch->head});
+  // What has gone by age can't be read: all hosts were away for long.
+  const auto state = log_link_->stream_state();
+  if (!state) return tl::unexpected(state.error());
+  BatchHead head = batch->head;
+  std::erase_if(head.rooms, [&](const RoomPlace& room) {
+    const bool is_lost = room.header < state->first || room.keyframe < state->first;
+    if (is_lost)
+      say(LogEvent::kClusterHole,
+          joined({"ROOM LOST: ", room.room, ": the log holds its beginning no more"}));
+    return is_lost;
+  });
+  const auto beginning = ShardView::beginning({last.sequence, head});
   for (const auto& [room, sequence] : beginning.headers) {
     const auto message = log_link_->read(sequence);
     if (!message) return tl::unexpected(message.error());
@@ -130,6 +141,7 @@ bool Node::take_over() {
   std::set<std::string> names;
   for (const RoomToGoOn& room : rooms) names.insert(room.name);
   text_->keep_places(names);
+  inbox_->settle();
   log_link_->unfollow();
   tell_owning();
   if (!inbox_->is_stopping()) hooks_.take_over(std::move(rooms));

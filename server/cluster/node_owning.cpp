@@ -17,6 +17,7 @@ void Node::own() {
   assert(writer_ && text_);
   while (!inbox_->is_stopping()) {
     hear(inbox_->take(Clock::now() + kLook));
+    if (inbox_->is_in_doubt()) ask_the_log();
     const Time now = Clock::now();
     text_->renew(now);
     if (now >= cut_at_ || text_->size() >= kCutBytes) cut(now);
@@ -30,6 +31,17 @@ void Node::own() {
     watch_durability(now);
   }
   hand_over();
+}
+
+/// Who was away asks before anything is shown. Where nobody answers, the rooms go on after a while, as they
+/// do while nothing is stored.
+void Node::ask_the_log() {
+  if (doubted_at_ == Time{}) doubted_at_ = Clock::now();
+  const auto last = read_last();
+  if (last || Clock::now() - doubted_at_ > kNotDurableAfter) doubted_at_ = Time{};
+  if (!last) return doubted_at_ == Time{} ? inbox_->settle() : void();  // or it is asked again
+  if (last->head.writer == writer_->writer()) return inbox_->settle();
+  writer_->failed();  // which has it read, and judged
 }
 
 void Node::tell_owning() {

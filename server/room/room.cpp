@@ -4,6 +4,7 @@
 
 #include <boost/asio/post.hpp>
 
+#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <utility>
@@ -325,7 +326,9 @@ void Room::tick(Time now) {
   if (late_) begin_late();
   members_.answer(number, now);
   members_.tell(step);
-  members_.send_frames();
+  if (std::all_of(watchers_.begin(), watchers_.end(),
+                  [](const auto& watcher) { return watcher->may_show(); }))
+    members_.send_frames();
   for (const auto& watcher : watchers_) watcher->rest(*game_);
 }
 

@@ -44,6 +44,9 @@ class TickWatcher {
   virtual void claimed(const Claim& /*claim*/) {}
   /// After the step. `game`: as the step left it, nothing queued since.
   virtual void step(const LiveStep& /*step*/, const match::Match& /*game*/) {}
+  /// Whether this game is still the room's, as far as is known: what no longer is, is shown to nobody. Behind
+  /// step().
+  [[nodiscard]] virtual bool may_show() const { return true; }
   /// After everything else of the tick is done: who is in the room was answered and shown it.
   virtual void rest(const match::Match& /*game*/) {}
   /// The room stands still, as nobody is there, or its operator has paused it. Nothing follows but chat(),

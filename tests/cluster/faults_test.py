@@ -85,6 +85,7 @@ class Hosts(Cluster):
             time.sleep(float(os.environ.get("SECONDS_STOPPED", "2")))
             for bot in clients.bots:
                 bot.addresses = [second.address]
+            went_on = time.monotonic()
             first.signal(signal.SIGCONT)
             first.wait_for("FENCED")
             clients.wait_for(lambda bot: len(bot.welcomes) == 2, "not all came back: " + first.log() + second.log())
@@ -93,6 +94,8 @@ class Hosts(Cluster):
                 self.assertEqual(bot.byes[0]["address"], second.address)
                 self.assertTrue(bot.welcomes[-1][1]["resumed"])
                 self.assertEqual(bot.welcomes[-1][1]["id"], louse[bot.name])
+            stale = sum(at > went_on and address == first.address for bot in clients.bots for at, address in bot.frames)
+            self.assertEqual(stale, 0, "frames of a room that was another host's by then")
         first.wait_for("cluster_follows")  # and stands by again
         said = self.check_log()
         self.assertIn("epoch 2 of b", said)

@@ -164,6 +164,7 @@ class Bot:
         self.losses = []     # times at which the line was cut
         self.byes = []
         self.newest = None   # (time, tick) of the newest frame
+        self.frames = []     # (time, address) of each frame
         self.stopped = False
 
     async def run(self):
@@ -195,6 +196,7 @@ class Bot:
                     say(type="join", protocol=1, role="bot", name=self.name, resume=self.token or True, state_hz=2,
                         fields=["id", "x", "y"])
                 elif kind in (b"key", b"delta"):
+                    self.frames.append((time.monotonic(), address))
                     self.newest = (time.monotonic(), int(re.search(rb'"tick":(\d+)', line).group(1)))
                 elif kind == b"welcome":
                     joined = True

@@ -29,9 +29,12 @@ struct Desk final : LogDesk {
     job(text, now);
     return true;
   }
+  void doubt() override { is_doubted = true; }
+  [[nodiscard]] bool is_in_doubt() const override { return is_doubted; }
   ShardText& text;
   Time now = Time{} + std::chrono::hours(1);
   bool is_full = false;
+  bool is_doubted = false;
 };
 
 /// A host with one room, whose log is a list of batches.
@@ -40,7 +43,8 @@ struct Shard {
 
   void open(const std::string& name, std::unique_ptr<match::Match> match) {
     game = std::move(match);
-    tap = std::make_unique<LogTap>(desk, name, replay::make_header(*game, "test", "volcano.json"));
+    tap = std::make_unique<LogTap>(desk, name, replay::make_header(*game, "test", "volcano.json"),
+                                   std::chrono::hours(1));
     tap->begin(*game);
   }
   void open(const std::string& name = "volcano", std::uint64_t seed = 5) {

@@ -172,7 +172,8 @@ TEST_CASE("a room too many is in no log, and hears it") {
     games.push_back(
         std::make_unique<match::Match>(volcano(), match::MatchSettings{60, k, state::Mode::kRoam}));
     taps.push_back(std::make_unique<LogTap>(shard.desk, "room " + std::to_string(k),
-                                            replay::make_header(*games.back(), "test", "volcano.json")));
+                                            replay::make_header(*games.back(), "test", "volcano.json"),
+                                            std::chrono::hours(1)));
     taps.back()->attach(
         [&told](const protocol::Notice& notice) { told += notice.code == "not_durable" ? 1 : 0; });
     taps.back()->begin(*games.back());
@@ -183,6 +184,23 @@ TEST_CASE("a room too many is in no log, and hears it") {
   ShardView view;
   read_all(view, shard);
   CHECK(view.rooms().size() == kMostRoomsOfShard);
+}
+
+TEST_CASE("a game that stood still for too long is in doubt, and shown to nobody till the log was asked") {
+  Shard shard;
+  shard.open();
+  shard.step();
+  CHECK(shard.tap->may_show());
+  LogTap hasty(shard.desk, "hills", replay::make_header(*shard.game, "test", "volcano.json"), Duration{-1});
+  const match::StepRecord& record = shard.game->advance();
+  hasty.step(LiveStep(record, {}), *shard.game);
+  CHECK(hasty.may_show());  // its first one
+  hasty.wake(*shard.game);
+  hasty.step(LiveStep(record, {}), *shard.game);
+  CHECK(hasty.may_show());  // the first one after it stood still
+  hasty.step(LiveStep(record, {}), *shard.game);
+  CHECK_FALSE(hasty.may_show());
+  CHECK_FALSE(shard.tap->may_show());  // so are all of the host
 }
 
 TEST_CASE("batches out of their order, of an old epoch or another behavior are refused") {
