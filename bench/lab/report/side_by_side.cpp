@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "bench/lab/report/race.h"
+
 namespace woodlouse::lab {
 
 void side_by_side(std::size_t count, const std::function<void(std::size_t)>& work,
@@ -30,6 +32,7 @@ void side_by_side(std::size_t count, const std::function<void(std::size_t)>& wor
     }
   };
   {
+    const AnyCore any_core;  // whoever times things has pinned this thread, and others inherit that
     std::vector<std::jthread> others;
     const std::size_t processors = std::max(1u, std::thread::hardware_concurrency());
     for (std::size_t k = 1; k < std::min(processors, count); ++k) others.emplace_back(take_turns);
