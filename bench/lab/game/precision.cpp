@@ -16,12 +16,11 @@
 #include "bench/lab/game/scene.h"
 #include "bench/lab/report/progress.h"
 #include "bench/lab/report/race.h"
+#include "bench/lab/report/side_by_side.h"
 #include "bench/lab/speed/maps.h"
 
 namespace woodlouse::lab {
 namespace {
-
-using MapPointer = std::shared_ptr<const map::Map>;
 
 /// The rooms' methods, and the two that cost or promise most of the others.
 constexpr std::array kGameMethods = {Integrator::kNystrom4, Integrator::kVerletQ, Integrator::kPrecise,
@@ -155,34 +154,54 @@ std::optional<Measured> measure(const map::Map& map, const std::vector<state::Lo
 /// Of the plays by vectors, which every method was made for, and of those along headings.
 struct Pool {
   Errors vectors, headings;
+  void add(const Pool& others) {
+    vectors.add(others.vectors);
+    headings.add(others.headings);
+  }
 };
 using Pools = std::map<Run, Pool>;
 
-/// All plays of one map; rows of `table`.
-Pools measure_errors(const map::Map& map, const Size& size, Table& table, Progress& progress,
-                     bool& same_bits) {
+/// What one play of one map came to.
+struct Played {
+  std::vector<std::vector<Table::Cell>> rows;
   Pools pools;
+  bool same_bits = true;
+};
+
+Played measure_errors(const map::Map& map, Play play, const Size& size) {
+  Played played;
   const std::vector<state::Louse> lice = starting_lice(map, size.lice, 3);
   const std::vector<Run> runs = runs_of(size);
-  for (const Play play : kPlays) {
-    std::optional<Truths> shared;
-    for (const int rate : size.rates) {
-      if (is_of_ticks(play) || !shared) shared = truths(map, lice, play, rate, size.seconds);
-      for (const Run& run : runs) {
-        if (run.rate != rate) continue;
-        const auto one = measure(map, lice, run, play, size, *shared);
-        if (!one) continue;
-        same_bits = same_bits && one->same_bits;
-        table.add({map.definition.name, std::string(to_text(play)), std::string(to_text(run.integrator)),
-                   static_cast<double>(rate), run.tolerance, one->sub_steps, one->errors.at(0.5),
-                   one->errors.at(0.9), one->errors.at(1.0), shared->doubts.at(1.0), shared->unforeseen()});
-        Pool& pool = pools[run];
-        (is_along_heading(play) ? pool.headings : pool.vectors).add(one->errors);
-      }
+  std::optional<Truths> shared;
+  for (const int rate : size.rates) {
+    if (is_of_ticks(play) || !shared) shared = truths(map, lice, play, rate, size.seconds);
+    for (const Run& run : runs) {
+      if (run.rate != rate) continue;
+      const auto one = measure(map, lice, run, play, size, *shared);
+      if (!one) continue;
+      played.same_bits = played.same_bits && one->same_bits;
+      played.rows.push_back({map.definition.name, std::string(to_text(play)),
+                             std::string(to_text(run.integrator)), static_cast<double>(rate), run.tolerance,
+                             one->sub_steps, one->errors.at(0.5), one->errors.at(0.9), one->errors.at(1.0),
+                             shared->doubts.at(1.0), shared->unforeseen()});
+      Pool& pool = played.pools[run];
+      (is_along_heading(play) ? pool.headings : pool.vectors).add(one->errors);
     }
-    progress.advance();
   }
-  return pools;
+  return played;
+}
+
+/// By map, then by play.
+std::vector<Played> measure_errors(const std::vector<const map::Map*>& maps, const Size& size) {
+  std::vector<Played> all(maps.size() * kPlays.size());
+  Progress progress("errors on maps", all.size());
+  side_by_side(
+      all.size(),
+      [&](std::size_t i) {
+        all[i] = measure_errors(*maps[i / kPlays.size()], kPlays[i % kPlays.size()], size);
+      },
+      [&] { progress.advance(); });
+  return all;
 }
 
 /// A method's time of a louse and simulated second [ns], in lanes and one by one.
@@ -232,10 +251,21 @@ core::Expected<void> measure_game_precision(const std::filesystem::path& folder,
               "vectors_9_of_10", "headings_median", "headings_9_of_10"});
   std::vector<GamePanel> panels;
   bool same_bits = true;
-  Progress progress("errors on maps", maps->size() * kPlays.size());
-  for (const MapPointer& map : *maps) {
-    if (!is_measured(*map)) continue;
-    const Pools pools = measure_errors(*map, size, table, progress, same_bits);
+  std::vector<const map::Map*> measured;
+  for (const auto& map : *maps) {
+    if (is_measured(*map)) measured.push_back(map.get());
+  }
+  // Before all times, which are taken with nothing beside them.
+  const std::vector<Played> played = measure_errors(measured, size);
+  for (std::size_t m = 0; m < measured.size(); ++m) {
+    const map::Map* const map = measured[m];
+    Pools pools;
+    for (std::size_t p = 0; p < kPlays.size(); ++p) {
+      const Played& one = played[m * kPlays.size() + p];
+      for (const auto& row : one.rows) table.add(row);
+      for (const auto& [run, pool] : one.pools) pools[run].add(pool);
+      same_bits = same_bits && one.same_bits;
+    }
     const auto times = measure_times(*map, size);
     GamePanel panel{map->definition.name, {}};
     for (const Run& run : runs_of(size)) {
