@@ -10,6 +10,7 @@
 
 #include "bench/lab/problems/motion.h"
 #include "bench/lab/report/progress.h"
+#include "bench/lab/report/side_by_side.h"
 #include "shared/core/random.h"
 #include "shared/physics/central_gravity.h"
 #include "shared/physics/world.h"
@@ -246,6 +247,42 @@ class Lice {
   std::vector<double> scale_;      ///< the most of that, above the bottom
 };
 
+struct Cell {
+  SurfaceContact contact;
+  Method method;
+  const Force& force;
+  const Roughness& roughness;
+};
+
+std::vector<Cell> cells() {
+  std::vector<Cell> all;
+  for (const SurfaceContact contact : kContacts) {
+    for (const Method method : kMethods) {
+      for (const Force& force : kForces) {
+        if (contact == SurfaceContact::kUnilateral && force.central_gravity > 0.0)
+          continue;  // no map has both
+        for (const Roughness& roughness : kRoughnesses) all.push_back({contact, method, force, roughness});
+      }
+    }
+  }
+  return all;
+}
+
+Gain gain_of(const Cell& cell, double seconds, std::uint32_t lice_count) {
+  state::Parameters p{9.81, cell.force.drag, cell.force.friction, 4.0, 1.0};
+  p.central_gravity = cell.force.central_gravity;
+  if (p.central_gravity > 0.0) p.core_radius = physics::default_core_radius(p.central_gravity);
+  p.contact = cell.contact;
+  p.method = cell.method;
+  Gain gain;
+  for (const double rate : kRates) {
+    Lice lice(ground_of(cell.roughness), p, cell.force.steering, rate, lice_count);
+    for (long tick = 0; tick < std::lround(seconds * rate); ++tick) lice.step(gain);
+    lice.count(gain);
+  }
+  return gain;
+}
+
 }  // namespace
 
 Table gains(Effort effort) {
@@ -253,33 +290,18 @@ Table gains(Effort effort) {
                "unforeseen"});
   const double seconds = effort == Effort::kQuick ? 5.0 : 100.0;
   const std::uint32_t lice_count = effort == Effort::kQuick ? 7 : 20;
-  Progress progress("gains", kContacts.size() * kMethods.size() * kForces.size() * kRoughnesses.size());
-  for (const SurfaceContact contact : kContacts) {
-    for (const Method method : kMethods) {
-      for (const Force& force : kForces) {
-        for (const Roughness& roughness : kRoughnesses) {
-          progress.advance();
-          if (contact == SurfaceContact::kUnilateral && force.central_gravity > 0.0)
-            continue;  // no map has both
-          state::Parameters p{9.81, force.drag, force.friction, 4.0, 1.0};
-          p.central_gravity = force.central_gravity;
-          if (p.central_gravity > 0.0) p.core_radius = physics::default_core_radius(p.central_gravity);
-          p.contact = contact;
-          p.method = method;
-          Gain gain;
-          for (const double rate : kRates) {
-            Lice lice(ground_of(roughness), p, force.steering, rate, lice_count);
-            for (long tick = 0; tick < std::lround(seconds * rate); ++tick) lice.step(gain);
-            lice.count(gain);
-          }
-          table.add({std::string(state::to_text(contact)), std::string(state::to_text(method)),
-                     std::string(force.name), std::string(roughness.name), gain.worst, gain.rate,
-                     method == Method::kCheap ? 1e-2 : 1e-3, gain.capped / gain.sub_steps,
-                     gain.sub_steps / gain.louse_steps,
-                     gain.ticks > 0.0 ? gain.unforeseen / gain.ticks : 0.0});
-        }
-      }
-    }
+  const std::vector<Cell> all = cells();
+  std::vector<Gain> gains(all.size());
+  Progress progress("gains", all.size());
+  side_by_side(
+      all.size(), [&](std::size_t i) { gains[i] = gain_of(all[i], seconds, lice_count); },
+      [&] { progress.advance(); });
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Gain& gain = gains[i];
+    table.add({std::string(state::to_text(all[i].contact)), std::string(state::to_text(all[i].method)),
+               std::string(all[i].force.name), std::string(all[i].roughness.name), gain.worst, gain.rate,
+               all[i].method == Method::kCheap ? 1e-2 : 1e-3, gain.capped / gain.sub_steps,
+               gain.sub_steps / gain.louse_steps, gain.ticks > 0.0 ? gain.unforeseen / gain.ticks : 0.0});
   }
   return table;
 }

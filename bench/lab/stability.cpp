@@ -20,6 +20,7 @@
 #include "bench/lab/problems/names.h"
 #include "bench/lab/report/output.h"
 #include "bench/lab/report/progress.h"
+#include "bench/lab/report/side_by_side.h"
 #include "bench/lab/soak.h"
 
 namespace woodlouse::lab {
@@ -117,27 +118,34 @@ core::Expected<void> run(Cell& cell, const EggCrate& crate, Integrator integrato
 }
 
 core::Expected<std::vector<Cell>> run_all(Integrator integrator, const Axes& axes) {
-  std::vector<Cell> cells;
-  Progress progress("stability of " + std::string(to_text(integrator)),
-                    axes.slopes.size() * axes.curvatures.size() * axes.knots_per_wave.size() *
-                        axes.speeds.size() * axes.frictions.size() * axes.rates.size());
+  std::vector<Cell> cells;  // those of a crate one after the other
   for (const double slope : axes.slopes) {
     for (const double curvature : axes.curvatures) {
       for (const double knots : axes.knots_per_wave) {
-        const EggCrate crate = egg_crate(slope, curvature, static_cast<std::size_t>(knots));
         for (const double speed : axes.speeds) {
           for (const double friction : axes.frictions) {
-            for (const double rate : axes.rates) {
-              Cell cell{slope, curvature, speed, friction, rate, knots};
-              if (auto done = run(cell, crate, integrator, axes.seconds); !done)
-                return tl::unexpected(done.error());
-              cells.push_back(cell);
-              progress.advance();
-            }
+            for (const double rate : axes.rates)
+              cells.push_back({slope, curvature, speed, friction, rate, knots});
           }
         }
       }
     }
+  }
+  const std::size_t of_crate = axes.speeds.size() * axes.frictions.size() * axes.rates.size();
+  std::vector<core::Expected<void>> done(cells.size() / of_crate);
+  Progress progress("stability of " + std::string(to_text(integrator)), done.size());
+  side_by_side(
+      done.size(),
+      [&](std::size_t i) {
+        Cell* const first = &cells[i * of_crate];
+        const EggCrate crate =
+            egg_crate(first->slope, first->curvature, static_cast<std::size_t>(first->knots_per_wave));
+        for (std::size_t k = 0; k < of_crate && done[i]; ++k)
+          done[i] = run(first[k], crate, integrator, axes.seconds);
+      },
+      [&] { progress.advance(); });
+  for (const auto& crate : done) {
+    if (!crate) return tl::unexpected(crate.error());
   }
   return cells;
 }

@@ -15,6 +15,7 @@
 #include "bench/lab/methods/steps.h"
 #include "bench/lab/problems/motion.h"
 #include "bench/lab/report/progress.h"
+#include "bench/lab/report/side_by_side.h"
 #include "shared/core/random.h"
 #include "shared/physics/world.h"
 #include "shared/terrain/bicubic_spline.h"
@@ -211,16 +212,23 @@ core::Expected<void> measure_rounding(const Output& output) {
   Table table({"method", "rate", "steps", "energy_error"});
   Table summary({"method", "rate", "error_1e3", "at_the_end", "exponent"});
   std::vector<std::pair<std::string, Growth>> drawn;
-  Progress progress("rounding", runs.size() * kRates.size());
-  for (const auto& [name, run] : runs) {
-    for (const int rate : kRates) {
-      Growth growth = run(rate);
-      for (const auto& [steps, error] : growth) table.add({name, static_cast<double>(rate), steps, error});
-      summary.add(
-          {name, static_cast<double>(rate), growth.front().second, growth.back().second, exponent(growth)});
-      drawn.emplace_back(name + ", " + std::to_string(rate) + " Hz", std::move(growth));
-      progress.advance();
-    }
+  std::vector<Growth> grown(runs.size() * kRates.size());
+  Progress progress("rounding", grown.size());
+  side_by_side(
+      grown.size(),
+      [&](std::size_t i) {
+        const std::size_t k = grown.size() - 1 - i;  // the longest first
+        grown[k] = runs[k / kRates.size()].second(kRates[k % kRates.size()]);
+      },
+      [&] { progress.advance(); });
+  for (std::size_t k = 0; k < grown.size(); ++k) {
+    const std::string& name = runs[k / kRates.size()].first;
+    const int rate = kRates[k % kRates.size()];
+    Growth& growth = grown[k];
+    for (const auto& [steps, error] : growth) table.add({name, static_cast<double>(rate), steps, error});
+    summary.add(
+        {name, static_cast<double>(rate), growth.front().second, growth.back().second, exponent(growth)});
+    drawn.emplace_back(name + ", " + std::to_string(rate) + " Hz", std::move(growth));
   }
   std::cout << "\nThe energy of " << kStarts << " lice in a bowl after " << most
             << " steps; exponent: 0.5 is a walk by chance, 1 a trend\n";

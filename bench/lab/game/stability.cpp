@@ -15,6 +15,7 @@
 #include "bench/lab/game/energy.h"
 #include "bench/lab/game/scene.h"
 #include "bench/lab/report/progress.h"
+#include "bench/lab/report/side_by_side.h"
 #include "bench/lab/speed/maps.h"
 
 namespace woodlouse::lab {
@@ -160,22 +161,34 @@ core::Expected<void> measure_game_stability(const std::filesystem::path& folder,
                "outside"});
   Table worst(
       {"integrator", "acts", "contact", "gained", "on", "at_rate", "capped", "not_finite", "outside"});
-  Progress progress("stability on maps", maps->size() * kActs.size() * kContacts.size());
+  std::vector<Scene> scenes;
   for (const auto& map : *maps) {
     for (const Acts acts : kActs) {
       for (const state::SurfaceContact contact : kContacts) {
-        progress.advance();
         const bool has_both =
             contact == state::SurfaceContact::kUnilateral && map->definition.physics.central_gravity > 0.0;
-        if (!is_measured(*map) || has_both) continue;  // no map flies round a centre
-        for (const Integrator integrator : kIntegrators) {
-          const auto found = run({*map, acts, contact}, integrator, rates, seconds, lice);
-          if (!found) continue;
-          table.add({map->definition.name, std::string(kActNames[static_cast<std::size_t>(acts)]),
-                     std::string(state::to_text(contact)), std::string(to_text(integrator)), found->gained,
-                     found->at_rate, found->lost, found->capped, found->not_finite, found->outside});
-        }
+        if (is_measured(*map) && !has_both)
+          scenes.push_back({*map, acts, contact});  // none flies round a centre
       }
+    }
+  }
+  std::vector<std::array<std::optional<Found>, kIntegrators.size()>> all(scenes.size());
+  Progress progress("stability on maps", scenes.size());
+  side_by_side(
+      scenes.size(),
+      [&](std::size_t i) {
+        for (std::size_t m = 0; m < kIntegrators.size(); ++m)
+          all[i][m] = run(scenes[i], kIntegrators[m], rates, seconds, lice);
+      },
+      [&] { progress.advance(); });
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    for (std::size_t m = 0; m < kIntegrators.size(); ++m) {
+      const auto& found = all[i][m];
+      if (!found) continue;
+      table.add(
+          {scenes[i].map.definition.name, std::string(kActNames[static_cast<std::size_t>(scenes[i].acts)]),
+           std::string(state::to_text(scenes[i].contact)), std::string(to_text(kIntegrators[m])),
+           found->gained, found->at_rate, found->lost, found->capped, found->not_finite, found->outside});
     }
   }
   for (const Integrator integrator : kIntegrators) {

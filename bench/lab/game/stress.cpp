@@ -14,6 +14,7 @@
 #include "bench/lab/game/scene.h"
 #include "bench/lab/problems/motion.h"
 #include "bench/lab/report/progress.h"
+#include "bench/lab/report/side_by_side.h"
 #include "shared/core/random.h"
 
 namespace woodlouse::lab {
@@ -132,14 +133,17 @@ core::Expected<void> measure_stress(std::size_t count, std::uint64_t seed, const
   Table summary({"integrator", "maps", "gained_median", "gained_99_of_100", "gained_worst", "its_seed",
                  "beyond_stated", "not_finite", "outside"});
   std::array<std::vector<std::pair<Outcome, std::uint64_t>>, kIntegrators.size()> all;
+  for (auto& outcomes : all) outcomes.resize(count);
   {
     Progress progress("maps made by chance", count);
-    for (std::uint64_t i = 0; i < count; ++i) {
-      const Case made = case_of(seed + i);
-      for (std::size_t m = 0; m < kIntegrators.size(); ++m)
-        all[m].emplace_back(run(made, kIntegrators[m]), made.seed);
-      progress.advance();
-    }
+    side_by_side(
+        count,
+        [&](std::size_t i) {
+          const Case made = case_of(seed + i);
+          for (std::size_t m = 0; m < kIntegrators.size(); ++m)
+            all[m][i] = {run(made, kIntegrators[m]), made.seed};
+        },
+        [&] { progress.advance(); });
   }
   double broken = 0.0;
   for (std::size_t m = 0; m < kIntegrators.size(); ++m) {
