@@ -21,7 +21,9 @@ namespace woodlouse::lab {
 namespace {
 
 constexpr std::array kRates = {15, 60, 240, 1000};
-constexpr std::uint32_t kFineParts = 64 * match::StepError::kParts;
+/// A step of the maps that the reference is not for errs in proportion to its length: so many parts leave
+/// less than a thousandth of the tick's error.
+constexpr std::uint32_t kFineParts = 16 * match::StepError::kParts;
 
 double at(std::vector<double> values, double share) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();

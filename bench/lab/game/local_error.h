@@ -23,7 +23,7 @@ struct LocalErrors {
 };
 
 /// `ticks` ticks of lice that are so played, each stride-th of all; true: by the reference, or, where the
-/// map is not for it, in 64 times as many parts.
+/// map is not for it, in 16 times as many parts.
 LocalErrors local_errors(const map::Map& map, const std::vector<state::Louse>& lice, Play play, int rate,
                          std::size_t ticks, std::size_t stride);
 
