@@ -1,11 +1,37 @@
 #include "bench/lab/reference/ground.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <variant>
 
 namespace woodlouse::lab::reference {
+namespace {
+
+/// Sums over the powers of a place: what derivatives make 0 or 1 of them is no factor.
+class Powers {
+ public:
+  explicit Powers(Real u)
+      : u_(u), uu_(u * u), uuu_(u * u * u), twice_(2 * u), thrice_(3 * u * u), six_(6 * u) {}
+  template <typename Row>
+  [[nodiscard]] Real sum(const Row& c) const {
+    return c[0] + c[1] * u_ + c[2] * uu_ + c[3] * uuu_;
+  }
+  template <typename Row>
+  [[nodiscard]] Real slope(const Row& c) const {
+    return c[1] + c[2] * twice_ + c[3] * thrice_;
+  }
+  template <typename Row>
+  [[nodiscard]] Real bend(const Row& c) const {
+    return 2 * c[2] + c[3] * six_;
+  }
+
+ private:
+  Real u_, uu_, uuu_, twice_, thrice_, six_;
+};
+
+}  // namespace
 
 bool Ground::knows(const terrain::Terrain& terrain) {
   return std::holds_alternative<terrain::BicubicSpline>(terrain.surface()) ||
@@ -70,29 +96,16 @@ Place Ground::at(const Cell& cell, Real x, Real y) const {
   const Real u = x - view.x_origin - static_cast<Real>(column) * view.dx;
   const Real v = y - view.y_origin - static_cast<Real>(row) * view.dy;
   // Powers and their derivatives, summed as they stand: no Horner.
-  const Real power_u[] = {1, u, u * u, u * u * u};
-  const Real slope_u[] = {0, 1, 2 * u, 3 * u * u};
-  const Real bend_u[] = {0, 0, 2, 6 * u};
-  const Real power_v[] = {1, v, v * v, v * v * v};
-  const Real slope_v[] = {0, 1, 2 * v, 3 * v * v};
-  const Real bend_v[] = {0, 0, 2, 6 * v};
-  Place place;
-  for (int b = 0; b < 4; ++b) {
-    Real value = 0, slope = 0, bend = 0;
-    for (int a = 0; a < 4; ++a) {
-      const Real coefficient = c[4 * b + a];
-      value += coefficient * power_u[a];
-      slope += coefficient * slope_u[a];
-      bend += coefficient * bend_u[a];
-    }
-    place.z += value * power_v[b];
-    place.zx += slope * power_v[b];
-    place.zxx += bend * power_v[b];
-    place.zy += value * slope_v[b];
-    place.zxy += slope * slope_v[b];
-    place.zyy += value * bend_v[b];
+  const Powers of_u(u), of_v(v);
+  std::array<Real, 4> values, slopes, bends;  // of the rows, along x
+  for (std::size_t b = 0; b < 4; ++b) {
+    const double* const of_row = c + 4 * b;
+    values[b] = of_u.sum(of_row);
+    slopes[b] = of_u.slope(of_row);
+    bends[b] = of_u.bend(of_row);
   }
-  return place;
+  return {of_v.sum(values), of_v.sum(slopes),   of_v.slope(values),
+          of_v.sum(bends),  of_v.slope(slopes), of_v.bend(values)};
 }
 
 }  // namespace woodlouse::lab::reference
