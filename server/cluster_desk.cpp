@@ -23,13 +23,21 @@ protocol::Bye moved(const std::string& address) {
 
 }  // namespace
 
-core::Expected<void> ClusterDesk::open(ClusterSettings settings, const std::string& address) {
-  assert(!cluster_);
+core::Expected<void> ClusterDesk::open(const ServeConfig& config, const std::string& lines,
+                                       const std::string& web_url) {
+  assert(!cluster_ && config.cluster);
+  ClusterSettings settings = *config.cluster;
   if (settings.address.empty()) {
-    if (address.starts_with("0.0.0.0:") || address.starts_with("[::]:"))
+    settings.address = lines;
+    if (config.web && !config.web->tls) {
+      const auto web = parse_listen_address(
+          web_url.substr(0, web_url.rfind('/')).substr(web_url.rfind("//") + 2), "--web");
+      if (!web) return tl::unexpected(web.error());
+      settings.address = to_text(ListenAddress{config.web->listen.host, web->port});
+    }
+    if (settings.address.starts_with("0.0.0.0:") || settings.address.starts_with("[::]:"))
       return core::fail("--cluster-address", "this host listens at every address: clients of others need one",
                         "as  --cluster-address 192.0.2.7:7777");
-    settings.address = address;
   }
   Cluster::Hooks hooks;
   hooks.take_over = [this](std::vector<RoomToGoOn> rooms) {

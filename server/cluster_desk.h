@@ -43,9 +43,9 @@ class ClusterDesk {
         rooms_(std::move(rooms)),
         log_(std::move(log)) {}
 
-  /// Before the threads run; waits for NATS. address: where this host's clients come, if the settings don't
-  /// say.
-  core::Expected<void> open(ClusterSettings settings, const std::string& address);
+  /// Before the threads run; waits for NATS. lines, web_url: where this host's clients come. Of the two ports
+  /// the others are told the web one, where there is one without TLS: it takes lines as well as pages.
+  core::Expected<void> open(const ServeConfig& config, const std::string& lines, const std::string& web_url);
   /// Rooms begin, here or elsewhere, from now on.
   void start() { cluster_->start(); }
   /// What is said to who is here when the server stops; rooms are not closed any more, but go on elsewhere.

@@ -188,7 +188,7 @@ core::Expected<void> Server::join_cluster(const ServeConfig& config) {
                                         stop("the server stops", why);
                                       }},
                    log_);
-  if (const auto opened = cluster_->open(*config.cluster, address_); !opened)
+  if (const auto opened = cluster_->open(config, address_, environment_.web_url); !opened)
     return tl::unexpected(opened.error());
   companions_.use(cluster_->cluster());
   environment_.elsewhere = [this](std::string_view room) { return cluster_->elsewhere(room); };

@@ -66,8 +66,8 @@ void LogTap::step(const LiveStep& step, const match::Match& game) {
   if (game.tick() % keyframe_ticks_ != 0) return;
   if (!has_begun_) return tell_begin(game);
   const bool is_anew = std::exchange(has_lost_, false);
-  static_cast<void>(post([number = number_, state = game.state(), is_anew](ShardText& text, Time now) {
-    text.keyframe(number, state, is_anew, now);
+  static_cast<void>(post([number = number_, state = game.state(), is_anew](ShardText& text, Time at) {
+    text.keyframe(number, state, is_anew, at);
   }));
 }
 
