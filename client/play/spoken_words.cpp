@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <utility>
 
 #include "client/play/modes/course_builder.h"
@@ -26,16 +25,16 @@ std::string offset(double value, const char* positive, const char* negative) {
   return number(std::abs(value), 1) + " m " + (value < 0.0 ? negative : positive);
 }
 
+/// What a mode counts by; points alone would be a number alone.
+std::string counted(state::Mode mode, const std::string& measure) {
+  return mode == state::Mode::kForage ? "score " + measure : measure;
+}
+
 }  // namespace
 
 namespace words {
 
-std::string compass(core::Vec2 direction) {
-  static constexpr std::array kNames = {"east", "north-east", "north", "north-west",
-                                        "west", "south-west", "south", "south-east"};
-  const double eighths = std::atan2(direction.y, direction.x) * (4.0 / std::numbers::pi);
-  return kNames[static_cast<std::size_t>(std::lround(eighths) + 8) % kNames.size()];
-}
+std::string compass(core::Vec2 direction) { return client::compass(direction, {0.0, 1.0}, Winds::kSpoken); }
 
 std::string louse(const RoomView& room, const Present& louse) {
   const LouseSample& sample = louse.sample;
@@ -57,10 +56,18 @@ std::vector<std::string> goal(const RoomView& room) {
   const Sight sight = room.sight();
   const std::uint32_t id = room.welcome() != nullptr ? room.welcome()->id : 0;
   std::vector<std::string> lines;
-  for (const GoalLine& line :
-       goal_lines({sight, id, sample_of(sight, id), id != 0, &room.own_game().run(), 0}))
+  for (const GoalLine& line : goal_lines(
+           {sight, id, sample_of(sight, id), id != 0, &room.own_game().run(), 0, {0.0, 1.0}, Winds::kSpoken}))
     lines.push_back(plain_text(line));
   return lines;
+}
+
+std::optional<core::Vec2> way_to_goal(const RoomView& room) {
+  const Sight sight = room.sight();
+  const std::uint32_t id = room.welcome() != nullptr ? room.welcome()->id : 0;
+  const LouseSample* const you = sample_of(sight, id);
+  const auto place = goal_of({sight, id, you, true});
+  return place ? std::optional(*place - you->position) : std::nullopt;
 }
 
 std::vector<std::string> rules(const RoomView& room) {
@@ -74,7 +81,8 @@ std::vector<std::string> podium(const RoomView& room) {
   std::vector<std::string> lines;
   for (const PodiumStep& step : course.podium)
     lines.push_back("place " + std::to_string(lines.size() + 1) + ": " + (step.is_you ? "you" : step.name) +
-                    ", " + step.measure + (step.medal.empty() ? "" : ", " + step.medal));
+                    ", " + counted(sight.ruling.mode, step.measure) +
+                    (step.medal.empty() ? "" : ", " + step.medal));
   if (!lines.empty() && !course.podium_note.empty()) lines.push_back(course.podium_note);
   return lines;
 }
@@ -127,7 +135,8 @@ std::vector<std::string> room(const RoomView& view) {
     std::string line = place.empty() || is_by_way ? "" : place + ", ";
     line += present != view.lice().end() ? louse(view, present->second) : row.is_you ? "you" : row.name;
     if (is_by_way && !place.empty()) line += ", " + place;
-    if (!is_by_way) line += ", " + (row.measure == "--" ? "no time yet" : row.measure);
+    if (!is_by_way)
+      line += ", " + (row.measure == "--" ? "no time yet" : counted(view.sight().ruling.mode, row.measure));
     if (row.is_you)
       lines.insert(lines.begin(), std::move(line));
     else

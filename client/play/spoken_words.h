@@ -1,6 +1,7 @@
 // What the game as text reads out: of lice, the room, the rules, the keys.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ std::string compass(core::Vec2 direction);
 std::string louse(const RoomView& room, const Present& louse);
 /// What the rules of play want of you: a line or two; empty where there are none.
 std::vector<std::string> goal(const RoomView& room);
+/// Where they want you, from where you are, east and north; none: nowhere.
+std::optional<core::Vec2> way_to_goal(const RoomView& room);
 /// What is played, in words; empty where there are no rules, and until they were shown.
 std::vector<std::string> rules(const RoomView& room);
 /// The best three of a round that is over, and what you did; empty while none is.

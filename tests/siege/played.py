@@ -22,7 +22,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 from terminal_picture import Session  # noqa: E402
 
 ROOMS = {"race": "crater_loop/race", "forage": "picnic/forage", "hill": "table/hill", "roam": "volcano"}
-WINDS = {"N": b"w", "NE": b"wd", "E": b"d", "SE": b"sd", "S": b"s", "SW": b"sa", "W": b"a", "NW": b"wa"}
+WINDS = {"north": b"w", "NE": b"wd", "east": b"d", "SE": b"sd", "south": b"s", "SW": b"sa", "west": b"a", "NW": b"wa"}
 # A terminal that knows true colour, UTF-8 and synchronized updates, and reports no releases of keys.
 ANSWERS = b"\x1b[?2026;2$y\x1bP1$r0;48:2::1:2:3m\x1b\\\x1b[5;2R\x1b[5;2R"
 LAST_QUESTION, LAST_ANSWER = b"\x1b[c", b"\x1b[?62;22c"
@@ -86,7 +86,7 @@ class Player:
 
     def note(self, lines):
         """Counts what was achieved."""
-        goal = re.search(r"  (gate \w+:|crumb(?: worth 3)?:|place) (?:N|S|E|W)", lines[1])
+        goal = re.search(rf"  (gate \w+:|crumb(?: worth 3)?:|place) (?:{'|'.join(WINDS)})\b", lines[1])
         if goal and goal.group(1) != self.goal:
             self.gates += self.goal.startswith("gate") and goal.group(1).startswith("gate")
             self.goal = goal.group(1)
@@ -103,7 +103,7 @@ class Player:
         """What a person would press now."""
         speed = re.search(r"speed\s+([\d.]+) m/s", "\n".join(lines))
         speed = float(speed.group(1)) if speed else 0.0
-        aim = re.search(r" (N|NE|E|SE|S|SW|W|NW) (\d+) m", lines[1])
+        aim = re.search(rf" ({'|'.join(WINDS)}) (\d+) m", lines[1])
         if self.mode == "roam" or not aim:
             return self.wander(now)
         wind, metres = aim.group(1), float(aim.group(2))

@@ -186,12 +186,14 @@ void add_aim(const GoalFacts& facts, GoalLine& line) {
       what = dearest_crumb(facts)->value > 1 ? "crumb worth 3:" : "crumb:";
       break;
     case state::Mode::kHill:
-      what = "place";
+      line.push_back({"  place", Tone::kGoal, true});
       break;
     case state::Mode::kRoam:
       break;
   }
-  line.push_back({"  " + what + " " + way_text(*place - facts.you->position, facts.up), Tone::kGoal});
+  line.push_back({(what.empty() ? "" : "  " + what) + " " +
+                      way_text(*place - facts.you->position, facts.up, facts.winds),
+                  Tone::kGoal});
   if (is_flown) line.push_back({", fly through", Tone::kGoal, true});
   if (facts.is_own && needs_run_up(facts, *place)) line.push_back({", needs a run-up", Tone::kGoal, true});
   if (!facts.is_own) line.push_back({" from " + facts.sight.name_of(facts.id), Tone::kDim, true});
@@ -305,23 +307,12 @@ std::vector<GoalLine> goal_lines(const GoalFacts& facts) {
   }
   add_aim(facts, first);
   add_next(facts, first);
-  if (ruling.mode == state::Mode::kHill && ruling.game->phase == protocol::GamePhase::kPlay)
-    first.push_back({"  " + seconds_left(facts) + " left", Tone::kDim, true});
+  if (ruling.mode == state::Mode::kHill && ruling.game->phase == protocol::GamePhase::kPlay) {
+    first.push_back({"  " + seconds_left(facts), Tone::kDim, true});
+    first.push_back({" left", Tone::kDim, true});
+  }
   const GoalLine own = own_line(facts);
   return own.empty() ? std::vector<GoalLine>{first} : std::vector<GoalLine>{first, own};
-}
-
-std::string compass(core::Vec2 way, core::Vec2 up) {
-  assert(std::abs(std::hypot(up.x, up.y) - 1.0) < 1e-6);
-  constexpr const char* kNames[] = {"E", "NE", "N", "NW", "W", "SW", "S", "SE"};
-  const double right = way.x * up.y - way.y * up.x;
-  const double eighths = std::atan2(way.x * up.x + way.y * up.y, right) * (4.0 / std::numbers::pi);
-  return kNames[(static_cast<long>(std::lround(eighths)) + 8) % 8];
-}
-
-std::string way_text(core::Vec2 way, core::Vec2 up) {
-  const double metres = std::hypot(way.x, way.y);
-  return metres < 0.5 ? "here" : formatted("%s %.0f m", compass(way, up).c_str(), metres);
 }
 
 std::string gate_name(std::int64_t gate) { return gate == 0 ? "gate S" : "gate " + std::to_string(gate); }

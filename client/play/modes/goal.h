@@ -7,6 +7,7 @@
 
 #include "client/drawing/course/course.h"
 #include "client/play/modes/own_run.h"
+#include "client/play/modes/way_words.h"
 #include "client/play/visible_lice.h"
 
 namespace woodlouse::client {
@@ -20,6 +21,7 @@ struct GoalFacts {
   const OwnRun* run = nullptr;       ///< of your own louse
   int rank = 0;                      ///< 0: none
   core::Vec2 up{0.0, 1.0};           ///< what over the map points up in the picture; length 1
+  Winds winds = Winds::kShort;
 };
 
 /// One line or two: phase and time left, score or clock, the way to the next gate, place or dearest crumb. In
@@ -29,11 +31,6 @@ std::vector<GoalLine> goal_lines(const GoalFacts& facts);
 /// Where that way leads, as seen from the louse where edges wrap; none: nowhere.
 std::optional<core::Vec2> goal_of(const GoalFacts& facts);
 
-/// Eight directions of the compass: "N", "NE" and so on. North is `up`: in a picture that is turned the words
-/// name the keys that push there.
-std::string compass(core::Vec2 way, core::Vec2 up = {0.0, 1.0});
-/// "NE 27 m"; "here" below half a metre.
-std::string way_text(core::Vec2 way, core::Vec2 up);
 /// What a gate is called: "gate S", where laps begin, "gate 3".
 std::string gate_name(std::int64_t gate);
 /// A span of moments: 1:23.456.

@@ -120,7 +120,7 @@ TEST_CASE("a race's lines say the way to the next gate, the clock and the medal 
   you.standing.lap_start = 5400 * 65536LL;
   const Sight sight = room.sight();
   const std::string text = text_of(goal_lines({sight, 2, &you, true, nullptr, 2}));
-  CHECK(text.find("race  1:40 left  gate 3: W ") != std::string::npos);
+  CHECK(text.find("race  1:40 left  gate 3: west ") != std::string::npos);
   CHECK(text.find(" from ") == std::string::npos);
   const std::string watched = text_of(goal_lines({sight, 2, &you, false, nullptr, 2}));
   CHECK(watched.find(" m from louse2\nlouse2: lap 2/3") != std::string::npos);
@@ -141,8 +141,12 @@ TEST_CASE("a hill's lines say where the place is, when it moves, and who holds i
   room.lice.at(2).sample.position = {0.0, 10.0};
   const Sight sight = room.sight();
   const LouseSample& you = room.lice.at(2).sample;
-  const std::string text = text_of(goal_lines({sight, 2, &you, true, nullptr, 1}));
-  CHECK(text.substr(0, 33) == "hill  place S 10 m  moves in 44s ");  // what fits beside a panel of 24
+  const auto lines = goal_lines({sight, 2, &you, true, nullptr, 1});
+  const std::string text = text_of(lines);
+  CHECK(text.find("hill  place south 10 m  moves in 44s  1:40 left\n") == 0);
+  std::string narrow;  // what stays beside a panel of 24
+  for (const GoalSpan& span : lines[0]) narrow += span.is_extra ? "" : span.text;
+  CHECK(narrow == "hill south 10 m  moves in 44s");
   CHECK(text.find("held 1.0 s of 30 s  louse9 holds it") != std::string::npos);
   CHECK(course_of({sight, 2, &you, true, nullptr, 1}).rings.size() == 1);
   room.game.hill->moves_at = 6000 + 10 * 60;  // soon: the next one is shown, too
@@ -174,13 +178,15 @@ TEST_CASE("a way is named by the keys that push there, in a picture that is turn
   const core::Vec2 turned = up_in_picture(View::kOblique, Look{ColorMode::kTruecolor, GlyphSet::kHalfBlocks});
   REQUIRE(turned.x > 0.0);  // its up is east of north
   const core::Vec2 north{0.0, 1.0};
-  CHECK(compass(turned, turned) == "N");
-  CHECK(compass({turned.y, -turned.x}, turned) == "E");
+  CHECK(compass(turned, turned) == "north");
+  CHECK(compass({turned.y, -turned.x}, turned) == "east");
   const core::Vec2 between{-0.2, 1.0};  // 11 degrees west of north: 28 left of up
-  CHECK(compass(between, north) == "N");
+  CHECK(compass(between, north) == "north");
   CHECK(compass(between, turned) == "NW");
   CHECK(way_text({0.0, 0.4}, north) == "here");
-  CHECK(way_text({0.0, -10.0}, north) == "S 10 m");
+  CHECK(way_text({0.0, -10.0}, north) == "south 10 m");
+  CHECK(way_text({3.0, -3.0}, north) == "SE 4 m");
+  CHECK(way_text({3.0, -3.0}, north, Winds::kSpoken) == "south-east 4 m");
 
   SeenRoom room = race();
   room.add(2, 0, 10.0, true);
@@ -188,7 +194,7 @@ TEST_CASE("a way is named by the keys that push there, in a picture that is turn
   you.standing.gate = 1;
   const map::Gate& gate = room.map->definition.modes.race->gates[1];
   you.position = 0.5 * (gate.a + gate.b) - 20.0 * between;
-  CHECK(text_of(goal_lines({room.sight(), 2, &you, true, nullptr, 1})).find("gate 1: N 20 m") !=
+  CHECK(text_of(goal_lines({room.sight(), 2, &you, true, nullptr, 1})).find("gate 1: north 20 m") !=
         std::string::npos);
   CHECK(text_of(goal_lines({room.sight(), 2, &you, true, nullptr, 1, turned})).find("gate 1: NW 20 m") !=
         std::string::npos);
