@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "client/drawing/layout.h"
+#include "client/play/modes/way_words.h"
 #include "client/play/outlook.h"
 #include "client/play/own_error.h"
 #include "client/play/spoken_words.h"
@@ -18,6 +19,14 @@ using std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kServerCheck{500};
 constexpr std::chrono::seconds kStillReading{15};  // since the game has begun by itself
+
+/// Right and up in the picture, to what the rules want of you; up, where they want nothing.
+core::Vec2 way_to_goal(const Scene& scene) {
+  for (const LouseMark& louse : scene.lice)
+    if (louse.is_you && scene.course.target)
+      return in_picture(*scene.course.target - louse.position, scene.course.up);
+  return {0.0, 1.0};
+}
 
 }  // namespace
 
@@ -170,7 +179,7 @@ Scene Game::scene(core::Time now, double fps) {
   scene.keys.compass = interface_.steer == SteerBy::kCompass;
   scene.keys.pulse_seconds = std::chrono::duration<double>(repeat_delay_.pulse()).count();
   teacher_.observe(session_.room().sight(), now);
-  scene.course.lesson = teacher_.lines(scene.keys);
+  scene.course.lesson = teacher_.lines(scene.keys, way_to_goal(scene));
   return scene;
 }
 

@@ -181,7 +181,8 @@ void TextGame::teach() {
   if (!teacher_.observe(session_.room().sight(), steady_clock::now())) return;
   KeyLabels labels = bindings_.keys().labels();
   labels.compass = steer_ == SteerBy::kCompass;
-  for (const GoalLine& line : teacher_.lines(labels)) say(plain_text(line));
+  const core::Vec2 towards = words::way_to_goal(session_.room()).value_or(core::Vec2{0.0, 1.0});
+  for (const GoalLine& line : teacher_.lines(labels, towards, Winds::kSpoken)) say(plain_text(line));
 }
 
 void TextGame::tell_proof() {

@@ -17,6 +17,18 @@ constexpr double kRiseOfRelief = 0.1;
 constexpr double kLeastRelief = 1.0;  ///< [m]
 constexpr std::chrono::seconds kPraiseFor{4};
 
+const std::string& key_towards(core::Vec2 way, const KeyLabels& keys) {
+  if (std::abs(way.x) > std::abs(way.y)) return way.x > 0.0 ? keys.right : keys.left;
+  return way.y < 0.0 ? keys.down : keys.up;
+}
+
+/// Where each of the four keys pushes.
+std::string four_ways(const KeyLabels& keys, Winds winds) {
+  return winds == Winds::kSpoken
+             ? keys.up + " north, " + keys.left + " west, " + keys.down + " south, " + keys.right + " east"
+             : keys.up + " up  " + keys.left + " left  " + keys.down + " down  " + keys.right + " right";
+}
+
 }  // namespace
 
 void Lesson::begin(Step step, const LessonFacts& facts) {
@@ -78,7 +90,7 @@ bool Lesson::observe(const LessonFacts& facts) {
   return true;
 }
 
-std::vector<GoalLine> Lesson::lines(const KeyLabels& keys) const {
+std::vector<GoalLine> Lesson::lines(const KeyLabels& keys, core::Vec2 towards, Winds winds) const {
   const std::string of = relief_ >= kLeastRelief ? "/3 " : "/2 ";
   const auto told = [&of](const std::string& head, const std::string& what, const std::string& how) {
     return std::vector<GoalLine>{
@@ -88,8 +100,7 @@ std::vector<GoalLine> Lesson::lines(const KeyLabels& keys) const {
   switch (step_) {
     case Step::kPush:
       return keys.compass
-                 ? told("1PUSH", "hold " + keys.up + ", or tap it",
-                        keys.up + " " + keys.left + " " + keys.down + " " + keys.right + " push that way")
+                 ? told("1PUSH", "hold " + key_towards(towards, keys) + ", or tap it", four_ways(keys, winds))
                  : told("1PUSH", "hold " + keys.up + ", or tap it", "you are pushed where you head");
     case Step::kTurn:
       return keys.compass ? told("2TURN", keys.left + " and " + keys.right, "a curve: two keys at once")

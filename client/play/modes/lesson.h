@@ -7,6 +7,7 @@
 
 #include "client/drawing/course/course.h"
 #include "client/drawing/key_labels.h"
+#include "client/play/modes/way_words.h"
 #include "shared/core/clock.h"
 #include "shared/core/vec2.h"
 
@@ -34,8 +35,10 @@ class Lesson {
   /// Everything was done; praise may still stand there.
   [[nodiscard]] bool is_learnt() const { return step_ == Step::kPraise || step_ == Step::kOver; }
   [[nodiscard]] bool is_over() const { return step_ == Step::kOver; }
-  /// What is to be done, in two lines; empty: it is over.
-  [[nodiscard]] std::vector<GoalLine> lines(const KeyLabels& keys = {}) const;
+  /// What is to be done, in two lines; empty: it is over. towards: where the rules of play want the pupil,
+  /// right and up in its picture; the first push by compass goes there. winds: of text, which has no picture.
+  [[nodiscard]] std::vector<GoalLine> lines(const KeyLabels& keys = {}, core::Vec2 towards = {0.0, 1.0},
+                                            Winds winds = Winds::kShort) const;
 
  private:
   enum class Step : std::uint8_t { kPush, kTurn, kSwing, kPraise, kOver };

@@ -66,8 +66,8 @@ void Teacher::end() {
   is_new_ = false;
 }
 
-std::vector<GoalLine> Teacher::lines(const KeyLabels& keys) const {
-  return lesson_ ? lesson_->lines(keys) : std::vector<GoalLine>();
+std::vector<GoalLine> Teacher::lines(const KeyLabels& keys, core::Vec2 towards, Winds winds) const {
+  return lesson_ ? lesson_->lines(keys, towards, winds) : std::vector<GoalLine>();
 }
 
 }  // namespace woodlouse::client

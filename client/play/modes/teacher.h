@@ -20,7 +20,9 @@ class Teacher {
   bool observe(const Sight& sight, core::Time now);
   /// The player has had enough; false: there was no lesson.
   bool dismiss();
-  [[nodiscard]] std::vector<GoalLine> lines(const KeyLabels& keys) const;
+  /// See Lesson.
+  [[nodiscard]] std::vector<GoalLine> lines(const KeyLabels& keys, core::Vec2 towards,
+                                            Winds winds = Winds::kShort) const;
 
  private:
   void end();

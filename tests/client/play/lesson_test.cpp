@@ -31,6 +31,27 @@ TEST_CASE("a gate of one's own times laps through it, one way alone") {
   CHECK(plain_text(gate.line(now)).find("best 0:00.4") != std::string::npos);
 }
 
+TEST_CASE("the lesson's first push goes where the rules of play want one") {
+  Lesson lesson(20.0);
+  lesson.observe({});
+  KeyLabels keys;
+  keys.compass = true;
+  const auto key_to = [&](core::Vec2 towards) {
+    const std::string told = plain_text(lesson.lines(keys, towards)[0]);
+    REQUIRE(told.substr(0, 15) == "1/3 PUSH  hold ");
+    return told.substr(15, told.find(',') - 15);
+  };
+  CHECK(key_to({0.0, 1.0}) == "W");
+  CHECK(key_to({-5.0, -4.0}) == "A");
+  CHECK(key_to({-4.0, -5.0}) == "S");
+  CHECK(key_to({5.0, 4.0}) == "D");
+  CHECK(plain_text(lesson.lines(keys)[1]).find("A left  S down") != std::string::npos);
+  CHECK(plain_text(lesson.lines(keys, {1.0, 0.0}, Winds::kSpoken)[1]).find("A west, S south") !=
+        std::string::npos);
+  keys.compass = false;  // a push goes along the heading, whichever way that is
+  CHECK(key_to({-5.0, 0.0}) == "W");
+}
+
 TEST_CASE("the lesson goes on once a thing was done, and not before") {
   Lesson lesson(20.0);
   LessonFacts facts;
