@@ -67,9 +67,7 @@ struct Composer::Layers {
   void see(const Scene& scene, Size size);
   [[nodiscard]] Key wanted(const Scene& scene, Size size);
   void prepare(const Scene& scene, Size size);
-  /// The cell of your louse, from the viewport's corner.
-  std::optional<Place> draw_map(const Scene& scene, const Badges& badges, const Viewport& viewport,
-                                CellBuffer& cells);
+  InSight draw_map(const Scene& scene, const Badges& badges, const Viewport& viewport, CellBuffer& cells);
 };
 
 /// Makes the relief and the follower those of this map and size.
@@ -124,11 +122,11 @@ void Composer::Layers::prepare(const Scene& scene, Size size) {
   mark_in_characters(scene.landmarks, domain, *key->above, size, scene.look, cells);
 }
 
-std::optional<Place> Composer::Layers::draw_map(const Scene& scene, const Badges& badges,
-                                                const Viewport& viewport, CellBuffer& out) {
+InSight Composer::Layers::draw_map(const Scene& scene, const Badges& badges, const Viewport& viewport,
+                                   CellBuffer& out) {
   if (scene.terrain == nullptr) {
     out.text(viewport.column + 2, viewport.row + viewport.size.rows / 2, "waiting for the map ...", {});
-    return std::nullopt;
+    return {};
   }
   prepare(scene, viewport.size);
   const bool is_oblique = key->oblique.has_value();
@@ -136,10 +134,13 @@ std::optional<Place> Composer::Layers::draw_map(const Scene& scene, const Badges
   GroundCanvas canvas = is_oblique ? GroundCanvas(*relief, *key->oblique, oblique, scene.look, viewport, out)
                                    : GroundCanvas(*key->above, scene.look, viewport, out);
   if (canvas.has_pixels()) draw_marks(scene, badges, canvas);
+  InSight in_sight{{}, next_gate_cells(scene, canvas)};
+  LabelPlacer labels(viewport);
+  for (const Viewport& taken : in_sight.gate) labels.reserve(taken.column, taken.row, taken.size);
   if (is_oblique) {
-    draw_lice_obliquely(scene, badges, *relief, *key->oblique, oblique, viewport, out);
+    draw_lice_obliquely(scene, badges, *relief, *key->oblique, oblique, viewport, labels, out);
   } else if (canvas.has_pixels()) {
-    draw_lice_on_map(scene, badges, *key->above, viewport, out);
+    draw_lice_on_map(scene, badges, *key->above, viewport, labels, out);
   } else {  // over trails, which are as wide as the marks are there
     draw_lice_as_letters(scene, badges, *key->above, viewport, out);
     for (const LouseMark& louse : scene.lice) {
@@ -150,19 +151,19 @@ std::optional<Place> Composer::Layers::draw_map(const Scene& scene, const Badges
     }
     draw_marks(scene, badges, canvas);
   }
-  std::optional<Place> yours;
   for (const LouseMark& louse : scene.lice) {  // no text over yours
     if (const auto at = louse.is_you ? canvas.spot(louse.position, louse.above) : std::nullopt)
-      yours = Place{static_cast<int>(std::floor(at->x)),
-                    static_cast<int>(std::floor(at->y / canvas.dots_per_row()))};
-    const auto at = louse.is_you && canvas.has_pixels() ? canvas.spot(louse.position) : std::nullopt;
+      in_sight.yours = Place{static_cast<int>(std::floor(at->x)),
+                             static_cast<int>(std::floor(at->y / canvas.dots_per_row()))};
+    if (!louse.is_you || !in_sight.yours || !canvas.has_pixels()) continue;
     constexpr int kColumns = 3, kRows = 1;
-    for (int y = -kRows; at && y <= kRows; ++y)
+    for (int y = -kRows; y <= kRows; ++y)
       for (int x = -kColumns; x <= kColumns; ++x)
-        canvas.keep(static_cast<int>(std::floor(at->x)) + x, static_cast<int>(std::floor(at->y)) / 2 + y);
+        canvas.keep(in_sight.yours->column + x, in_sight.yours->row + y);
   }
-  draw_mark_labels(scene, badges, canvas);
-  return yours;
+  draw_next_gate_over_lice(scene, canvas);
+  draw_mark_labels(scene, badges, in_sight.gate, canvas);
+  return in_sight;
 }
 
 Composer::Composer() : layers_(std::make_unique<Layers>()) {}
@@ -188,10 +189,10 @@ void Composer::draw(const Scene& scene, CellBuffer& cells) {
   const int columns = layout_for(size, scene.look, foot).map.size.columns;
   const Layout layout = layout_for(size, scene.look, foot, line_rows(scene, columns));
   const Badges badges(scene);
-  const std::optional<Place> yours = layers_->draw_map(scene, badges, layout.map, cells);
+  const InSight in_sight = layers_->draw_map(scene, badges, layout.map, cells);
   draw_panel(scene, badges, layout.panel, cells);
   draw_status_line(scene, cells);
-  draw_course_board(scene, badges, layout, yours, cells);
+  draw_course_board(scene, badges, layout, in_sight, cells);
   draw_key_line(scene, layout, cells);
   draw_overlay(scene, badges, cells);
 }

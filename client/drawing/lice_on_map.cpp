@@ -14,7 +14,6 @@ namespace woodlouse::client {
 namespace {
 
 constexpr int kColumnsForLabels = 60;  ///< below, the list beside the map names the letters
-constexpr int kColumnsForBodies = 80;  ///< below, a body would be a speck
 constexpr double kPole = 2.9;          ///< how far the line of the next push reaches, in half lengths
 
 void draw_trail(const LouseMark& louse, Rgb color, ColorMode mode, const MapCamera& camera,
@@ -106,7 +105,7 @@ void draw_letter(const LouseMark& louse, const Badge& badge, Place at, const Vie
 }  // namespace
 
 void draw_lice_on_map(const Scene& scene, const Badges& badges, const MapCamera& camera,
-                      const Viewport& viewport, CellBuffer& cells) {
+                      const Viewport& viewport, LabelPlacer& labels, CellBuffer& cells) {
   auto order = in_drawing_order(scene);
   const bool has_bodies = viewport.size.columns >= kColumnsForBodies;
   const double half = std::clamp(viewport.size.columns / 36.0, 2.4, 4.5);  // pixels
@@ -115,7 +114,6 @@ void draw_lice_on_map(const Scene& scene, const Badges& badges, const MapCamera&
   const auto place_of = [&](const LouseMark& louse) {
     return camera.cell_of(louse.position, scene.terrain->domain());
   };
-  LabelPlacer labels(viewport);
   for (const LouseMark* louse : order) {
     draw_trail(*louse, badges.of(louse->id).color, scene.look.color, camera, viewport, cells);
     draw_shadow(*louse, camera, viewport, cells);

@@ -87,9 +87,8 @@ ObliqueLayer oblique_layer(const Relief& relief, const ObliqueCamera& camera, Si
 
 void draw_lice_obliquely(const Scene& scene, const Badges& badges, const Relief& relief,
                          const ObliqueCamera& camera, const ObliqueLayer& layer, const Viewport& viewport,
-                         CellBuffer& cells) {
+                         LabelPlacer& labels, CellBuffer& cells) {
   ObliquePainter painter(relief, camera, layer, viewport, cells);
-  LabelPlacer labels(viewport);
   const double half_length_pixels = std::clamp(viewport.size.columns / 26.0, 2.4, 5.5);
   struct Placed {
     const LouseMark* louse;

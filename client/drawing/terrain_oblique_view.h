@@ -6,6 +6,7 @@
 
 #include "client/cells/cell_buffer.h"
 #include "client/drawing/badges.h"
+#include "client/drawing/labels.h"
 #include "client/drawing/layout.h"
 #include "client/drawing/scene.h"
 #include "client/ground/oblique_camera.h"
@@ -22,9 +23,9 @@ struct ObliqueLayer {
 
 ObliqueLayer oblique_layer(const Relief& relief, const ObliqueCamera& camera, Size size, ColorMode mode);
 
-/// Trails, lice as ellipsoids, names. `layer` has been copied to the viewport.
+/// Trails, lice as ellipsoids, names where `labels` has room. `layer` has been copied to the viewport.
 void draw_lice_obliquely(const Scene& scene, const Badges& badges, const Relief& relief,
                          const ObliqueCamera& camera, const ObliqueLayer& layer, const Viewport& viewport,
-                         CellBuffer& cells);
+                         LabelPlacer& labels, CellBuffer& cells);
 
 }  // namespace woodlouse::client

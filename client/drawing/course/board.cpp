@@ -90,23 +90,35 @@ void force_pixel(CellBuffer& cells, const Viewport& map, int x, int y, Rgb color
   put_pixel(cells, map, x, y, Color::of(color));
 }
 
-/// Where `rows` of figures stand: at the top, or at the bottom, where your louse would be under them.
-int row_of_splash(const Viewport& map, int left, int columns, int rows, std::optional<Place> yours) {
+/// Where `rows` of figures stand: at the top, or at the bottom, where your louse would be under them, or else
+/// the next gate, which at the bottom is not.
+int row_of_splash(const Viewport& map, int left, int columns, int rows, const InSight& in_sight) {
   constexpr int kTop = 1;
   constexpr Size kLouse{4, 2};  // as far as one reaches from its place
-  const bool is_under = yours && yours->column > left - kLouse.columns &&
-                        yours->column < left + columns + kLouse.columns &&
-                        yours->row < kTop + rows + kLouse.rows;
-  return is_under ? std::max(kTop, map.size.rows - rows - 1) : kTop;
+  const auto& yours = in_sight.yours;
+  const bool is_beside =
+      !yours || yours->column <= left - kLouse.columns || yours->column >= left + columns + kLouse.columns;
+  const int bottom = std::max(kTop, map.size.rows - rows - 1);
+  const auto hides_you = [&](int top) {
+    return !is_beside && yours->row > top - kLouse.rows && yours->row < top + rows + kLouse.rows;
+  };
+  const auto hides_gate = [&](int top) {
+    return std::any_of(in_sight.gate.begin(), in_sight.gate.end(), [&](const Viewport& g) {
+      return g.column < left + columns && left < g.column + g.size.columns && g.row < top + rows &&
+             top < g.row + g.size.rows;
+    });
+  };
+  if (hides_you(kTop)) return bottom;
+  return hides_gate(kTop) && !hides_gate(bottom) && !hides_you(bottom) ? bottom : kTop;
 }
 
-void draw_splash(const Splash& splash, const Look& look, const Viewport& map, std::optional<Place> yours,
+void draw_splash(const Splash& splash, const Look& look, const Viewport& map, const InSight& in_sight,
                  CellBuffer& cells) {
   const int width = width_of(splash.text);
   if (width == 0) return;
   if (!paints_pixels(look)) {
     const int left = (map.size.columns - width) / 2;
-    const int row = row_of_splash(map, left, width, kFigureHeight, yours);
+    const int row = row_of_splash(map, left, width, kFigureHeight, in_sight);
     const Style style = tone_style(splash.tone, {}, look);
     for (int y = -1; y <= kFigureHeight; ++y)
       for (int x = -1; x <= width; ++x)
@@ -118,7 +130,7 @@ void draw_splash(const Splash& splash, const Look& look, const Viewport& map, st
   }
   const int scale = map.size.columns >= 2 * width + 12 && map.size.rows >= 20 ? 2 : 1;
   const int left = (map.size.columns - scale * width) / 2;
-  const int row = row_of_splash(map, left, scale * width, (scale * kFigureHeight + 1) / 2, yours);
+  const int row = row_of_splash(map, left, scale * width, (scale * kFigureHeight + 1) / 2, in_sight);
   const auto paint = [&](int grow, Rgb color) {
     for_dots(splash.text, [&](int x, int y) {
       for (int dy = -grow; dy < scale + grow; ++dy)
@@ -247,7 +259,7 @@ LineRows line_rows(const Scene& scene, int columns) {
 }
 
 void draw_course_board(const Scene& scene, const Badges& badges, const Layout& layout,
-                       std::optional<Place> yours, CellBuffer& cells) {
+                       const InSight& in_sight, CellBuffer& cells) {
   const Styles styles = styles_for(scene.look);
   const Viewport& map = layout.map;
   draw_lines(scene.course.lines, scene.look, layout.goal, styles.bar, cells);
@@ -257,7 +269,7 @@ void draw_course_board(const Scene& scene, const Badges& badges, const Layout& l
   if (!scene.course.podium.empty() && kPodiumRows < map.size.rows)
     draw_podium(scene, badges, map, 1, cells);
   else if (scene.course.splash && kFigureHeight + 2 < map.size.rows)
-    draw_splash(*scene.course.splash, scene.look, map, yours, cells);
+    draw_splash(*scene.course.splash, scene.look, map, in_sight, cells);
 }
 
 }  // namespace woodlouse::client

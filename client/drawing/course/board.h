@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "client/cells/cell_buffer.h"
 #include "client/drawing/badges.h"
@@ -13,6 +14,12 @@
 
 namespace woodlouse::client {
 
+/// What is not to be hidden, in cells from the map's corner.
+struct InSight {
+  std::optional<Place> yours;  ///< where your louse is drawn; none: it is nowhere
+  std::vector<Viewport> gate;  ///< the next one's line, posts and number
+};
+
 /// A tone in a look, on the ground that `base` has.
 Style tone_style(Tone tone, const Style& base, const Look& look);
 
@@ -21,9 +28,8 @@ Style tone_style(Tone tone, const Style& base, const Look& look);
 LineRows line_rows(const Scene& scene, int columns);
 
 /// Scene::course's lines, and over the map its big figures or its podium. Of a line what fits is shown, part
-/// by part: half a number would be another one. yours: the cell of the map in which your louse is drawn, over
-/// which no figure stands; none: it is nowhere.
+/// by part: half a number would be another one. Over your louse no figure stands.
 void draw_course_board(const Scene& scene, const Badges& badges, const Layout& layout,
-                       std::optional<Place> yours, CellBuffer& cells);
+                       const InSight& in_sight, CellBuffer& cells);
 
 }  // namespace woodlouse::client

@@ -22,6 +22,7 @@ struct GateMark {
 struct CrumbMark {
   core::Vec2 position;
   std::uint32_t value = 1;  ///< >= 1
+  bool is_wanted = false;   ///< the line over the map leads to it
 };
 
 /// A place that is to be held.

@@ -62,6 +62,19 @@ void draw_gate(const GateMark& gate, GroundCanvas& canvas) {
   draw_post(gate.b, post, canvas);
 }
 
+/// Around the crumb that is told of: brackets, or a circle of dots.
+void draw_target(int x, int y, GroundCanvas& canvas) {
+  if (!canvas.has_pixels()) {
+    canvas.dot(x - 1, y, goal_ink(canvas.look(), U'['));
+    canvas.dot(x + 1, y, goal_ink(canvas.look(), U']'));
+    return;
+  }
+  for (const int side : {-1, 1})
+    for (const auto& [dx, dy] : {std::pair{5, 1}, std::pair{1, 5}, std::pair{5, -1}, std::pair{-1, 5},
+                                 std::pair{3, 3}, std::pair{3, -3}})  // in halves from its middle
+      canvas.dot(x + (1 + side * dx) / 2, y - (1 + side * dy) / 2, goal_ink(canvas.look(), U'o'));
+}
+
 /// Pale, over a shade; a dear one is larger.
 void draw_crumb(const CrumbMark& crumb, GroundCanvas& canvas) {
   const auto at = canvas.spot(crumb.position);
@@ -71,6 +84,7 @@ void draw_crumb(const CrumbMark& crumb, GroundCanvas& canvas) {
                           : Ink{pale_color(PaleMark::kCrumb, canvas.look()), U'o', 1.0, kBold};
   const int x = whole(at->x);
   const int y = whole(at->y);
+  if (crumb.is_wanted) draw_target(x, y, canvas);
   canvas.dot(x, y, ink);
   if (!canvas.has_pixels()) return;
   canvas.dot(x, y + 1, {kMarkShade});
@@ -157,8 +171,10 @@ HeadingGlyph screen_glyph(const Spot& from, const Spot& to, const GroundCanvas& 
   return heading_glyph({to.x - from.x, -down});
 }
 
-/// An arrow as it is written. A slash has no head: between the four it is the keys' two directions.
-std::u32string arrow_text(const HeadingGlyph& arrow) {
+/// An arrow as it is written. In ASCII a slash has no head: between the four it is the keys' two directions.
+std::u32string arrow_text(const HeadingGlyph& arrow, const GroundCanvas& canvas) {
+  constexpr char32_t kArrows[3][3] = {{U'↖', U'↑', U'↗'}, {U'←', U'+', U'→'}, {U'↙', U'↓', U'↘'}};
+  if (canvas.has_pixels()) return {kArrows[arrow.rows + 1][arrow.columns + 1]};
   if (arrow.columns == 0 || arrow.rows == 0) return {static_cast<char32_t>(arrow.glyph)};
   return {arrow.rows < 0 ? U'N' : U'S', arrow.columns > 0 ? U'E' : U'W'};
 }
@@ -184,7 +200,7 @@ void label_gate(const GateMark& gate, GroundCanvas& canvas) {
   const auto ahead = canvas.spot(middle + through);
   if (!ahead) return;
   const HeadingGlyph glyph = screen_glyph(*at, *ahead, canvas);
-  const std::u32string arrow = arrow_text(glyph);
+  const std::u32string arrow = arrow_text(glyph, canvas);
   const int half = static_cast<int>(text.size() + arrow.size()) / 2;
   canvas.write(
       column + glyph.columns * (half + 1) - (glyph.columns < 0 ? static_cast<int>(arrow.size()) - 1 : 0),
@@ -221,8 +237,7 @@ void draw_pointer(const LouseMark& you, core::Vec2 target, core::Vec2 up, Ground
   const double dy = (there->y - here->y) * 2.0 / rows;  // in columns, as dx
   const double length = std::hypot(dx, dy);
   const core::Vec2 way = target - you.position;  // named as the line over the map names it
-  const std::u32string arrow =
-      arrow_text(heading_glyph({way.x * up.y - way.y * up.x, way.x * up.x + way.y * up.y}));
+  const std::u32string arrow = arrow_text(heading_glyph({core::cross(way, up), core::dot(way, up)}), canvas);
   const int column = whole(here->x);
   const int row = whole(here->y) / canvas.dots_per_row();
   constexpr double kReach = 7.0;  ///< [columns] between louse and arrow
@@ -267,16 +282,52 @@ void draw_marks(const Scene& scene, const Badges& badges, GroundCanvas& canvas) 
     if (!gate.is_next) draw_gate(gate, canvas);
   for (const GateMark& gate : scene.course.gates)
     if (gate.is_next) draw_gate(gate, canvas);
-  for (const CrumbMark& crumb : scene.course.crumbs) draw_crumb(crumb, canvas);
+  for (const CrumbMark& crumb : scene.course.crumbs)
+    if (!crumb.is_wanted) draw_crumb(crumb, canvas);
+  for (const CrumbMark& crumb : scene.course.crumbs)
+    if (crumb.is_wanted) draw_crumb(crumb, canvas);
 }
 
-void draw_mark_labels(const Scene& scene, const Badges& badges, GroundCanvas& canvas) {
+std::vector<Viewport> next_gate_cells(const Scene& scene, const GroundCanvas& canvas) {
+  std::vector<Viewport> cells;
+  const auto add = [&](core::Vec2 place, int left, int above, Size size) {
+    if (const auto at = canvas.spot(place); at && !at->is_hidden)
+      cells.push_back({whole(at->x) - left, whole(at->y) / canvas.dots_per_row() - above, size});
+  };
+  const int high = canvas.has_height() ? 2 : 0;  // of posts, and of what is written over the line
+  constexpr int kOfLine = 32;
+  for (const GateMark& gate : scene.course.gates) {
+    if (!gate.is_next) continue;
+    for (const core::Vec2 post : {gate.a, gate.b}) add(post, 1, high, {3, high + 1});
+    add(0.5 * (gate.a + gate.b), 2, std::max(1, high), {5, 1});
+    for (int k = 1; k < kOfLine; ++k)
+      add(gate.a + (static_cast<double>(k) / kOfLine) * (gate.b - gate.a), 0, 0, {1, 1});
+  }
+  return cells;
+}
+
+void draw_next_gate_over_lice(const Scene& scene, GroundCanvas& canvas) {
+  if (!canvas.has_pixels()) return;
+  for (const GateMark& gate : scene.course.gates)
+    for (const core::Vec2 post : {gate.a, gate.b}) {
+      const auto at = gate.is_next ? canvas.spot(post) : std::nullopt;
+      if (!at || canvas.is_kept(whole(at->x), whole(at->y) / 2)) continue;
+      if (!canvas.has_height()) canvas.uncover(whole(at->x), whole(at->y) / 2);  // a louse's letter
+      draw_post(post, goal_ink(canvas.look(), U'#'), canvas);
+    }
+}
+
+void draw_mark_labels(const Scene& scene, const Badges& badges, const std::vector<Viewport>& next_gate,
+                      GroundCanvas& canvas) {
   for (const RingMark& ring : scene.course.rings) draw_ring_over_lice(ring, badges, canvas);
   const auto you = std::find_if(scene.lice.begin(), scene.lice.end(), [&scene](const LouseMark& louse) {
     return louse.is_you || (scene.spectating && louse.id == scene.follow_id);
   });
   for (const GateMark& gate : scene.course.gates)
     if (gate.is_next) label_gate(gate, canvas);
+  for (const Viewport& cell : next_gate)  // what is written from here on is written beside it
+    for (int y = 0; canvas.has_pixels() && y < cell.size.rows; ++y)
+      for (int x = 0; x < cell.size.columns; ++x) canvas.keep(cell.column + x, cell.row + y);
   if (you != scene.lice.end() && you->is_you && scene.course.target)
     draw_pointer(*you, *scene.course.target, scene.course.up, canvas);
   for (const GateMark& gate : scene.course.gates)

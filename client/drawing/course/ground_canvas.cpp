@@ -69,6 +69,13 @@ void GroundCanvas::dot(int x, int y, const Ink& ink) {
   put_pixel(cells_, viewport_, x, y, Color::of(ink.strength < 1.0 ? mix(below, color, ink.strength) : color));
 }
 
+void GroundCanvas::uncover(int column, int row) {
+  if (!has_pixels_ || !viewport_.holds(column, row)) return;
+  Cell& cell = cells_.at(viewport_.column + column, viewport_.row + row);
+  if (cell.glyph != kUpperHalfBlock)
+    cell = {kUpperHalfBlock, {cell.style.background, cell.style.background, kPlain}};
+}
+
 void GroundCanvas::dot_of_line(int x, int y, const Ink& ink, int dash, int count) {
   if (dash == 0 || count / dash % 2 == 0) return dot(x, y, ink);
   if (!has_pixels_ || !ink.between) return;

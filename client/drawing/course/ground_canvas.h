@@ -65,6 +65,11 @@ class GroundCanvas {
   void dot(int x, int y, const Ink& ink);
   /// Nothing is written over this cell any more, nor drawn where dots are cells.
   void keep(int column, int row) { kept_.emplace_back(column, row); }
+  [[nodiscard]] bool is_kept(int column, int row) const {
+    return std::find(kept_.begin(), kept_.end(), std::pair(column, row)) != kept_.end();
+  }
+  /// Takes away the character that a cell of a picture of pixels shows.
+  void uncover(int column, int row);
   /// A straight line over the ground; of `dash` dots every second ones are left out, or `between` (0: none).
   void line(core::Vec2 from, core::Vec2 to, const Ink& ink, int dash);
   /// The outline of an ellipse on the ground, `axis` its half axis along the unit vector `along`.
@@ -83,9 +88,6 @@ class GroundCanvas {
   [[nodiscard]] Style style_of(const Ink& ink) const;
   /// The count-th dot of a line.
   void dot_of_line(int x, int y, const Ink& ink, int dash, int count);
-  [[nodiscard]] bool is_kept(int column, int row) const {
-    return std::find(kept_.begin(), kept_.end(), std::pair(column, row)) != kept_.end();
-  }
 
   Look look_;
   Viewport viewport_;

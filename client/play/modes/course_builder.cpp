@@ -155,8 +155,10 @@ Course course_of(const GoalFacts& facts) {
   if (ruling.game == nullptr || facts.sight.map == nullptr) return course;
   const map::Modes& modes = facts.sight.map->definition.modes;
   if (ruling.mode == state::Mode::kRace && modes.race) add_gates(facts, *modes.race, course);
+  const protocol::GameCrumb* const wanted =
+      ruling.mode == state::Mode::kForage && goal_of(facts) ? dearest_crumb(facts) : nullptr;
   for (const protocol::GameCrumb& crumb : ruling.game->crumbs)
-    if (crumb.value > 0) course.crumbs.push_back({crumb.position, crumb.value});
+    if (crumb.value > 0) course.crumbs.push_back({crumb.position, crumb.value, &crumb == wanted});
   if (ruling.mode == state::Mode::kHill && modes.hill && ruling.game->hill)
     add_rings(*modes.hill, *ruling.game->hill,
               (static_cast<double>(ruling.game->hill->moves_at) - ruling.tick) / ruling.tick_hz, course);

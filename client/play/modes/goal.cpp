@@ -86,22 +86,6 @@ void race_line(const GoalFacts& facts, const map::RaceMode& race, GoalLine& line
     line.push_back({"  best " + span_text(standing.score, ruling.tick_hz), Tone::kUsual});
 }
 
-const protocol::GameCrumb* dearest_crumb(const GoalFacts& facts) {
-  const protocol::GameCrumb* best = nullptr;
-  double shortest = 0.0;
-  for (const protocol::GameCrumb& crumb : facts.sight.ruling.game->crumbs) {
-    if (crumb.value == 0) continue;
-    const core::Vec2 way = seen_from_you(facts, crumb.position) - facts.you->position;
-    const double distance = std::hypot(way.x, way.y);
-    if (best != nullptr &&
-        (crumb.value < best->value || (crumb.value == best->value && distance >= shortest)))
-      continue;
-    best = &crumb;
-    shortest = distance;
-  }
-  return best;
-}
-
 void forage_line(const GoalFacts& facts, const map::ForageMode&, GoalLine& line) {
   const Ruling& ruling = facts.sight.ruling;
   line.push_back({formatted("score %ld", static_cast<long>(facts.you->standing.score)), Tone::kStrong});
@@ -227,6 +211,22 @@ bool is_harvest(const GoalFacts& facts) {
 }
 
 }  // namespace
+
+const protocol::GameCrumb* dearest_crumb(const GoalFacts& facts) {
+  const protocol::GameCrumb* best = nullptr;
+  double shortest = 0.0;
+  for (const protocol::GameCrumb& crumb : facts.sight.ruling.game->crumbs) {
+    if (crumb.value == 0) continue;
+    const core::Vec2 way = seen_from_you(facts, crumb.position) - facts.you->position;
+    const double distance = std::hypot(way.x, way.y);
+    if (best != nullptr &&
+        (crumb.value < best->value || (crumb.value == best->value && distance >= shortest)))
+      continue;
+    best = &crumb;
+    shortest = distance;
+  }
+  return best;
+}
 
 std::optional<core::Vec2> goal_of(const GoalFacts& facts) {
   const Ruling& ruling = facts.sight.ruling;

@@ -31,6 +31,9 @@ std::vector<GoalLine> goal_lines(const GoalFacts& facts);
 /// Where that way leads, as seen from the louse where edges wrap; none: nowhere.
 std::optional<core::Vec2> goal_of(const GoalFacts& facts);
 
+/// What forage wants first, of the dearest crumbs the nearest; null: there is none. REQUIRES you, rules and a
+/// map.
+const protocol::GameCrumb* dearest_crumb(const GoalFacts& facts);
 /// What a gate is called: "gate S", where laps begin, "gate 3".
 std::string gate_name(std::int64_t gate);
 /// A span of moments: 1:23.456.

@@ -131,7 +131,8 @@ TEST_CASE("a louse behind a ridge is not seen, before it it is") {
       for (int column = 0; column < viewport.size.columns; ++column)
         cells.at(column, row) = layer.cells[static_cast<std::size_t>(row * viewport.size.columns + column)];
     const CellBuffer before = cells;
-    draw_lice_obliquely(scene, Badges(scene), relief, camera, layer, viewport, cells);
+    LabelPlacer labels(viewport);
+    draw_lice_obliquely(scene, Badges(scene), relief, camera, layer, viewport, labels, cells);
     return !(cells == before);
   };
   CHECK(changes({0.0, -12.0}));
@@ -159,7 +160,8 @@ TEST_CASE("your louse shows through another that stands in the same place") {
     for (int row = 0; row < viewport.size.rows; ++row)
       for (int column = 0; column < viewport.size.columns; ++column)
         cells.at(column, row) = layer.cells[static_cast<std::size_t>(row * viewport.size.columns + column)];
-    draw_lice_obliquely(scene, Badges(scene), relief, camera, layer, viewport, cells);
+    LabelPlacer labels(viewport);
+    draw_lice_obliquely(scene, Badges(scene), relief, camera, layer, viewport, labels, cells);
     const Color red = Color::of(louse_color(yours, Owner::kYou, scene.look));
     int found = 0;
     for (int row = 0; row < viewport.size.rows; ++row)

@@ -155,6 +155,20 @@ TEST_CASE("a hill's lines say where the place is, when it moves, and who holds i
   CHECK(out.find("out: back at a spawn soon") != std::string::npos);
 }
 
+TEST_CASE("of the crumbs that are shown one is wanted: the one that the line tells of") {
+  SeenRoom room{shipped_map("picnic"), {}, {}, {}, state::Mode::kForage};
+  room.game.phase = protocol::GamePhase::kPlay;
+  room.add(2, 0, 10.0, true);
+  const LouseSample& you = room.lice.at(2).sample;
+  room.game.crumbs = {{0, {1.0, 0.0}, 1}, {1, {9.0, 0.0}, 3}, {2, {7.0, 0.0}, 3}, {3, {0.0, 1.0}, 0}};
+  const Course course = course_of({room.sight(), 2, &you, true, nullptr, 1});
+  REQUIRE(course.crumbs.size() == 3);
+  for (const CrumbMark& crumb : course.crumbs) CHECK(crumb.is_wanted == (crumb.position.x == 7.0));
+  CHECK(text_of(course.lines).find("crumb worth 3: east 7 m") != std::string::npos);
+  room.game.phase = protocol::GamePhase::kPodium;
+  CHECK_FALSE(course_of({room.sight(), 2, &you, true, nullptr, 1}).crumbs[2].is_wanted);
+}
+
 TEST_CASE("medals are the author's time, and 6, 20 and 50 percent more") {
   const auto medal = [](double seconds) {
     return medal_of(60'000, static_cast<std::int64_t>(seconds * kSecond), 60);
