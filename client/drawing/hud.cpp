@@ -99,7 +99,10 @@ void draw_you(const Scene& scene, const Styles& styles, PanelWriter& out) {
     out.text(17 + full, std::string(static_cast<std::size_t>(bar - full), '-'), styles.dim);
     out.text(17 + bar, "]", styles.dim);
   }
-  out.line(slope_text(hud.slope_degrees, out.width()), styles.text);
+  if (hud.above > 0.0)
+    out.line(formatted("flies %6.1f m high", hud.above), styles.strong);
+  else
+    out.line(slope_text(hud.slope_degrees, out.width()), styles.text);
   out.line(thrust_text(hud, out.width()), styles.text);
   out.line(formatted("way   %6.1f m", hud.distance), styles.text);
   out.line(formatted("height %5.1f m", std::abs(hud.height) < 0.05 ? 0.0 : hud.height), styles.text);

@@ -80,6 +80,7 @@ struct HudNumbers {
   bool cruise = false;           ///< thrust is latched on
   double distance = 0.0;         ///< travelled [m]
   double height = 0.0;           ///< [m]
+  double above = 0.0;            ///< over the ground [m]; 0: on it
   std::optional<double> rtt_ms;  ///< empty: not measured yet
   double tick_hz = 0.0;          ///< the server's, as measured or announced
   double fps = 0.0;

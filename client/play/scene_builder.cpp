@@ -160,6 +160,7 @@ void fill_louse_numbers(const Sight& sight, std::uint32_t id, Scene& scene) {
   assert(shown != scene.lice.end());
   scene.hud.slope_degrees = slope_degrees(ground, shown->ahead);
   scene.hud.distance = sample.distance;
+  scene.hud.above = shown->above;
   scene.hud.height = sample.flight_z != 0.0 ? sample.flight_z : ground.z;
   scene.hud.rank = rank_of(scene.scores, id);
 }

@@ -31,6 +31,7 @@ void draw_profile(const Scene& scene, const LouseMark& you, const Styles& styles
   assert(scene.terrain != nullptr && rows >= 3);
   const terrain::Rectangle& d = scene.terrain->domain();
   const int columns = out.width();
+  assert(columns > kBehind);
   const double step = profile_reach(scene) / std::max(1, columns - kBehind);
   const double climbs = scene.course.climbs.value_or(1e9);
   std::vector<Post> posts;
@@ -49,20 +50,25 @@ void draw_profile(const Scene& scene, const LouseMark& you, const Styles& styles
   for (const Post& post : posts)
     if (!post.is_outside) low = std::min(low, post.z), high = std::max(high, post.z);
   if (low > high) low = high = 0.0;
+  const double own = posts.at(kBehind).z + you.above;
+  high = std::max(high, own);
   // Metres a row: all rows for what there is of relief, as a flat picture says nothing; never less than
   // 0.25 m, which would make hills of ripples. What is too steep is marked, however it looks. The top row is
-  // the louse's, should it stand on the summit.
+  // the louse's, should it stand on the summit, or fly.
   const int ground_rows = rows - 2;
   const double row_height = std::max((high - low) / ground_rows, 0.25);
   const bool has_color = scene.look.color != ColorMode::kMono;
+  const auto rows_below = [&](double z) {
+    return 1 + static_cast<int>(std::floor((z - low) / row_height + 1e-9));
+  };
   for (int row = 0; row < rows; ++row) {
     out.begin_row();
     const int level = rows - 1 - row;  // rows of ground that must lie below
     for (int i = 0; i < columns; ++i) {
       const Post& post = posts[static_cast<std::size_t>(i)];
       if (post.is_outside) continue;
-      const int filled = 1 + static_cast<int>(std::floor((post.z - low) / row_height + 1e-9));
-      if (i == kBehind && level == filled) {
+      const int filled = rows_below(post.z);
+      if (i == kBehind && level == rows_below(own)) {
         Style style = styles.strong;
         if (has_color) style.foreground = Color::of(louse_color(you.id, Owner::kYou, scene.look));
         out.text(i, "@", style);

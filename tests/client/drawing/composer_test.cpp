@@ -56,7 +56,7 @@ Scene still_life() {
   add(2, "mara", LouseKind::kPlayer, {3.0, -7.0}, {1.0, 0.0});
   add(3, "gauss", LouseKind::kBot, {12.0, 11.0}, {0.6, 0.8});
   scene.chat = {{"ada", "on your tail"}, {"", "bot gauss joined"}};
-  scene.hud = {2.31, -17.0, 1.0, 0.4, true, 26.0, 4.2, 23.0, 60.0, 30.0, 3, 1, 2};
+  scene.hud = {2.31, -17.0, 1.0, 0.4, true, 26.0, 4.2, 0.0, 23.0, 60.0, 30.0, 3, 1, 2};
   return scene;
 }
 
@@ -277,6 +277,32 @@ TEST_CASE("a rank of three digits is apart from the letter behind it") {
   Scene scene = still_life();
   scene.scores.front().rank = 123;
   CHECK(text_of(scene, {80, 24}).find(" 123 ") != std::string::npos);
+}
+
+TEST_CASE("in flight the panel tells how high, and what lies ahead has the louse over its ground") {
+  Scene scene = still_life();
+  CHECK(text_of(scene, {120, 36}).find("slope  -17 deg downhill") != std::string::npos);
+  const auto row_of_louse = [&] {  // in the profile, which stands in a panel from column 87 on
+    std::istringstream text(text_of(scene, {120, 36}));
+    int row = 0, found = -1;
+    bool is_ahead = false;
+    for (std::string line; std::getline(text, line); ++row) {
+      is_ahead = is_ahead || line.find("AHEAD") != std::string::npos;
+      if (is_ahead && line.find('@', 87) != std::string::npos) found = row;
+      if (line.find("CHAT") != std::string::npos) break;
+    }
+    REQUIRE(found > 0);
+    return found;
+  };
+  const int on_ground = row_of_louse();
+  scene.hud.above = scene.lice[1].above = 7.2;
+  for (const Size size : {Size{60, 20}, Size{80, 24}, Size{120, 36}}) {
+    CHECK(text_of(scene, size).find("flies    7.2 m high") != std::string::npos);
+    CHECK(text_of(scene, size).find("slope") == std::string::npos);
+  }
+  CHECK(row_of_louse() < on_ground);
+  scene.hud.above = scene.lice[1].above = 300.0;
+  CHECK(row_of_louse() < on_ground);
 }
 
 TEST_CASE("what lies ahead is shown where the louse goes, in all rows that there are") {
