@@ -10,15 +10,22 @@
 #include "client/drawing/frame_box.h"
 #include "client/drawing/hud.h"
 #include "client/drawing/labels.h"
+#include "client/drawing/layout.h"
+#include "client/drawing/lice_on_map.h"
 #include "client/drawing/palette.h"
 #include "client/drawing/wrapping.h"
 
 namespace woodlouse::client {
 namespace {
 
+int map_columns(Size screen) { return layout_for(screen, {}).map.size.columns; }
+
+/// Over the map, where it is wide enough, so that no numbers beside it are cut.
 Viewport centred(Size wanted, Size screen) {
   const Size size{std::min(wanted.columns, screen.columns), std::min(wanted.rows, screen.rows)};
-  return {(screen.columns - size.columns) / 2, (screen.rows - size.rows) / 2, size};
+  const int map = map_columns(screen);
+  return {((size.columns <= map ? map : screen.columns) - size.columns) / 2, (screen.rows - size.rows) / 2,
+          size};
 }
 
 std::string_view color_text(ColorMode mode) {
@@ -68,7 +75,28 @@ std::vector<HelpLine> driving_help(const KeyLabels& keys) {
       {"", formatted("%-10s steer by compass: keys push that way", keys.steer.c_str())}};
 }
 
-std::vector<HelpLine> game_help(const Scene& scene) {
+/// What stands for what in the picture.
+std::vector<HelpLine> map_help(const Scene& scene, int columns) {
+  if (!paints_pixels(scene.look))
+    return {{"MAP", "Close lines are steep. You roll downhill for free,"},
+            {"", "hills eat speed. @ is you, a-z others, * marks a"},
+            {"", "bot. The glyph beside a letter is its heading" + std::string(scene.spectating ? "." : ",")},
+            {"", std::string(scene.spectating ? "" : "beside yours where your push goes. ") +
+                     (scene.look.color == ColorMode::kMono ? "" : "Low is blue.")}};
+  std::vector<HelpLine> lines{{"MAP", "Low is blue, close lines are steep. You roll"},
+                              {"", "downhill for free, hills eat speed. * marks a bot."}};
+  const bool is_oblique = scene.view == View::kOblique || scene.view == View::kFollow;
+  if (is_oblique || columns >= kColumnsForBodies) {
+    lines.push_back({"", "Lice roll where their heads are, white or black."});
+    if (!scene.spectating) lines.push_back({"", "The white bar at yours: where the next push goes."});
+  } else {
+    lines.push_back({"", "@ is you. Beside a letter stands its heading."});
+    if (!scene.spectating) lines.push_back({"", "Beside yours, in white, where the next push goes."});
+  }
+  return lines;
+}
+
+std::vector<HelpLine> game_help(const Scene& scene, int columns) {
   const KeyLabels& keys = scene.keys;
   std::vector<HelpLine> lines;
   if (scene.spectating)
@@ -83,10 +111,8 @@ std::vector<HelpLine> game_help(const Scene& scene) {
   if (!scene.spectating) lines.push_back({"", keys.error + " how far steps err, a twin at half the step"});
   lines.push_back({"TALK", keys.chat + " chat  Enter sends  Esc cancels  /skip next game"});
   lines.push_back({"QUIT", keys.quit + " (asks)   Ctrl-C (now; restores the terminal)"});
-  lines.push_back({"MAP", "Close lines are steep. You roll downhill for free,"});
-  lines.push_back({"", "hills eat speed. @ is you, a-z others, * marks a"});
-  lines.push_back({"", "bot, the glyph beside a letter is its heading."});
-  lines.push_back({"", "In colour low is blue; heads are white or black."});
+  const std::vector<HelpLine> map = map_help(scene, columns);
+  lines.insert(lines.end(), map.begin(), map.end());
   return lines;
 }
 
@@ -107,7 +133,7 @@ std::vector<HelpLine> replay_help() {
 }
 
 void draw_help(const Scene& scene, const Styles& styles, CellBuffer& cells) {
-  std::vector<HelpLine> lines = scene.replay ? replay_help() : game_help(scene);
+  std::vector<HelpLine> lines = scene.replay ? replay_help() : game_help(scene, map_columns(cells.size()));
   for (std::size_t i = 0; i < scene.course.rules.size(); ++i)
     lines.push_back({i == 0 ? "RULES" : "", scene.course.rules[i]});
   const Viewport box = centred({60, static_cast<int>(lines.size()) + 5}, cells.size());
@@ -131,14 +157,14 @@ void draw_help(const Scene& scene, const Styles& styles, CellBuffer& cells) {
 void draw_scoreboard(const Scene& scene, const Badges& badges, const Styles& styles, CellBuffer& cells) {
   const int most = std::max(1, cells.size().rows - 8);
   const int rows = std::clamp(static_cast<int>(scene.scores.size()), 1, most);
-  const Viewport box = centred({56, rows + 4}, cells.size());
+  const Viewport box = centred({58, rows + 4}, cells.size());
   const bool by_distance = scene.measured.empty();
   draw_box(box, "SCORES  " + (by_distance ? "distance travelled" : scene.measured), scene.look, styles,
            cells);
   const int left = box.column + 2;
   constexpr int kKind = 29;
   constexpr int kSpeed = 34;
-  constexpr int kMeasure = 53;  // its right end
+  constexpr int kMeasure = 54;  // its right end
   const auto to_the_right = [&](int y, const std::string& text, const Style& style) {
     cells.text(left + kMeasure - static_cast<int>(text.size()), y, text, style);
   };
@@ -164,7 +190,7 @@ void draw_scoreboard(const Scene& scene, const Badges& badges, const Styles& sty
 }
 
 void draw_quit_question(const Scene& scene, const Styles& styles, CellBuffer& cells) {
-  const Viewport box = centred({40, 5}, cells.size());
+  const Viewport box = centred({42, 5}, cells.size());
   draw_box(box, "LEAVE?", scene.look, styles, cells);
   cells.text(box.column + 3, box.row + 1,
              scene.spectating ? "Stop watching?" : "Your louse leaves the hill with you.", styles.text);
