@@ -169,8 +169,9 @@ InSight Composer::Layers::draw_map(const Scene& scene, const Badges& badges, con
 Composer::Composer() : layers_(std::make_unique<Layers>()) {}
 Composer::~Composer() = default;
 
-View default_view(const Look& look, Size size) {
-  return paints_pixels(look) && size.columns >= 100 && size.rows >= 30 ? View::kOblique : View::kMap;
+View default_view(const Look& look, Size size, state::Mode driven) {
+  if (!paints_pixels(look) || size.columns < 100 || size.rows < 30) return View::kMap;
+  return driven == state::Mode::kRace ? View::kFollow : View::kOblique;
 }
 
 core::Vec2 up_in_picture(View view, const Look& look) {

@@ -6,6 +6,7 @@
 
 #include "client/cells/cell_buffer.h"
 #include "client/drawing/scene.h"
+#include "shared/state/mode.h"
 
 namespace woodlouse::client {
 
@@ -13,8 +14,9 @@ namespace woodlouse::client {
 constexpr double follow_zoom(double zoom) { return 2.6 * std::clamp(zoom, 0.25, 4.0); }
 
 /// The view that suits a terminal best before anyone has chosen: oblique where there is colour, half-blocks
-/// and 100x30 cells or more, else the map.
-View default_view(const Look& look, Size size);
+/// and 100x30 cells or more, there for who drives in a race near the louse, else the map. driven: by which
+/// rules; roam for who looks on.
+View default_view(const Look& look, Size size, state::Mode driven = state::Mode::kRoam);
 
 /// The map's direction, a unit vector, that goes up in the middle of the picture of a view.
 core::Vec2 up_in_picture(View view, const Look& look);

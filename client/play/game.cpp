@@ -42,7 +42,8 @@ Game::Game(boost::asio::io_context& context, Session& session, TerminalGuard& gu
       loop_(context, guard, std::move(keys), screen, settings.fps, *this) {}
 
 Outcome Game::run() {
-  interface_.view = settings_.view.value_or(default_view(settings_.look, terminal_size(STDOUT_FILENO)));
+  interface_.view = settings_.view.value_or(View::kMap);
+  interface_.has_chosen = settings_.view.has_value();
   interface_.has_oblique = paints_pixels(settings_.look);
   interface_.overlay = settings_.first;
   interface_.steer = settings_.steer;
@@ -162,6 +163,10 @@ void Game::perform(Action action) {
 }
 
 Scene Game::scene(core::Time now, double fps) {
+  if (const auto* welcome = session_.room().welcome(); welcome != nullptr)
+    driven_ = welcome->id == 0 ? state::Mode::kRoam
+                               : state::mode_from_text(welcome->mode).value_or(state::Mode::kRoam);
+  interface_.suit(default_view(settings_.look, terminal_size(STDOUT_FILENO), driven_));
   if (const auto* welcome = session_.room().welcome(); welcome != nullptr && welcome->id != 0)
     session_.room().look(outlook(interface_, welcome->extent, session_.room().roster().lice()));
   if (Pilot* pilot = session_.room().pilot())

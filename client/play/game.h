@@ -18,6 +18,7 @@
 #include "client/terminal/terminal_loop.h"
 #include "client/terminal/terminal_screen.h"
 #include "shared/core/clock.h"
+#include "shared/state/mode.h"
 
 namespace woodlouse::client {
 
@@ -63,6 +64,7 @@ class Game final : private Performance {
   unsigned rung_ = 0;  ///< of the room's bells
   RepeatDelay repeat_delay_;
   Interface interface_;
+  state::Mode driven_ = state::Mode::kRoam;  ///< by whose rules; stays when the line is cut
   ChatEntry chat_;
   Teacher teacher_;
   core::Time begun_{};

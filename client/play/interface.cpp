@@ -36,10 +36,12 @@ void zoom_in(Interface& interface) {
                        ? std::min(interface.zoom * Interface::kZoomStep, Interface::kNearest)
                        : 1.0;
   interface.view = View::kFollow;
+  interface.has_chosen = true;
 }
 
 void zoom_out(Interface& interface) {
   if (interface.view != View::kFollow) return;
+  interface.has_chosen = true;
   interface.zoom /= Interface::kZoomStep;
   if (interface.zoom >= Interface::kFarthest) return;
   interface.view = View::kMap;
@@ -52,6 +54,7 @@ bool Interface::apply(Action action) {
   switch (action) {
     case Action::kView:
       view = after(view, has_oblique);
+      has_chosen = true;
       return true;
     case Action::kZoomIn:
       zoom_in(*this);

@@ -14,6 +14,7 @@ enum class TrailLength : std::uint8_t { kOff, kShort, kLong };
 
 struct Interface {
   View view = View::kMap;
+  bool has_chosen = false;  ///< the view is the player's choice, no longer what suits the terminal
   bool has_oblique = true;  ///< the look shows it otherwise than the map; else V passes it over
   double zoom = 1.0;        ///< of View::kFollow; zoomed out beyond kFarthest it is the map again
   Overlay overlay = Overlay::kNone;
@@ -28,6 +29,10 @@ struct Interface {
   static constexpr double kFarthest = 0.5;
   static constexpr double kZoomStep = 1.25;
 
+  /// This view suits the terminal best now: where the player has chosen none, it is taken.
+  void suit(View best) {
+    if (!has_chosen) view = best;
+  }
   /// Carries out what concerns only the picture; false for actions that are somebody else's.
   bool apply(Action action);
 };

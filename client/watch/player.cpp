@@ -38,12 +38,13 @@ void fill_thrust_numbers(const state::Louse& louse, double tick_hz, HudNumbers& 
 
 }  // namespace
 
-Screening::Screening(RecordingView& recording, std::string name, View view, bool has_oblique)
+Screening::Screening(RecordingView& recording, std::string name, std::optional<View> view, bool has_oblique)
     : recording_(recording),
       name_(std::move(name)),
       clock_(recording.archive().first_tick(), recording.archive().last_tick(),
              recording.archive().header().tick_hz) {
-  interface_.view = view;
+  interface_.view = view.value_or(View::kMap);
+  interface_.has_chosen = view.has_value();
   interface_.has_oblique = has_oblique;
   std::vector<EventMark> marks;
   for (const replay::Mark& mark : recording.archive().marks()) {
@@ -104,6 +105,7 @@ void Screening::perform(const ReplayOrder& order) {
 void Screening::follow(std::uint32_t id) {
   interface_.follow_id = id;
   interface_.view = View::kFollow;
+  interface_.has_chosen = true;
 }
 
 void Screening::go_to_next_event() {

@@ -20,11 +20,14 @@ class Screening {
  public:
   static constexpr double kSkipSeconds = 5.0;
 
-  /// name: of the file, for the status line. The recording outlives it. has_oblique: as Interface has it.
-  Screening(RecordingView& recording, std::string name, View view, bool has_oblique = true);
+  /// name: of the file, for the status line. The recording outlives it. view: none: see suit(). has_oblique:
+  /// as Interface has it.
+  Screening(RecordingView& recording, std::string name, std::optional<View> view, bool has_oblique = true);
 
   /// What the key asks of whoever runs the terminal (leave, suspend, draw anew), if anything.
   std::optional<Action> on_key(const Key& key);
+  /// As Interface has it.
+  void suit(View best) { interface_.suit(best); }
   /// Runs on to now.
   void update(core::Time now);
   [[nodiscard]] Scene scene(const FrameFacts& facts) const;

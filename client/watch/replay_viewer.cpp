@@ -17,9 +17,7 @@ ReplayViewer::ReplayViewer(boost::asio::io_context& context, RecordingView& reco
       guard_(guard),
       screen_(screen),
       settings_(settings),
-      screening_(recording, name,
-                 settings.view.value_or(default_view(settings.look, terminal_size(STDOUT_FILENO))),
-                 paints_pixels(settings.look)),
+      screening_(recording, name, settings.view, paints_pixels(settings.look)),
       loop_(context, guard, std::move(keys), screen, settings.fps, *this) {}
 
 void ReplayViewer::on_input(const TerminalInput& input) {
@@ -34,6 +32,7 @@ void ReplayViewer::on_input(const TerminalInput& input) {
 }
 
 Scene ReplayViewer::scene(core::Time now, double fps) {
+  screening_.suit(default_view(settings_.look, terminal_size(STDOUT_FILENO)));
   screening_.update(now);
   recording_.prove(now + std::chrono::nanoseconds(std::chrono::seconds(1)) / (settings_.fps * kProvingShare));
   return screening_.scene({settings_.look, fps, false, now});

@@ -114,6 +114,23 @@ TEST_CASE("zooming in follows the louse, zooming out far enough shows the whole 
   REQUIRE(interface.view == View::kMap);
 }
 
+TEST_CASE("the view is what suits the terminal until the player chooses one") {
+  for (const Action choice : {Action::kView, Action::kZoomIn}) {
+    Interface interface;
+    interface.suit(View::kOblique);
+    CHECK(interface.view == View::kOblique);
+    interface.apply(Action::kLabels);
+    interface.apply(Action::kZoomOut);  // nothing to zoom out of
+    interface.suit(View::kMap);
+    CHECK(interface.view == View::kMap);
+    interface.apply(choice);
+    const View chosen = interface.view;
+    CHECK(chosen != View::kMap);
+    interface.suit(View::kMap);
+    CHECK(interface.view == chosen);
+  }
+}
+
 TEST_CASE("steering is not the picture's business") {
   Interface interface;
   REQUIRE_FALSE(interface.apply(Action::kPushPulse));

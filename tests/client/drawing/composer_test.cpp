@@ -216,6 +216,10 @@ TEST_CASE("the map and the default view follow what the terminal can do") {
   constexpr Look kPixels{ColorMode::kTruecolor, GlyphSet::kHalfBlocks};
   CHECK(default_view(kPixels, {120, 36}) == View::kOblique);
   CHECK(default_view(kPixels, {80, 24}) == View::kMap);
+  // Gates lie too close together in a picture of the whole map.
+  CHECK(default_view(kPixels, {120, 36}, state::Mode::kRace) == View::kFollow);
+  CHECK(default_view(kPixels, {120, 36}, state::Mode::kForage) == View::kOblique);
+  CHECK(default_view(kPixels, {80, 24}, state::Mode::kRace) == View::kMap);
   CHECK(default_view({ColorMode::k16, GlyphSet::kHalfBlocks}, {120, 36}) == View::kMap);
   CHECK(default_view({ColorMode::kTruecolor, GlyphSet::kAscii}, {120, 36}) == View::kMap);
 }
