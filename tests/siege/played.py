@@ -139,8 +139,8 @@ class Player:
 class Stage(Session):
     """The client in its terminal, frame by frame."""
 
-    def __init__(self, command, environment, judge, player):
-        super().__init__(command, 80, 24, environment)
+    def __init__(self, command, environment, judge, player, size=(80, 24)):
+        super().__init__(command, *size, environment)
         self.screen.write_process_input = lambda text: None
         self.judge, self.player = judge, player
         self.overlay = False
@@ -153,8 +153,9 @@ class Stage(Session):
         if LAST_QUESTION in data:  # at the start behind all others, at the end alone
             self.write((b"" if self.judge.begun else ANSWERS) + LAST_ANSWER)
         self.rest += data
-        if self.rest.count(FRAME_BEGIN) > self.rest.count(FRAME_END):
-            return  # a large frame comes in parts; what is small is written at once
+        if self.rest.count(FRAME_BEGIN) > self.rest.count(FRAME_END) or any(
+                self.rest.endswith(FRAME_BEGIN[:k]) for k in range(1, len(FRAME_BEGIN))):
+            return  # a large frame comes in parts, and so may its beginning; what is small is written at once
         frame, self.rest = self.rest, b""
         self.stream.feed(frame)
         if not self.judge.begun:

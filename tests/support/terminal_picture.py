@@ -101,7 +101,11 @@ class Painter:
 
 
 class Session:
-    """A program in an emulated terminal."""
+    """A program in an emulated terminal, which knows synchronized updates: a frame that is large has a beginning and an end."""
+
+    ASKED, ANSWER = b"\x1b[?2026$p", b"\x1b[?2026;2$y"
+    BEGIN, END = b"\x1b[?2026h", b"\x1b[?2026l"
+    recent, in_frame = b"", False
 
     def __init__(self, command, columns, rows, environment):
         self.screen = pyte.Screen(columns, rows)
@@ -142,8 +146,24 @@ class Session:
                 return False
             if not data:
                 return False
+            self._heed(data)
             self.stream.feed(data)
         return True
+
+    def _heed(self, data):
+        if self.ASKED in data:
+            self.write(self.ANSWER)
+        self.recent = self.recent[-len(self.BEGIN):] + data
+        begin, end = self.recent.rfind(self.BEGIN), self.recent.rfind(self.END)
+        if begin >= 0 or end >= 0:
+            self.in_frame = begin > end
+
+    def settle(self):
+        """Reads on until a frame is whole: it has ended, and nothing has come for 8 ms; at most 5 s."""
+        end = time.monotonic() + 5.0
+        while time.monotonic() < end and (select.select([self.master], [], [], 0.008)[0] or self.in_frame):
+            if not self.read(0.05, done=iter((False, True)).__next__):  # once
+                return
 
     def text(self):
         return "\n".join(line.rstrip() for line in self.screen.display) + "\n"
@@ -161,11 +181,15 @@ class Session:
         os.close(self.master)
 
 
+def compact(image):
+    """The same with a palette, where 256 colours are all of it."""
+    return image.quantize(256, dither=Image.Dither.NONE) if len(image.getcolors(1 << 24)) <= 256 else image
+
+
 def save(session, path, cell):
+    session.settle()
     if path.endswith(".png"):
-        image = Painter(cell).picture(session.screen)
-        few = image.quantize(256, dither=Image.Dither.NONE) if len(image.getcolors(1 << 24)) <= 256 else image
-        few.save(path, optimize=True)
+        compact(Painter(cell).picture(session.screen)).save(path, optimize=True)
     else:
         with open(path, "w", encoding="utf-8") as file:
             file.write(session.text())

@@ -20,7 +20,7 @@ class Picture(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             png, txt = os.path.join(folder, "a.png"), os.path.join(folder, "a.txt")
             subprocess.run([sys.executable, TOOL, "--size", "20x4", "--press", f"until=X; shot={png} shot={txt}", "--",
-                            "sh", "-c", f"printf '{SHOWN}'; exec sleep 60"], check=True, timeout=30,
+                            "sh", "-c", f"stty -echo; printf '{SHOWN}'; exec sleep 60"], check=True, timeout=30,
                            stdout=subprocess.DEVNULL)
             image = Image.open(png).convert("RGB")
             self.assertEqual(image.size, (160, 64))
