@@ -60,6 +60,7 @@ protocol::Bye ClusterDesk::begin_leaving(const protocol::Bye& otherwise) {
 }
 
 void ClusterDesk::take_over(std::vector<RoomToGoOn> rooms) {
+  owns_ = true;
   const auto opened = [&]() -> core::Expected<void> {
     for (RoomToGoOn& room : rooms) {
       const std::string name = room.name;
@@ -71,6 +72,7 @@ void ClusterDesk::take_over(std::vector<RoomToGoOn> rooms) {
 }
 
 void ClusterDesk::step_down(const std::string& address) {
+  owns_ = false;
   for (const auto& room : lobby_.rooms()) {
     const std::string name = room->name();
     rooms_.closed(name);

@@ -6,6 +6,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/strand.hpp>
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -58,6 +59,8 @@ class ClusterDesk {
     if (auto address = cluster_->elsewhere(room)) return address;
     return cluster_->is_on_its_way(room) ? std::optional<std::string>("") : std::nullopt;
   }
+  /// The rooms are here. Any thread.
+  [[nodiscard]] bool owns() const { return owns_; }
   /// Any thread.
   [[nodiscard]] Cluster& cluster() { return *cluster_; }
 
@@ -72,6 +75,7 @@ class ClusterDesk {
   const Rooms rooms_;
   const std::shared_ptr<spdlog::logger> log_;
   std::unique_ptr<Cluster> cluster_;
+  std::atomic<bool> owns_{false};
 };
 
 }  // namespace woodlouse::server

@@ -151,8 +151,8 @@ void RoomControl::open_made(const Made& rooms, const Answered& answered) {
     room->use(*limits_.now());  // which may be others than when it was made
     if (!counts_.open(room))
       return answered(refused(admin_code::kNotNow,
-                              fmt::format("{}{}room {} was not opened: one of its name came first, or the "
-                                          "server stops",
+                              fmt::format("{}{}room {} was not opened: one of its name came first, the "
+                                          "cluster's rooms are another host's, or the server stops",
                                           text, text.empty() ? "" : "\n", core::printable(name))));
     log_event(*log_, LogEvent::kOperator, fmt::format("admin: opened room {}", name));
     text += fmt::format("{}room {} is open", text.empty() ? "" : "\n", core::printable(name));

@@ -5,6 +5,7 @@
 #include <spdlog/logger.h>
 #include <boost/asio/io_context.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -39,7 +40,7 @@ class RoomOpener {
                                              Rotation* rotation = nullptr);
 
  private:
-  void log_opened(const std::string& room, const ServeConfig& config, const Start& start) const;
+  void log_opened(const std::string& room, std::uint32_t state_hz, const Start& start) const;
 
   boost::asio::io_context& ticks_;
   const Lanes& lanes_;

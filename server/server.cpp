@@ -171,12 +171,11 @@ core::Expected<void> Server::open_rotation(const ServeConfig& config, std::vecto
 }
 
 core::Expected<void> Server::join_cluster(const ServeConfig& config) {
-  // What can't be played is said now, not when this host's turn comes.
   const auto games = choose_games(config);
   if (!games) return tl::unexpected(games.error());
   if (games->size() > kMostRoomsOfShard)
-    return core::fail("--map", fmt::format("{} rooms are more than a cluster's shard has", games->size()),
-                      fmt::format("at most {}; --mode makes fewer of them", kMostRoomsOfShard));
+    return core::fail(
+        "--map", fmt::format("{} rooms are more than the {} of a cluster", games->size(), kMostRoomsOfShard));
   cluster_.emplace(strand_, lobby_, limits_,
                    ClusterDesk::Rooms{[this, config] { return open_rooms(config); },
                                       [this, config](const std::string& name, Start start) {
@@ -221,6 +220,7 @@ core::Expected<void> Server::open_room(const ServeConfig& config, const std::str
 }
 
 bool Server::open(std::shared_ptr<Room> room) {
+  if (cluster_ && !cluster_->owns()) return false;
   const std::string name = room->name();
   rooms_running_.insert(name);
   if (lobby_.open(std::move(room), [this, name] { asio::post(strand_, [this, name] { room_ended(name); }); }))

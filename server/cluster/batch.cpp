@@ -79,9 +79,9 @@ RoomPlace read_place(const json::Value& value, json::Problems& problems) {
   const json::Fields fields(value, {"room", "header", "keyframe", "tick"}, problems);
   RoomPlace place;
   place.room = text_of(fields, "room", kMostRoomBytes, problems);
-  place.header = fields.integer("header", 0, UINT64_MAX);
-  place.keyframe = fields.integer("keyframe", 0, UINT64_MAX);
-  place.tick = fields.integer("tick", 0, UINT64_MAX);
+  place.header = fields.integer("header", 0, kMostCount);
+  place.keyframe = fields.integer("keyframe", 0, kMostCount);
+  place.tick = fields.integer("tick", 0, kMostCount);
   return place;
 }
 
@@ -89,8 +89,8 @@ core::Expected<BatchHead> read_head(std::string_view line, const std::string& pl
   return read_object(line, place, {"batch", "epoch", "host", "nonce", "behavior", "rooms"},
                      [](const json::Fields& fields, json::Problems& problems) {
                        BatchHead head;
-                       head.number = fields.integer("batch", 0, UINT64_MAX);
-                       head.writer.epoch = fields.integer("epoch", 0, UINT64_MAX);
+                       head.number = fields.integer("batch", 0, kMostCount);
+                       head.writer.epoch = fields.integer("epoch", 0, kMostCount);
                        head.writer.host = text_of(fields, "host", kMostHostBytes, problems);
                        head.writer.nonce = words_of<2>(fields, "nonce", problems);
                        head.behavior = static_cast<int>(fields.integer("behavior", 0, 1'000'000));

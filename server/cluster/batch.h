@@ -66,6 +66,8 @@ struct Batch {
 };
 
 inline constexpr std::size_t kMostHostBytes = 64;
+/// Of epochs, batches and ticks: one more always fits.
+inline constexpr std::uint64_t kMostCount = std::uint64_t{1} << 62;
 inline constexpr std::size_t kMostRoomBytes = 128;
 
 /// Of head and lines. REQUIRES whole lines.

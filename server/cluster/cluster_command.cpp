@@ -45,7 +45,7 @@ int init(NatsLink& link, const ClusterSettings& settings, std::ostream& out, std
 }
 
 int status(NatsLink& link, const ClusterSettings& settings, std::ostream& out, std::ostream& err) {
-  const auto table = std::make_shared<HostTable>(settings.host, settings.shard);
+  const auto table = std::make_shared<HostTable>(settings.host, settings.shard, 0);
   const auto heard =
       link.subscribe(settings.beat_subject("*"), [table](const auto&, const std::string& bytes, auto) {
         if (auto beat = beat_from(bytes)) table->take(std::move(*beat), Clock::now());
@@ -67,7 +67,9 @@ int status(NatsLink& link, const ClusterSettings& settings, std::ostream& out, s
   const auto hosts = table->hosts(Clock::now());
   for (const Beat& beat : hosts)
     out << fmt::format("host {} at {}: {}, {} batch {}{}\n", beat.host, beat.address,
-                       beat.owns ? "owns the rooms" : "stands by",
+                       beat.owns    ? "owns the rooms"
+                       : beat.ready ? "stands by"
+                                    : "CAN'T TAKE OVER (its log says why)",
                        beat.owns ? "stored up to" : "has read up to", beat.sequence,
                        beat.leaves ? ", goes" : "");
   if (hosts.empty()) out << "no host is heard\n";

@@ -48,6 +48,8 @@ std::string to_text(const Beat& beat) {
       .text("shard", beat.shard)
       .boolean("owns", beat.owns)
       .boolean("leaves", beat.leaves)
+      .boolean("ready", beat.ready)
+      .hash("process", beat.process)
       .text("writer", beat.writer.host)
       .integer("epoch", beat.writer.epoch)
       .hash("nonce", beat.writer.nonce[0])
@@ -72,8 +74,8 @@ core::Expected<Beat> beat_from(std::string_view text) {
   json::Problems problems("a beat");
   if (!document->root().is(json::Kind::kObject)) return core::fail("a beat", "is no object");
   const json::Fields fields(document->root(),
-                            {"host", "address", "shard", "owns", "leaves", "writer", "epoch", "nonce",
-                             "nonce2", "sequence", "silent_ms", "rooms"},
+                            {"host", "address", "shard", "owns", "leaves", "ready", "process", "writer",
+                             "epoch", "nonce", "nonce2", "sequence", "silent_ms", "rooms"},
                             problems);
   Beat beat;
   beat.host = fields.text("host", kMostHostBytes);
@@ -81,11 +83,13 @@ core::Expected<Beat> beat_from(std::string_view text) {
   beat.shard = fields.text("shard", kMostHostBytes);
   beat.owns = flag_of(fields, "owns", problems);
   beat.leaves = flag_of(fields, "leaves", problems);
+  beat.ready = flag_of(fields, "ready", problems);
+  beat.process = fields.hash("process");
   beat.writer.host = fields.text("writer", kMostHostBytes);
-  beat.writer.epoch = fields.integer("epoch", 0, UINT64_MAX);
+  beat.writer.epoch = fields.integer("epoch", 0, kMostCount);
   beat.writer.nonce = {fields.hash("nonce"), fields.hash("nonce2")};
-  beat.sequence = fields.integer("sequence", 0, UINT64_MAX);
-  beat.silent_ms = fields.integer("silent_ms", 0, UINT64_MAX);
+  beat.sequence = fields.integer("sequence", 0, kMostCount);
+  beat.silent_ms = fields.integer("silent_ms", 0, kMostCount);
   const auto rooms = fields.demand("rooms");
   if (rooms && (!rooms->is(json::Kind::kArray) || rooms->size() > kMostRoomsOfShard))
     problems.add(*rooms, "is to be a list of at most 16 rooms");
@@ -101,6 +105,7 @@ core::Expected<Beat> beat_from(std::string_view text) {
 void HostTable::take(Beat beat, Time now) {
   const std::lock_guard lock(mutex_);
   forget(now);
+  if (beat.host == own_ && beat.process != process_) twin_at_ = now;
   if (beat.host == own_ || beat.shard != shard_) return;
   if (hosts_.size() >= kMostHosts && !hosts_.contains(beat.host)) return;
   const std::string host = beat.host;
@@ -124,14 +129,28 @@ bool HostTable::leaves(const Writer& writer) const {
   return known != hosts_.end() && known->second.beat.writer == writer && known->second.beat.leaves;
 }
 
-bool HostTable::may_take_over(Duration silence, Time now) const {
+std::optional<std::size_t> HostTable::place_in_line(Duration silence, Time now) const {
   const std::lock_guard lock(mutex_);
-  return std::none_of(hosts_.begin(), hosts_.end(), [&](const auto& entry) {
-    const Known& known = entry.second;
-    if (known.beat.owns || now - known.at > silence) return false;
-    const Duration silent = std::chrono::milliseconds(known.beat.silent_ms) + (now - known.at);
-    return silent < silence / 2 || entry.first < own_;
-  });
+  std::size_t before = 0;
+  for (const auto& [host, known] : hosts_) {
+    const Beat& beat = known.beat;
+    if (beat.owns || beat.leaves || !beat.ready || now - known.at > silence) continue;
+    if (std::chrono::milliseconds(beat.silent_ms) + (now - known.at) < silence / 2) return std::nullopt;
+    before += host < own_ ? 1 : 0;
+  }
+  return before;
+}
+
+bool HostTable::has_twin(Time now) const {
+  const std::lock_guard lock(mutex_);
+  return twin_at_ != Time{} && now - twin_at_ < kForgottenAfter;
+}
+
+std::uint64_t HostTable::highest_epoch() const {
+  const std::lock_guard lock(mutex_);
+  std::uint64_t highest = 0;
+  for (const auto& [host, known] : hosts_) highest = std::max(highest, known.beat.writer.epoch);
+  return highest;
 }
 
 std::optional<Beat> HostTable::owner(Time now) const {
@@ -147,7 +166,8 @@ std::optional<Beat> HostTable::owner(Time now) const {
 std::optional<std::string> HostTable::successor(Time now) const {
   const std::lock_guard lock(mutex_);
   for (const auto& [host, known] : hosts_)
-    if (!known.beat.owns && !known.beat.leaves && now - known.at < std::chrono::seconds(1))
+    if (!known.beat.owns && !known.beat.leaves && known.beat.ready &&
+        now - known.at < std::chrono::milliseconds(200))
       return known.beat.address;
   return std::nullopt;
 }

@@ -24,6 +24,8 @@ struct Beat {
   std::string shard;
   bool owns = false;
   bool leaves = false;                     ///< it goes, and hands its rooms over
+  bool ready = false;                      ///< of a follower: it has all of the log and could go on with it
+  std::uint64_t process = 0;               ///< made by chance: tells two that have one name
   Writer writer;                           ///< where it owns: as whom; else the one it follows
   std::uint64_t sequence = 0;              ///< of the log: acknowledged to an owner, read by a follower
   std::uint64_t silent_ms = 0;             ///< of a follower: for how long it has heard nothing of the owner
@@ -41,7 +43,8 @@ class HostTable {
   static constexpr Duration kForgottenAfter = std::chrono::seconds(5);
   static constexpr std::size_t kMostHosts = 256;
 
-  HostTable(std::string own_host, std::string shard) : own_(std::move(own_host)), shard_(std::move(shard)) {}
+  HostTable(std::string own_host, std::string shard, std::uint64_t process)
+      : own_(std::move(own_host)), shard_(std::move(shard)), process_(process) {}
 
   /// Another host's; others' shards are passed over.
   void take(Beat beat, Time now);
@@ -50,12 +53,16 @@ class HostTable {
   [[nodiscard]] Time heard(const Writer& writer) const;
   /// Whether it has said that it goes.
   [[nodiscard]] bool leaves(const Writer& writer) const;
-  /// No other follower has heard of the owner within `silence`, nor is there one that takes over before this
-  /// host: whose name comes first.
-  [[nodiscard]] bool may_take_over(Duration silence, Time now) const;
+  /// How many are to try before this host: those that could go on, by name. None: one of them has heard of
+  /// the owner within half of `silence`.
+  [[nodiscard]] std::optional<std::size_t> place_in_line(Duration silence, Time now) const;
+  /// Another host of this name was heard lately.
+  [[nodiscard]] bool has_twin(Time now) const;
+  /// That anybody has told of.
+  [[nodiscard]] std::uint64_t highest_epoch() const;
   /// Where the owner's clients go; nothing: no owner is heard, or it goes.
   [[nodiscard]] std::optional<Beat> owner(Time now) const;
-  /// Of a host, not this one, that follows and has all.
+  /// Of a host, not this one, that follows, has all, and was heard just now.
   [[nodiscard]] std::optional<std::string> successor(Time now) const;
   /// Addresses of the others, at most `most`.
   [[nodiscard]] std::vector<std::string> addresses(Time now, std::size_t most) const;
@@ -69,6 +76,8 @@ class HostTable {
   void forget(Time now);
 
   const std::string own_, shard_;
+  const std::uint64_t process_;
+  Time twin_at_{};  ///< when another process of this name was heard
   mutable std::mutex mutex_;
   std::map<std::string, Known, std::less<>> hosts_;
 };

@@ -47,6 +47,8 @@ class Inbox final : public LogDesk {
   [[nodiscard]] bool is_in_doubt() const override { return is_in_doubt_; }
   /// The log has been asked: it is this host's.
   void settle() { is_in_doubt_ = false; }
+  [[nodiscard]] std::uint64_t beginnings() const override { return beginnings_; }
+  void begin_anew() { ++beginnings_; }
   void put(NodeEvent event) {
     assert(!std::holds_alternative<LogDesk::Job>(event));
     const std::lock_guard lock(mutex_);
@@ -77,6 +79,7 @@ class Inbox final : public LogDesk {
   std::size_t jobs_ = 0;
   bool is_stopping_ = false;
   std::atomic<bool> is_in_doubt_{false};
+  std::atomic<std::uint64_t> beginnings_{0};
 };
 
 }  // namespace woodlouse::server

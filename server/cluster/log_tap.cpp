@@ -37,6 +37,7 @@ void LogTap::begin(const match::Match& game) { tell_begin(game); }
 
 void LogTap::tell_begin(const match::Match& game) {
   assert(!has_begun_);
+  beginnings_ = desk_->beginnings();
   has_lost_ = false;
   has_begun_ =
       post([number = number_, room = room_, header = header_, state = game.state(), announce = announce_](
@@ -60,12 +61,13 @@ void LogTap::step(const LiveStep& step, const match::Match& game) {
   const Time now = Clock::now();
   if (stepped_at_ != Time::max() && now - stepped_at_ > away_) desk_->doubt();
   stepped_at_ = now;
-  if (!has_lost_)
+  const bool is_told_anew = std::exchange(beginnings_, desk_->beginnings()) != desk_->beginnings();
+  if (!has_lost_ && !is_told_anew)
     static_cast<void>(
         post([number = number_, step = step.shared()](ShardText& text, Time) { text.step(number, *step); }));
-  if (game.tick() % keyframe_ticks_ != 0) return;
+  if (game.tick() % keyframe_ticks_ != 0 && !is_told_anew) return;
   if (!has_begun_) return tell_begin(game);
-  const bool is_anew = std::exchange(has_lost_, false);
+  const bool is_anew = std::exchange(has_lost_, false) || is_told_anew;
   static_cast<void>(post([number = number_, state = game.state(), is_anew](ShardText& text, Time at) {
     text.keyframe(number, state, is_anew, at);
   }));

@@ -30,6 +30,8 @@ class LogDesk {
   /// Whoever was away may have lost his rooms meanwhile: they are in doubt until the log is asked.
   virtual void doubt() = 0;
   [[nodiscard]] virtual bool is_in_doubt() const = 0;
+  /// Another number: all that was told is lost, and every room is to be told anew at once.
+  [[nodiscard]] virtual std::uint64_t beginnings() const = 0;
 };
 
 class LogTap final : public TickWatcher {
@@ -60,6 +62,7 @@ class LogTap final : public TickWatcher {
   const Duration away_;
   Time stepped_at_ = Time::max();  ///< the last step; max: none since it began, or stood still
   Announce announce_;
+  std::uint64_t beginnings_ = 0;
   bool has_begun_ = false;  ///< the log knows of the game
   bool has_lost_ = false;   ///< something since the last keyframe that was taken
 };

@@ -17,7 +17,6 @@ using core::joined;
 constexpr std::int64_t kReadWithinMs = 300;
 constexpr std::int64_t kAckWithinMs = 2000;
 constexpr std::int64_t kManageWithinMs = 10'000;  // of a stream with replicas
-constexpr std::int64_t kNanoseconds = 1'000'000'000;
 
 template <typename Thing, void (*Destroy)(Thing*)>
 struct Destroyed {
@@ -31,6 +30,8 @@ using OwnedInfo = Owned<jsStreamInfo, jsStreamInfo_Destroy>;
 using OwnedSubscription = Owned<natsSubscription, natsSubscription_Destroy>;
 
 core::Error error_of(natsStatus status, const std::string& what) {
+  if (status == NATS_INSUFFICIENT_BUFFER || status == NATS_CONNECTION_DISCONNECTED)
+    return {what, "NATS is not connected"};
   const char* detail = nats_GetLastError(nullptr);
   std::string text = natsStatus_GetText(status);
   if (detail != nullptr && *detail != 0) text += joined({": ", detail});

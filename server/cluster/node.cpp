@@ -9,11 +9,12 @@ Node::Node(ClusterSettings settings, Hooks hooks, std::shared_ptr<spdlog::logger
     : settings_(std::move(settings)),
       hooks_(std::move(hooks)),
       log_(std::move(log)),
-      table_(settings_.host, settings_.shard) {
+      table_(settings_.host, settings_.shard, process_) {
   assert(!settings_.host.empty() && hooks_.take_over && hooks_.step_down && hooks_.census);
   beat_.host = settings_.host;
   beat_.address = settings_.address;
   beat_.shard = settings_.shard;
+  beat_.process = process_;
 }
 
 core::Expected<void> Node::connect() {
@@ -21,24 +22,22 @@ core::Expected<void> Node::connect() {
       NatsLink::open(settings_, "log",
                      {[inbox = inbox_](std::uint64_t sequence) { inbox->put(Acknowledged{sequence}); },
                       [inbox = inbox_](std::string why) { inbox->put(Refused{std::move(why)}); },
-                      {}});
+                      [this](bool is_connected) { is_log_cut_ = !is_connected; }});
   if (!writing) return tl::unexpected(writing.error());
-  auto beats = NatsLink::open(settings_, "beats", {});
+  auto beats = NatsLink::open(settings_, "beats",
+                              {{}, {}, [this](bool is_connected) { is_beat_cut_ = !is_connected; }});
   if (!beats) return tl::unexpected(beats.error());
   log_link_ = std::move(*writing);
   beat_link_ = std::move(*beats);
   if (const auto state = log_link_->stream_state(); !state)
     return core::fail(state.error().where, "has no such stream: " + state.error().what,
                       "make it, once:  woodlouse-server cluster init --cluster FILE");
-  return beat_link_->subscribe(settings_.beat_subject("*"), [this](const auto&, const std::string& bytes,
-                                                                   auto) {
-    auto beat = beat_from(bytes);
-    if (!beat) return;
-    if (beat->host == settings_.host && beat->address != settings_.address && !is_twin_told_.exchange(true))
-      say(LogEvent::kClusterFault,
-          "another host, at " + beat->address + ", has this one's name: give each its own by --cluster-host");
-    table_.take(std::move(*beat), Clock::now());
-  });
+  return beat_link_->subscribe(settings_.beat_subject("*"),
+                               [this](const auto&, const std::string& bytes, auto) {
+                                 auto beat = beat_from(bytes);
+                                 if (!beat) return;
+                                 table_.take(std::move(*beat), Clock::now());
+                               });
 }
 
 void Node::start() {

@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "server/access/resume_token.h"
 #include "server/cluster/cluster.h"
 #include "server/cluster/host_table.h"
 #include "server/cluster/inbox.h"
@@ -51,7 +52,11 @@ class Node final : public Cluster {
   [[nodiscard]] std::optional<std::string> elsewhere(std::string_view room) const override;
   [[nodiscard]] bool is_on_its_way(std::string_view room) const override;
   [[nodiscard]] std::vector<std::string> hosts() const override;
-  void begin_leaving() override { is_leaving_ = true; }
+  void begin_leaving() override {
+    is_leaving_ = true;
+    const std::lock_guard lock(mutex_);
+    if (!beat_.owns) beat_.leaves = true;  // an owner only once all is stored
+  }
   [[nodiscard]] std::optional<std::string> successor() const override {
     return table_.successor(Clock::now());
   }
@@ -61,10 +66,11 @@ class Node final : public Cluster {
   void run();
   bool follow();
   [[nodiscard]] bool begin_following();
-  [[nodiscard]] core::Expected<void> read_beginning(const NatsLink::Message& last);
+  [[nodiscard]] core::Expected<void> read_beginning(const NatsLink::StreamState& state);
   [[nodiscard]] bool take_message(const LogMessage& message);
   void tell_following(Time now);
-  [[nodiscard]] bool is_owner_gone(Time now) const;
+  [[nodiscard]] bool is_owner_gone(Time now);
+  [[nodiscard]] bool is_cut_off() const { return is_log_cut_ || is_beat_cut_; }
   [[nodiscard]] Duration silence(Time now) const;
   [[nodiscard]] bool take_over();
   [[nodiscard]] bool catch_up();
@@ -92,13 +98,17 @@ class Node final : public Cluster {
   const Hooks hooks_;
   const std::shared_ptr<spdlog::logger> log_;
   const std::shared_ptr<Inbox> inbox_ = std::make_shared<Inbox>();
+  const std::uint64_t process_ = make_resume_token()[0];
   HostTable table_;
   std::unique_ptr<NatsLink> log_link_, beat_link_;
 
   // The node's thread's:
   std::optional<ShardView> view_;
-  std::uint64_t after_ = 0;  ///< the stream's last sequence number, where it holds nothing to read
-  Time heard_{};             ///< the owner, by its batches
+  Time tried_{};                 ///< to take over, in vain
+  std::optional<Time> going_;    ///< since when the owner is known to go
+  bool has_lost_rooms_ = false;  ///< whose beginning could not be read any more
+  std::uint64_t after_ = 0;      ///< the stream's last sequence number, where it holds nothing to read
+  Time heard_{};                 ///< the owner, by its batches
   std::optional<LogWriter> writer_;
   Writer former_;  ///< this host's epoch before, where its log had to begin anew
   std::optional<ShardText> text_;
@@ -109,8 +119,8 @@ class Node final : public Cluster {
   std::string last_fault_;  ///< told already
 
   std::atomic<bool> is_leaving_{false};
-  std::atomic<bool> is_twin_told_{false};
-  mutable std::mutex mutex_;  ///< of what follows
+  std::atomic<bool> is_log_cut_{false}, is_beat_cut_{false};  ///< from NATS
+  mutable std::mutex mutex_;                                  ///< of what follows
   Beat beat_;
   std::vector<std::string> known_rooms_;  ///< of the shard, as the log has them
 

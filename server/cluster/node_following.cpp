@@ -18,6 +18,7 @@ using core::joined;
 bool Node::follow() {
   view_.reset();
   is_difference_told_ = false;
+  tried_ = Time{};
   heard_ = Clock::now();
   Time looked = heard_;
   while (!inbox_->is_stopping()) {
@@ -27,51 +28,60 @@ bool Node::follow() {
       if (message != nullptr && view_ && !take_message(*message)) view_.reset();
     }
     const Time now = Clock::now();
-    // Who was away himself has heard nobody.
-    if (now - std::exchange(looked, now) > settings_.silence / 2) heard_ = now;
-    if (!view_) continue;
+    // Who was away himself, or cut off, has heard nobody.
+    if (now - std::exchange(looked, now) > settings_.silence / 2 || is_cut_off()) heard_ = now;
     tell_following(now);
-    if (is_owner_gone(now) && take_over()) return true;
+    if (view_ && !is_leaving_ && is_owner_gone(now)) {
+      if (take_over()) return true;
+      view_.reset();  // what came meanwhile was not kept
+      tried_ = Clock::now();
+    }
   }
   return false;
 }
 
 bool Node::begin_following() {
-  const auto last = log_link_->last();
   view_.emplace();
+  going_.reset();
+  has_lost_rooms_ = false;
   after_ = 0;
-  if (last) {
-    if (const auto read = read_beginning(*last); !read) return complain(read.error());
-    last_fault_.clear();
-    return true;
-  }
-  // A stream whose batches have all gone by age is a new one; one that does not answer isn't.
   const auto state = log_link_->stream_state();
-  if (!state || state->messages != 0) return complain(last.error());
+  if (!state) return complain(state.error());
   after_ = state->last;
+  // A stream whose batches have all gone by age holds nothing.
+  if (state->messages == 0) return true;
+  if (const auto read = read_beginning(*state); !read) return complain(read.error());
+  last_fault_.clear();
   return true;
 }
 
-core::Expected<void> Node::read_beginning(const NatsLink::Message& last) {
-  const std::string place = joined({"batch ", std::to_string(last.sequence)});
-  const auto batch = unpack(last.bytes, place);
+/// From the last batch that is one, which says where to begin; what is none behind it is passed over.
+core::Expected<void> Node::read_beginning(const NatsLink::StreamState& state) {
+  constexpr std::uint64_t kMostPassedOver = 64;
+  std::uint64_t at = state.last;
+  core::Expected<Batch> batch = core::fail("the log", "holds no batch");
+  for (std::uint64_t tries = 0; tries < kMostPassedOver && at >= state.first; ++tries, --at) {
+    const auto message = log_link_->read(at);
+    if (!message) return tl::unexpected(message.error());
+    batch = unpack(message->bytes, joined({"batch ", std::to_string(at)}));
+    if (batch) break;
+    complain(batch.error());
+  }
   if (!batch) return tl::unexpected(batch.error());
   // What has gone by age can't be read: all hosts were away for long.
-  const auto state = log_link_->stream_state();
-  if (!state) return tl::unexpected(state.error());
   BatchHead head = batch->head;
   std::erase_if(head.rooms, [&](const RoomPlace& room) {
-    const bool is_lost = room.header < state->first || room.keyframe < state->first;
-    if (is_lost)
-      say(LogEvent::kClusterHole,
-          joined({"ROOM LOST: ", room.room, ": the log holds its beginning no more"}));
+    const bool is_lost = room.header < state.first || room.keyframe < state.first;
+    if (is_lost) complain({"ROOM LOST", joined({room.room, ": the log holds its beginning no more"})});
+    has_lost_rooms_ = has_lost_rooms_ || is_lost;
     return is_lost;
   });
-  const auto beginning = ShardView::beginning({last.sequence, head});
+  const auto beginning = ShardView::beginning({at, head});
   for (const auto& [room, sequence] : beginning.headers) {
     const auto message = log_link_->read(sequence);
     if (!message) return tl::unexpected(message.error());
-    const auto headers = unpack(message->bytes, joined({"batch ", std::to_string(sequence)}));
+    const std::string place = joined({"batch ", std::to_string(sequence)});
+    const auto headers = unpack(message->bytes, place);
     if (!headers) return tl::unexpected(headers.error());
     if (auto taken = view_->take_header(room, *headers, place); !taken) return taken;
   }
@@ -84,11 +94,21 @@ core::Expected<void> Node::read_beginning(const NatsLink::Message& last) {
                            });
 }
 
-/// False: what follows can't be understood from here, and is begun anew.
+/// False: something is missing, or what was read is worth nothing any more: it is begun anew. What is no
+/// batch, or is nobody's who may write, is passed over.
 bool Node::take_message(const LogMessage& message) {
   if (message.sequence <= view_->sequence()) return true;
+  const bool is_next = view_->sequence() == 0 || message.sequence == view_->sequence() + 1;
+  if (!is_next)
+    return complain({"the log", joined({"batch ", std::to_string(view_->sequence() + 1), " did not come"})});
   const auto batch = unpack(message.bytes, joined({"batch ", std::to_string(message.sequence)}));
-  if (!batch) return complain(batch.error());
+  const auto order = batch ? view_->check_order(message.sequence, batch->head)
+                           : core::Expected<void>(tl::unexpected(batch.error()));
+  if (!order) {
+    complain(order.error());
+    if (view_->sequence() != 0) view_->pass_over(message.sequence);
+    return true;
+  }
   if (const auto taken = view_->take(message.sequence, *batch); !taken) return complain(taken.error());
   heard_ = Clock::now();
   if (!view_->difference().empty() && !std::exchange(is_difference_told_, true))
@@ -106,13 +126,15 @@ bool Node::complain(const core::Error& error) {
 
 void Node::tell_following(Time now) {
   const std::lock_guard lock(mutex_);
+  beat_.owns = false;
+  beat_.ready = view_ && view_->head() && view_->difference().empty() && !has_lost_rooms_ && !is_cut_off();
+  beat_.silent_ms = static_cast<std::uint64_t>(
+      std::chrono::duration_cast<std::chrono::milliseconds>(view_ ? silence(now) : Duration{}).count());
+  if (!view_) return;
   known_rooms_.clear();
   for (const auto& [name, room] : view_->rooms()) known_rooms_.push_back(name);
-  beat_.owns = false;
   beat_.writer = view_->head() ? view_->head()->writer : Writer{};
   beat_.sequence = view_->sequence();
-  beat_.silent_ms =
-      static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(silence(now)).count());
 }
 
 Duration Node::silence(Time now) const {
@@ -120,19 +142,33 @@ Duration Node::silence(Time now) const {
   return std::max(Duration{}, now - heard);
 }
 
-bool Node::is_owner_gone(Time now) const {
-  if (!view_->head()) return after_ != 0;
-  if (view_->head()->writer.epoch == 0 || table_.leaves(view_->head()->writer)) return true;
-  return silence(now) > settings_.silence && table_.may_take_over(settings_.silence, now);
+/// Those who stand by try one after the other; the log decides in any case.
+bool Node::is_owner_gone(Time now) {
+  constexpr Duration kTurn = std::chrono::milliseconds(100);
+  constexpr Duration kUnlessOthersCan = std::chrono::seconds(2);
+  if (is_cut_off() || table_.has_twin(now)) {
+    if (table_.has_twin(now))
+      complain({"the cluster", "another host has this one's name: give each its own by --cluster-host"});
+    return false;
+  }
+  const auto place = table_.place_in_line(settings_.silence, now);
+  const Duration turn = kTurn * static_cast<int>(place.value_or(0)) +
+                        (has_lost_rooms_ || !view_->head() ? kUnlessOthersCan : Duration{});
+  if (tried_ != Time{} && now - tried_ < settings_.silence) return false;
+  // A new log is nobody's; one that was emptied may be that of a host which lives.
+  if (!view_->head() || view_->head()->writer.epoch == 0)
+    return !table_.owner(now) && (view_->head() || after_ != 0) &&
+           silence(now) >
+               (view_->head() ? std::min<Duration>(settings_.silence, 5 * kBeatEvery) : settings_.silence) +
+                   turn;
+  if (table_.leaves(view_->head()->writer)) return now - *(going_ = going_.value_or(now)) >= turn;
+  return place && silence(now) > settings_.silence + turn;
 }
 
 // ---- taking over ---------------------------------------------------------------------------------------
 
 bool Node::take_over() {
-  if (!view_->difference().empty() || !catch_up() || !take_log()) {
-    heard_ = Clock::now();  // and waits as long again
-    return false;
-  }
+  if (!view_->difference().empty() || !catch_up() || !take_log()) return false;
   std::vector<RoomToGoOn> rooms = rooms_to_go_on();
   say(LogEvent::kClusterOwns,
       joined({"owns ", settings_.shard, " as ", to_text(writer_->writer()), " from batch ",
@@ -144,7 +180,7 @@ bool Node::take_over() {
   inbox_->settle();
   log_link_->unfollow();
   tell_owning();
-  if (!inbox_->is_stopping()) hooks_.take_over(std::move(rooms));
+  if (!inbox_->is_stopping() && !is_leaving_) hooks_.take_over(std::move(rooms));
   return true;
 }
 
@@ -172,8 +208,8 @@ bool Node::catch_up() {
 /// By the first batch of an epoch.
 bool Node::take_log() {
   constexpr Duration kWait = std::chrono::seconds(5);
-  const std::uint64_t epoch = view_->head() ? view_->head()->writer.epoch + 1 : 1;
-  writer_.emplace(Writer{epoch, settings_.host, make_resume_token()},
+  const std::uint64_t known = view_->head() ? view_->head()->writer.epoch : 0;
+  writer_.emplace(Writer{std::max(known, table_.highest_epoch()) + 1, settings_.host, make_resume_token()},
                   view_->head() ? view_->sequence() : after_);
   text_.emplace(settings_.keep);
   if (view_->head()) text_->take_over(view_->head()->rooms);
@@ -186,6 +222,8 @@ bool Node::take_log() {
   if (writer_->state() == LogWriter::State::kWriting) return true;
   if (writer_->state() == LogWriter::State::kLost)
     say(LogEvent::kClusterFollows, joined({"another host was first: ", to_text(writer_->other())}));
+  else
+    complain({"the log", "did not take this host's first batch"});
   writer_.reset();
   return false;
 }

@@ -52,6 +52,7 @@ void Node::tell_owning() {
   beat_.writer = writer_->writer();
   beat_.sequence = writer_->next_sequence() - 1 - writer_->waiting();
   beat_.silent_ms = 0;
+  beat_.ready = false;
 }
 
 void Node::hear(std::deque<NodeEvent> events) {
@@ -60,7 +61,10 @@ void Node::hear(std::deque<NodeEvent> events) {
   for (NodeEvent& event : events) {
     if (const auto* job = std::get_if<LogDesk::Job>(&event)) (*job)(*text_, now);
     if (const auto* stored = std::get_if<Acknowledged>(&event)) writer_->acknowledged(stored->sequence, now);
-    if (std::holds_alternative<Refused>(event)) writer_->failed();
+    if (const auto* no = std::get_if<Refused>(&event)) {
+      complain({"the log", no->why});
+      writer_->failed();
+    }
   }
 }
 
@@ -73,8 +77,8 @@ void Node::cut(Time now) {
   if (text_->size() == 0 && !is_first && !is_late) return;
   const auto lose = [this](const std::string& why) {
     text_->lose();
-    say(LogEvent::kClusterHole,
-        joined({"LOG HAS A HOLE: ", why, "; its rooms are told again from their next keyframes on"}));
+    inbox_->begin_anew();
+    say(LogEvent::kClusterHole, joined({"LOG HAS A HOLE: ", why, "; its rooms are told anew"}));
   };
   if (writer_->waiting() >= kMostWaiting) {
     if (text_->size() < kCutBytes) return;  // some may be taken yet
@@ -103,10 +107,14 @@ void Node::write(Time now) {
 
 std::optional<LastBatch> Node::read_last() {
   const auto last = log_link_->last();
-  if (!last) return complain(last.error()), std::nullopt;
+  if (!last) {
+    complain(last.error());
+    return std::nullopt;
+  }
   const auto batch = unpack(last->bytes, joined({"batch ", std::to_string(last->sequence)}));
-  if (!batch) return complain(batch.error()), std::nullopt;
-  return LastBatch{last->sequence, batch->head};
+  if (batch) return LastBatch{last->sequence, batch->head};
+  complain(batch.error());
+  return LastBatch{last->sequence, {}};  // nobody's: a new epoch goes on behind it
 }
 
 /// The stream has less than was stored, and more is missing than this host has kept: a new epoch goes on from
@@ -120,24 +128,23 @@ bool Node::begin_log_anew() {
   former_ = former;
   say(LogEvent::kClusterHole,
       joined({"LOG HAS A HOLE: its last batch is ", std::to_string(last->sequence), ", of ",
-              to_text(last->head.writer),
-              ", less than was stored; its rooms are told again from their next keyframes on"}));
+              to_text(last->head.writer), ", less than was stored; its rooms are told anew"}));
   writer_.emplace(
       Writer{std::max(former.epoch, last->head.writer.epoch) + 1, settings_.host, make_resume_token()},
       last->sequence);
   text_->lose();
+  inbox_->begin_anew();
   text_->forget_places();
   cut(Clock::now());
   return true;
 }
 
 void Node::watch_durability(Time now) {
-  const bool is_late = writer_->silence(now) > kNotDurableAfter;
+  const bool is_late = writer_->silence(now) > (is_cut_off() ? settings_.silence : kNotDurableAfter);
   if (is_late == is_told_not_durable_) return;
   is_told_not_durable_ = is_late;
   say(is_late ? LogEvent::kClusterNotDurable : LogEvent::kClusterDurable,
-      is_late ? "NOT DURABLE: nothing has been stored for 10 s; the rooms go on"
-              : "what is played is stored again");
+      is_late ? "NOT DURABLE: nothing is stored; the rooms go on" : "what is played is stored again");
   text_->announce(
       {std::string(is_late ? protocol::code::kNotDurable : protocol::code::kDurable),
        is_late ? "what is played now would be lost with this server" : "what is played is safe again"});

@@ -60,7 +60,9 @@ void ShardText::tell(Room& room, const match::MatchState& state, bool with_heade
   room.tick = state.tick;
   std::set<match::PlayerId> here;
   for (const match::PlayerSeq& player : state.players) here.insert(player.player);
-  std::erase_if(room.claims, [&here](const auto& entry) { return !here.contains(entry.first); });
+  // Who has joined a room that stands still is in it with its next step.
+  if (!room.resting)
+    std::erase_if(room.claims, [&here](const auto& entry) { return !here.contains(entry.first); });
   for (const auto& [louse, claim] : room.claims) append_claim(out, claim);
 }
 

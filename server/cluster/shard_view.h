@@ -2,6 +2,7 @@
 // who may come back to which louse. From it the rooms go on when their host is gone. Pure. One thread.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -42,6 +43,13 @@ class ShardView {
   /// what is known is worth nothing any more.
   core::Expected<void> take(std::uint64_t sequence, const Batch& batch);
 
+  /// The next one is no batch, or is nobody's who may write: what was read so far holds on.
+  void pass_over(std::uint64_t sequence) {
+    assert(sequence == sequence_ + 1);
+    sequence_ = sequence;
+  }
+  /// Whether the batch may stand there. Errors: it follows nothing that was read.
+  [[nodiscard]] core::Expected<void> check_order(std::uint64_t sequence, const BatchHead& head) const;
   /// Of the batch taken last; 0: none.
   [[nodiscard]] std::uint64_t sequence() const { return sequence_; }
   [[nodiscard]] const std::optional<BatchHead>& head() const { return head_; }
@@ -52,7 +60,6 @@ class ShardView {
   [[nodiscard]] std::uint64_t proven() const;
 
  private:
-  [[nodiscard]] core::Expected<void> check_order(std::uint64_t sequence, const BatchHead& head) const;
   core::Expected<void> take_line(const BatchLine& line);
   void record(Room& room, std::string_view line);
 

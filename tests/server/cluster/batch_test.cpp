@@ -73,6 +73,7 @@ TEST_CASE("what is no batch says where and what") {
     changed.replace(changed.find(from), from.size(), to);
     return changed + "\n";
   };
+  CHECK(why_not(with("\"epoch\":2", "\"epoch\":18446744073709551615")).find("epoch") != std::string::npos);
   CHECK(why_not(with("\"epoch\":2", "\"epoch\":-2")).find("epoch") != std::string::npos);
   CHECK(why_not(with("\"host\":\"a\"", "\"host\":\"\"")).find("host") != std::string::npos);
   CHECK(why_not(with("00000000000000010000000000000002", "000000000000000100000000000000")).find("nonce") !=
@@ -121,6 +122,8 @@ TEST_CASE("a beat comes back as it was told, and what is none is refused") {
   beat.owns = true;
   beat.writer = {9, "b", {5, 6}};
   beat.sequence = 1234;
+  beat.ready = true;
+  beat.process = 77;
   beat.rooms = {{"volcano", "volcano", 3, 4, 5}};
   const auto read = beat_from(to_text(beat));
   REQUIRE(read);
@@ -134,41 +137,51 @@ TEST_CASE("a beat comes back as it was told, and what is none is refused") {
   CHECK_FALSE(beat_from(to_text(beat) + std::string(20000, ' ')));
 }
 
-TEST_CASE("a host takes over when nobody hears the owner, and no other one is before it") {
+TEST_CASE("hosts that could go on try one after the other, and none while one of them hears the owner") {
   const Duration silence = std::chrono::milliseconds(250);
   const Time begin = Time{} + std::chrono::hours(1);
-  HostTable table("c", "main");
+  HostTable table("c", "main", 1);
   const auto follower = [](const std::string& host, std::uint64_t silent_ms) {
     Beat beat;
     beat.host = host;
     beat.address = host + ":1";
     beat.shard = "main";
     beat.silent_ms = silent_ms;
+    beat.ready = true;
+    beat.process = 2;
     return beat;
   };
-  CHECK(table.may_take_over(silence, begin));
+  CHECK(table.place_in_line(silence, begin) == 0u);
   table.take(follower("d", 400), begin);
-  CHECK(table.may_take_over(silence, begin));
+  CHECK(table.place_in_line(silence, begin) == 0u);
   table.take(follower("d", 10), begin);
-  CHECK_FALSE(table.may_take_over(silence, begin));  // it hears him
+  CHECK_FALSE(table.place_in_line(silence, begin));  // it hears him
   table.take(follower("d", 400), begin);
   table.take(follower("b", 400), begin);
-  CHECK_FALSE(table.may_take_over(silence, begin));                             // it goes first
-  CHECK(table.may_take_over(silence, begin + std::chrono::milliseconds(300)));  // it is silent as well
-  Beat other = follower("a", 0);
+  CHECK(table.place_in_line(silence, begin) == 1u);
+  Beat unable = follower("a", 0);
+  unable.ready = false;
+  table.take(unable, begin);
+  CHECK(table.place_in_line(silence, begin) == 1u);  // who can't go on stands in nobody's way
+  CHECK(table.successor(begin) == "b:1");
+  CHECK_FALSE(table.successor(begin + std::chrono::milliseconds(300)));
+  CHECK(table.place_in_line(silence, begin + std::chrono::milliseconds(300)) ==
+        0u);  // they are silent as well
+  Beat other = follower("e", 0);
   other.shard = "another";
   table.take(other, begin);
-  CHECK(table.hosts(begin).size() == 2);
-  Beat own = follower("c", 0);
-  table.take(own, begin);
-  CHECK(table.hosts(begin).size() == 2);
-  CHECK(table.addresses(begin, 16) == std::vector<std::string>{"b:1", "d:1"});
+  CHECK(table.hosts(begin).size() == 3);
+  CHECK_FALSE(table.has_twin(begin));
+  table.take(follower("c", 0), begin);
+  CHECK(table.has_twin(begin));
+  CHECK(table.hosts(begin).size() == 3);
+  CHECK(table.addresses(begin, 16) == std::vector<std::string>{"a:1", "b:1", "d:1"});
   CHECK(table.addresses(begin + std::chrono::seconds(6), 16).empty());
 }
 
 TEST_CASE("the owner is the one of the newest epoch who is heard and does not go") {
   const Time now = Time{} + std::chrono::hours(1);
-  HostTable table("c", "main");
+  HostTable table("c", "main", 1);
   const auto owner = [](const std::string& host, std::uint64_t epoch) {
     Beat beat;
     beat.host = host;
@@ -190,4 +203,5 @@ TEST_CASE("the owner is the one of the newest epoch who is heard and does not go
   CHECK(table.owner(now)->host == "a");
   CHECK(table.leaves(leaves.writer));
   CHECK_FALSE(table.owner(now + std::chrono::seconds(2)));
+  CHECK(table.highest_epoch() == 5);
 }

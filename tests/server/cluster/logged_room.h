@@ -31,10 +31,12 @@ struct Desk final : LogDesk {
   }
   void doubt() override { is_doubted = true; }
   [[nodiscard]] bool is_in_doubt() const override { return is_doubted; }
+  [[nodiscard]] std::uint64_t beginnings() const override { return begun; }
   ShardText& text;
   Time now = Time{} + std::chrono::hours(1);
   bool is_full = false;
   bool is_doubted = false;
+  std::uint64_t begun = 0;
 };
 
 /// A host with one room, whose log is a list of batches.

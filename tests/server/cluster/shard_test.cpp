@@ -133,6 +133,37 @@ TEST_CASE("lines that are dropped are told anew, and rooms that stand still when
   CHECK(followed(view).tick() == 600);
 }
 
+TEST_CASE("a log that begins anew is told of every room with its next step") {
+  Shard shard;
+  shard.open();
+  shard.join("ann");
+  shard.step(100);
+  shard.text.lose();
+  ++shard.desk->begun;
+  shard.step();
+  shard.cut();
+  ShardView view;
+  read_all(view, shard);
+  CHECK(followed(view).tick() == 101);
+  CHECK(followed(view).hash() == shard.game->hash());
+  CHECK(view.rooms().at("volcano").claims.size() == 1);
+}
+
+TEST_CASE("what is passed over leaves what was read as it was") {
+  Shard shard;
+  shard.open();
+  shard.step(10);
+  shard.cut();
+  ShardView view;
+  read_all(view, shard);
+  view.pass_over(2);
+  shard.first = 2;  // its second batch is the stream's third
+  shard.step(10);
+  shard.cut();
+  REQUIRE(view.take(3, shard.batches[1]));
+  CHECK(followed(view).tick() == 20);
+}
+
 TEST_CASE("a room that is closed is gone, but not where it goes on elsewhere") {
   Shard shard;
   shard.open();
