@@ -2,8 +2,10 @@
 
 #include <nats/nats.h>
 
+#include <algorithm>
 #include <cassert>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -50,23 +52,27 @@ core::Error connection_error(natsStatus status, const ClusterSettings& settings)
 }
 
 /// Who hears of something. libnats doesn't say when its last call is over: an ear that is closed hears
-/// nothing, and is kept until the process ends.
+/// nothing, and is kept, to be another's after a while.
 class Ear {
  public:
   static Ear* make(NatsLink::Told told, NatsMessageTaken taken) {
     static std::mutex all_mutex;
     static std::vector<std::unique_ptr<Ear>> all;
     const std::lock_guard lock(all_mutex);
-    all.push_back(std::make_unique<Ear>());
-    all.back()->told_ = std::move(told);
-    all.back()->taken_ = std::move(taken);
-    return all.back().get();
+    const auto idle = std::find_if(all.begin(), all.end(), [](const auto& ear) { return ear->is_idle(); });
+    Ear* const ear = idle != all.end() ? idle->get() : all.emplace_back(std::make_unique<Ear>()).get();
+    const std::lock_guard own(ear->mutex_);
+    ear->closed_at_.reset();
+    ear->told_ = std::move(told);
+    ear->taken_ = std::move(taken);
+    return ear;
   }
   /// A call that is under way has ended when this returns.
   void close() {
     const std::lock_guard lock(mutex_);
     told_ = {};
     taken_ = {};
+    closed_at_ = Clock::now();
   }
   void on_answer(const jsPubAck* ack, const jsPubAckErr* refusal) {
     const std::lock_guard lock(mutex_);
@@ -84,7 +90,15 @@ class Ear {
   }
 
  private:
+  /// Closed for so long that no call is under way.
+  [[nodiscard]] bool is_idle() {
+    constexpr Duration kLongAgo = std::chrono::seconds(60);
+    const std::lock_guard lock(mutex_);
+    return closed_at_ && Clock::now() - *closed_at_ > kLongAgo;
+  }
+
   std::mutex mutex_;
+  std::optional<Time> closed_at_;
   NatsLink::Told told_;
   NatsMessageTaken taken_;
 };

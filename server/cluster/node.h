@@ -33,6 +33,8 @@ class Node final : public Cluster {
   static constexpr Duration kBeatEvery = std::chrono::milliseconds(50);
   /// Between two looks at what has come.
   static constexpr Duration kLook = std::chrono::milliseconds(5);
+  /// Between two attempts to read the log from a beginning.
+  static constexpr Duration kBeginEvery = std::chrono::milliseconds(250);
   /// Text of a batch that waits for no time; a message of NATS is at most 1 MB, packed.
   static constexpr std::size_t kCutBytes = 512u << 10;
   /// Batches that are not acknowledged; then the log begins anew once it takes some.
@@ -104,6 +106,8 @@ class Node final : public Cluster {
 
   // The node's thread's:
   std::optional<ShardView> view_;
+  Time begin_at_{};  ///< to read the log, at the earliest
+  bool is_log_empty_ = false;
   Time tried_{};                 ///< to take over, in vain
   std::optional<Time> going_;    ///< since when the owner is known to go
   bool has_lost_rooms_ = false;  ///< whose beginning could not be read any more

@@ -18,11 +18,11 @@ using core::joined;
 bool Node::follow() {
   view_.reset();
   is_difference_told_ = false;
-  tried_ = Time{};
+  begin_at_ = tried_ = Time{};
   heard_ = Clock::now();
   Time looked = heard_;
   while (!inbox_->is_stopping()) {
-    if (!view_ && !begin_following()) view_.reset();
+    if (!view_ && Clock::now() >= begin_at_ && !begin_following()) view_.reset();
     for (NodeEvent& event : inbox_->take(Clock::now() + 4 * kLook)) {
       const auto* message = std::get_if<LogMessage>(&event);
       if (message != nullptr && view_ && !take_message(*message)) view_.reset();
@@ -30,6 +30,7 @@ bool Node::follow() {
     const Time now = Clock::now();
     // Who was away himself, or cut off, has heard nobody.
     if (now - std::exchange(looked, now) > settings_.silence / 2 || is_cut_off()) heard_ = now;
+    if (view_ && is_log_empty_ && table_.owner(now)) view_.reset();  // somebody has begun it
     tell_following(now);
     if (view_ && !is_leaving_ && is_owner_gone(now)) {
       if (take_over()) return true;
@@ -41,6 +42,7 @@ bool Node::follow() {
 }
 
 bool Node::begin_following() {
+  begin_at_ = Clock::now() + kBeginEvery;
   view_.emplace();
   going_.reset();
   has_lost_rooms_ = false;
@@ -49,7 +51,8 @@ bool Node::begin_following() {
   if (!state) return complain(state.error());
   after_ = state->last;
   // A stream whose batches have all gone by age holds nothing.
-  if (state->messages == 0) return true;
+  is_log_empty_ = state->messages == 0;
+  if (is_log_empty_) return true;
   if (const auto read = read_beginning(*state); !read) return complain(read.error());
   last_fault_.clear();
   return true;
