@@ -95,7 +95,7 @@ async function acks() {
   const line = await SlowLine.to(Number(served.port), 75, 40), context = await browsed(), page = context.pages()[0];
   for (const [what, address] of [['localhost', served.web], ['150 ms and 40 ms of jitter', line.web]]) {
     await shown(page, `${address}?play`);
-    await until(page, () => window.woodlouse.room.own.pilot?.louse);
+    await until(page, () => window.woodlouse.room.own?.pilot?.louse);
     const keys = ['w', 'a', 'd', ' ', 's'];
     for (const begun = Date.now(), k = { k: 0 }; Date.now() - begun < PLAY_S * 1000; k.k++) {
       await page.keyboard.down(keys[k.k % keys.length]);

@@ -130,7 +130,7 @@ test('every control is reached by Tab, has a name, and Tab is never taken', asyn
 test('a chosen room is entered, and the hands are free to push at once', async () => {
   await shown(page, `${served.web}?room=hills&play`);
   await page.selectOption('#room', 'maunga_whau');
-  await until(page, () => window.woodlouse.room.welcome?.room === 'maunga_whau' && window.woodlouse.room.own.pilot?.louse);
+  await until(page, () => window.woodlouse.room.welcome?.room === 'maunga_whau' && window.woodlouse.room.own?.pilot?.louse);
   await page.keyboard.down('w');
   await until(page, () => window.woodlouse.room.own.steering.isPushing(performance.now() / 1000));
   await page.keyboard.up('w');
