@@ -5,7 +5,7 @@
 // maps are built ahead of lice on another, shadows re-run games on as many as rooms tick on. A tick so never
 // waits for a socket, and for a disk only where a louse outruns the tiles. With --step-threads there is one
 // team of threads more, which a room with many lice has for its tick; a room that finds it taken goes
-// without.
+// without. With --cluster two more speak to NATS, and libnats has threads of its own.
 #pragma once
 
 #include <spdlog/logger.h>

@@ -118,7 +118,7 @@ std::optional<LastBatch> Node::read_last() {
 }
 
 /// The stream has less than was stored, and more is missing than this host has kept: a new epoch goes on from
-/// what there is, and its rooms from their next keyframes. False: it is another host's.
+/// what there is, and its rooms are told anew with their next steps. False: it is another host's.
 bool Node::begin_log_anew() {
   const auto last = read_last();
   if (!last) return true;  // and is read again

@@ -50,7 +50,7 @@ class ShardText {
 
   /// Rooms that stand still are told anew when it is time; then there is something to cut.
   void renew(Time now);
-  /// All lines so far are dropped; each room begins again with its next keyframe.
+  /// All lines so far are dropped; each room is told of no more until a keyframe of it comes.
   void lose();
   void announce(const protocol::Notice& notice) const;
 
