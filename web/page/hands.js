@@ -10,6 +10,8 @@ import { keep, kept, onName, onPalette, setTheme, shortName, theme } from './pan
 import { Touch } from './panels/stick.js';
 
 const calm = matchMedia('(prefers-reduced-motion: reduce)');
+const MOST = 1 << 30;  // bytes of a recording
+
 const hash = () => new URLSearchParams(location.hash.slice(1));
 
 export class Hands {
@@ -19,7 +21,7 @@ export class Hands {
     this.params = params;
     this.teacher = new Teacher(!kept('lesson'), () => keep('lesson', 'had'), matchMedia('(pointer: coarse)').matches);
     this.panels = new Panels({ follow: (id) => stage.follow(id), say: (text) => stage.room?.say(text), choose: (room) => this.choose(room), seek: (tick) => stage.player?.seek(tick), figure: async () => new (await import('./later.js')).ErrorFigure() });
-    this.drop = new Drop((file) => this.open(file, file.name), (text) => toast(text, 'bad'));
+    this.drop = new Drop((file) => this.open(file, file.name));
     this.#bind();
   }
 
@@ -49,6 +51,7 @@ export class Hands {
   /** A recording's bytes. @param {Blob} blob @param {string} name */
   async open(blob, name) {
     const { stage } = this;
+    if (blob.size > MOST) return toast('that file is larger than 1 GiB', 'bad');
     toast(`opening ${name}`);
     const { Recording, Player } = await import('./later.js');
     const recording = await Recording.open(stage.core, blob, stage.workers.reader).catch((error) => toast(`${name}: ${error.message}`, 'bad'));

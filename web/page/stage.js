@@ -4,7 +4,7 @@
 import { Room } from './live/room.js';
 import { sceneOf } from './live/scene.js';
 import { CanvasInput } from './panels/pointers.js';
-import { EarlyKeys } from './panels/early.js';
+import { Early } from './panels/early.js';
 import { byId, toast } from './panels/elements.js';
 import { kept, onSystemTheme, setTheme, storage, theme } from './panels/settings.js';
 import { Picture } from './picture/picture.js';
@@ -30,7 +30,7 @@ export class Stage {
   /** @type {Promise<import('./hands.js').Hands>|null} */ #coming = null;
   /** The picture has begun. @type {() => void} */ #onBegun = () => {};
   /** @type {Promise<void>} */ #begun = new Promise((resolve) => { this.#onBegun = resolve; });
-  #isAsked = false; #early = new EarlyKeys(() => this.whole().catch(() => {}));
+  #isAsked = false; #early = new Early(() => this.whole().catch(() => {}), (file) => this.open(file, file.name).catch(() => {}));
 
   /** @type {any} */ #core = null;
   /** Not before begin(). @type {Picture} */ picture = /** @type {any} */ (null);

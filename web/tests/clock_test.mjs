@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { ServerClock } from '../page/live/timeline.js';
+import { ServerClock, Timeline } from '../page/live/timeline.js';
 import { Pace, ServerWord } from '../page/live/word.js';
 
 /** Numbers from 0 to 1, the same each time. */
@@ -71,4 +71,36 @@ test('a page whose frames are more than a second old for three asks for half, an
   assert.ok(halves[0] > 1.4 && halves[0] < 4, `first after ${halves[0]} s`);
   const healthy = new Pace(60);
   for (let k = 0; k < 400; k++) assert.equal(healthy.observe(k * 3, k / 20 + (k % 10 ? 0.1 : 0.9)), false);
+});
+
+test('a game that was paused for long is not one whose frames come late', () => {
+  const timeline = new Timeline({ tick_hz: 60, state_hz: 20, fields: [], quantum: [] }, 0);
+  const told = [];
+  for (let frame = 0, now = 0; frame < 400; frame++, now += 0.05) {
+    if (frame === 100 || frame === 200) {  // it says so, and stands
+      timeline.word.paused();
+      now += 7;
+    }
+    told.push(timeline.observe(3 * frame, now));
+  }
+  assert.deepEqual(told.flatMap(({ isAnew }, frame) => (isAnew ? [frame] : [])), [0, 100, 200]);
+  assert.ok(!told.some(({ isTooOld }) => isTooOld));
+});
+
+test('a page that comes later and later does not keep up, whatever was before', () => {
+  const timeline = new Timeline({ tick_hz: 60, state_hz: 20, fields: [], quantum: [] }, 0);
+  let isTooOld = false;
+  for (let frame = 0; frame < 200; frame++) isTooOld ||= timeline.observe(3 * frame, frame * 0.07).isTooOld;
+  assert.ok(isTooOld);
+});
+
+test('a server that stood for a second and a half is not a page that does not keep up', () => {
+  const asked = (trip) => {
+    const timeline = new Timeline({ tick_hz: 60, state_hz: 20, fields: [], quantum: [] }, 0);
+    let isTooOld = false;
+    for (let frame = 0; frame < 400; frame++) isTooOld ||= timeline.observe(3 * frame, frame / 20 + (frame < 100 ? 0 : 1.5), trip).isTooOld;
+    return isTooOld;
+  };
+  assert.equal(asked(0.02), false);
+  assert.equal(asked(1.52), true);  // its answers, too, wait behind what was not read
 });

@@ -208,7 +208,7 @@ export class Room {
   }
 
   #observe(tick, now) {
-    const { isAnew, isTooOld } = this.#time.observe(tick, now);
+    const { isAnew, isTooOld } = this.#time.observe(tick, now, this.#pings.last);
     if (isAnew) this.own?.pilot?.beginAnew();
     if (!isTooOld || this.door.isHidden || !this.door.halve()) return;
     this.onNotice('this page can\'t keep up: half as many frames from now on');

@@ -83,12 +83,13 @@ export class Timeline {
   isKnown(now) { return this.clock.isRunning && this.word.goesOn(now); }
 
   /** A state of `tick` came. @returns {{isAnew: boolean, isTooOld: boolean}} isAnew: it goes on after a pause, and what was counted on
-   * meanwhile never happened; isTooOld: the page does not keep up */
-  observe(tick, now) {
+   * meanwhile never happened; isTooOld: the page does not keep up
+   * @param {number} tick @param {number} now @param {number} [trip] of the last answer to a ping [s] */
+  observe(tick, now, trip) {
     const isAnew = this.word.shown(tick, now);
-    if (isAnew) this.clock = new ServerClock(this.hz);
+    if (isAnew) [this.clock, this.#pace] = [new ServerClock(this.hz), new Pace(this.hz)];  // no frame is too old for the time that stood
     this.clock.observe(tick, now);
-    return { isAnew, isTooOld: this.#pace.observe(tick, now) };
+    return { isAnew, isTooOld: this.#pace.observe(tick, now, trip) };
   }
 
   /** A frame that was checked. @returns {'taken'|'stale'|'unreadable'|'resync'} resync: the server is to be asked for it */

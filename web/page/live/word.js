@@ -56,13 +56,17 @@ export class Pace {
   /** @param {number} hz ticks a second */
   constructor(hz) { this.hz = hz; }
 
-  /** A frame was read at `now`. True: for 3 s they have been more than 1 s old; half of them would do. */
-  observe(tick, now) {
+  /** A frame was read at `now`. True: for 3 s they have been more than 1 s old; half of them would do. trip: of the last answer [s], which
+   * waited behind the frames: where it did not wait, it is the server that stood, and its clock has moved. */
+  observe(tick, now, trip = Infinity) {
     const seen = tick / this.hz - now;
     this.#earliest = Math.max(this.#earliest, seen);
     if (this.#earliest - seen <= TOO_OLD) { this.#since = null; return false; }
     const since = this.#since ??= now;
-    return now - since >= FOR;
+    if (now - since < FOR) return false;
+    if (trip > TOO_OLD) return true;
+    [this.#earliest, this.#since] = [seen, null];
+    return false;
   }
 }
 
@@ -89,6 +93,8 @@ export class Pings {
     return trip;
   }
 
+  /** The last one [s]. */
+  get last() { return this.#trips.at(-1); }
   /** The shortest of the last ones [s]: the others waited for something besides the network. Null: there are none. */
   get trip() { return this.#trips.length ? Math.min(...this.#trips) : null; }
 }

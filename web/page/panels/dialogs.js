@@ -37,12 +37,10 @@ export function ask({ title, label, value = '', isSecret = false, most = 24 }) {
   });
 }
 
-const MOST = 1 << 30;  // bytes
-
 export class Drop {
-  /** @param {(file: File) => void} open @param {(text: string) => void} refuse */
-  constructor(open, refuse) {
-    const take = (file) => { if (file) file.size > MOST ? refuse('that file is larger than 1 GiB') : open(file); };
+  /** @param {(file: File) => void} open */
+  constructor(open) {
+    const take = (file) => { if (file) open(file); };
     const carriesFiles = (event) => event.dataTransfer?.types.includes('Files');
     for (const type of ['dragenter', 'dragover']) addEventListener(type, (event) => {
       if (!carriesFiles(event)) return;

@@ -1,16 +1,18 @@
 // @ts-check
-// Keys that are pressed before there is who hears them: they are kept, and pressed again then.
+// What people do before there is who hears them: keys are kept, and pressed again then; a file that falls on the page is opened then.
 
-const KINDS = /** @type {const} */ (['keydown', 'keyup']);
+const KINDS = /** @type {const} */ (['keydown', 'keyup', 'dragover', 'drop']);
 
-export class EarlyKeys {
+export class Early {
   /** @type {KeyboardEvent[]} */ #kept = [];
 
-  /** @param {() => void} onFirst somebody has pressed one */
-  constructor(onFirst) {
+  /** @param {() => void} onFirst somebody has pressed a key @param {(file: File) => void} onFile */
+  constructor(onFirst, onFile) {
     this.hear = (event) => {
-      this.#kept.push(event);
-      if (this.#kept.length === 1) onFirst();
+      if (event instanceof DragEvent) {
+        event.preventDefault();  // else the browser leaves the page for the file
+        if (event.dataTransfer?.files[0]) onFile(event.dataTransfer.files[0]);
+      } else if (this.#kept.push(event) === 1) onFirst();
     };
     for (const kind of KINDS) addEventListener(kind, this.hear);
   }

@@ -42,6 +42,7 @@ async function drive(which, seconds, answers) {
     await which.keyboard.down(key);
     await which.waitForTimeout(150 + (k * 137) % 500);
     await which.keyboard.up(key);
+    await until(which, () => window.woodlouse.room.own.pilot?.louse);  // a page that is starved asks for fewer frames, on a new line
     const { exact, corrected } = await counts(which), passed = (Date.now() - begun) / 1000;
     if (passed > seconds && exact + corrected >= answers) return { exact, corrected };
     assert.ok(passed < 60, `${exact + corrected} answers in a minute`);
@@ -106,6 +107,7 @@ test('after a pause, too, every ack is what the page already had', async () => {
       await page.keyboard.up('w');
     }
     assert.equal((await counts(page)).corrected, 0);
+    assert.equal(await known(page, () => window.woodlouse.room.welcome.state_hz), 20);  // what stood was no slow page
   } finally {
     await watched.stop();
   }

@@ -41,7 +41,7 @@ function withAnotherThrust(text, tick) {
 }
 
 /** Lets a file fall on the page. */
-const drop = (text, name) => page.evaluate(([content, called]) => {
+const drop = (text, name, on = page) => on.evaluate(([content, called]) => {
   const data = new DataTransfer();
   data.items.add(new File([content], called));
   for (const type of ['dragenter', 'drop']) window.dispatchEvent(new DragEvent(type, { bubbles: true, cancelable: true, dataTransfer: data }));
@@ -70,6 +70,20 @@ test('a recording that is dropped plays, each tick proven, and is verified whole
   assert.ok(Math.abs(await known(page, () => window.woodlouse.player.tick) - at) <= 2);
   await page.click('[data-do=verify]');
   await until(page, () => document.querySelector('#verdict').textContent.startsWith('ok ticks 0 to 1500'));
+});
+
+test('a recording that falls on the page before it is whole is opened', async () => {
+  const other = await context.newPage();
+  let pass = () => {};
+  const dropped = new Promise((resolve) => { pass = resolve; });
+  await other.route(/\/whole-[^/]*\.js$/, async (route) => { await dropped; await route.continue(); });
+  await other.goto(`${served.web}?room=hills`);
+  await until(other, () => window.woodlouse?.picture?.peopled > 0);
+  await drop(recorded, 'early.ndjson', other);
+  assert.equal(await known(other, () => window.woodlouse.hands), null);
+  pass();
+  await until(other, () => window.woodlouse.file === 'early.ndjson' && window.woodlouse.player?.lice.length === 5);
+  await other.close();
 });
 
 test('one altered thrust is found, while it plays and as a whole, and its tick is named in red', async () => {
