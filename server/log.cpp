@@ -124,12 +124,13 @@ class DescriptorSink final : public spdlog::sinks::base_sink<std::mutex> {
 /// Hands on to another sink, and tells in a line of its own how many lines were lost before the next.
 class CountingSink final : public spdlog::sinks::sink {
  public:
-  CountingSink(spdlog::sink_ptr target, const std::shared_ptr<spdlog::details::thread_pool>& thread)
+  /// thread: calls this one, and is ended by whoever owns it: were it held here, its last owner could be
+  /// itself.
+  CountingSink(spdlog::sink_ptr target, spdlog::details::thread_pool& thread)
       : sink_(std::move(target)), thread_(thread) {}
 
   void log(const spdlog::details::log_msg& message) override {
-    const auto thread = thread_.lock();
-    const std::size_t lost = thread ? thread->overrun_counter() : told_;
+    const std::size_t lost = thread_.overrun_counter();
     if (lost != told_) {
       const std::string text = std::to_string(lost - told_) + " lines of the log are lost: nobody read it";
       sink_->log({message.time,
@@ -149,7 +150,7 @@ class CountingSink final : public spdlog::sinks::sink {
 
  private:
   spdlog::sink_ptr sink_;
-  std::weak_ptr<spdlog::details::thread_pool> thread_;  ///< which holds the messages, and they the sink
+  spdlog::details::thread_pool& thread_;
   std::size_t told_ = 0;
 };
 
@@ -201,7 +202,7 @@ Log::Log(LogFormat format, spdlog::sink_ptr sink)
     : sink_(std::move(sink)),
       thread_(std::make_shared<spdlog::details::thread_pool>(kMostWaiting, 1)),
       logger_(std::make_shared<spdlog::async_logger>("woodlouse-server",
-                                                     std::make_shared<CountingSink>(sink_, thread_), thread_,
+                                                     std::make_shared<CountingSink>(sink_, *thread_), thread_,
                                                      spdlog::async_overflow_policy::overrun_oldest)) {
   logger_->set_formatter(formatter_of(format));
   logger_->flush_on(spdlog::level::info);

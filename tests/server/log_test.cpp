@@ -5,6 +5,7 @@
 #include <spdlog/details/log_msg.h>
 #include <spdlog/formatter.h>
 #include <spdlog/sinks/base_sink.h>
+#include <atomic>
 #include <catch2/catch.hpp>
 
 #include <algorithm>
@@ -98,6 +99,25 @@ TEST_CASE("a log that nobody reads keeps no server from ending") {
     for (std::size_t k = 0; k < 2 * Log::kMostWaiting; ++k) log.logger()->info("line");
   }
   CHECK(std::chrono::steady_clock::now() - begin < 100 * Log::kPatience);
+}
+
+TEST_CASE("a log that ends while its last line is being written writes it") {
+  struct Slow final : spdlog::sinks::base_sink<std::mutex> {
+    void sink_it_(const spdlog::details::log_msg&) override {
+      std::this_thread::sleep_for(Log::kPatience / 2);
+      ++written;
+    }
+    void flush_() override {}
+    std::atomic<int> written{0};
+  };
+  const auto slow = std::make_shared<Slow>();
+  {
+    const Log log(LogFormat::kText, slow);
+    log.logger()->info("line");
+    std::this_thread::sleep_for(Log::kPatience /
+                                10);  // it is taken from the queue, in which nothing waits any more
+  }
+  CHECK(slow->written == 1);
 }
 
 TEST_CASE("neither log shows a terminal anything but one line of text") {
