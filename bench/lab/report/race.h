@@ -1,5 +1,5 @@
 // Times several ways of doing the same thing against each other, in one run: each round runs a block of each,
-// and what counts is the median of the blocks.
+// each fourth one of what takes as long as ten, and what counts is the median of the blocks.
 //
 // Measured is the thread's own processor time, so that a machine that also does other things does not count
 // as ours; caches that others emptied still do. The thread is pinned to one core.
