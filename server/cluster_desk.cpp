@@ -6,7 +6,9 @@
 #include <cassert>
 #include <utility>
 
+#include "server/chosen_games.h"
 #include "server/net/listen_address.h"
+#include "server/version.h"
 #include "shared/core/joined.h"
 #include "shared/protocol/codes.h"
 
@@ -26,6 +28,12 @@ protocol::Bye moved(const std::string& address) {
 core::Expected<void> ClusterDesk::open(const ServeConfig& config, const std::string& lines,
                                        const std::string& web_url) {
   assert(!cluster_ && config.cluster);
+  if (config.cluster->is_edge) return open_edge(config);
+  const auto games = choose_games(config);
+  if (!games) return tl::unexpected(games.error());
+  if (games->size() > kMostRoomsOfShard)
+    return core::fail("--map", joined({std::to_string(games->size()), " rooms are more than the ",
+                                       std::to_string(kMostRoomsOfShard), " of a cluster"}));
   ClusterSettings settings = *config.cluster;
   if (settings.address.empty()) {
     settings.address = lines;
@@ -39,6 +47,31 @@ core::Expected<void> ClusterDesk::open(const ServeConfig& config, const std::str
       return core::fail("--cluster-address", "this host listens at every address: clients of others need one",
                         "as  --cluster-address 192.0.2.7:7777");
   }
+  auto cluster = Cluster::open(std::move(settings), hooks(), log_);
+  if (!cluster) return tl::unexpected(cluster.error());
+  cluster_ = std::move(*cluster);
+  return {};
+}
+
+/// Parts come each `batch`, on ways that differ by less than half of one.
+core::Expected<void> ClusterDesk::open_edge(const ServeConfig& config) {
+  RoomSettings settings;
+  settings.build = kServerName;
+  settings.state_hz = config.state_hz;
+  relay_.emplace(stage_.ticks, stage_.lanes, settings, limits_, config.cluster->batch * 3 / 2,
+                 stage_.timekeeper, log_);
+  Cluster::Viewers viewers;
+  viewers.lines = [this](const std::string& room, std::vector<std::string> lines) {
+    relay_->take(room, std::move(lines));
+  };
+  viewers.closed = [this](const std::string& room) { relay_->close(room); };
+  auto cluster = Cluster::open(*config.cluster, std::move(viewers), log_);
+  if (!cluster) return tl::unexpected(cluster.error());
+  cluster_ = std::move(*cluster);
+  return {};
+}
+
+Cluster::Hooks ClusterDesk::hooks() {
   Cluster::Hooks hooks;
   hooks.take_over = [this](std::vector<RoomToGoOn> rooms) {
     boost::asio::post(strand_, [this, rooms = std::move(rooms)]() mutable { take_over(std::move(rooms)); });
@@ -46,17 +79,43 @@ core::Expected<void> ClusterDesk::open(const ServeConfig& config, const std::str
   hooks.step_down = [this](const std::string& elsewhere) {
     boost::asio::post(strand_, [this, elsewhere] { step_down(elsewhere); });
   };
+  hooks.move = [this](const std::string& to) {
+    boost::asio::post(strand_, [this, to] {
+      if (!move(to)) log_event(*log_, LogEvent::kClusterFault, "cluster: asked to move its rooms, and can't");
+    });
+  };
   hooks.census = [this] { return lobby_.list().rooms; };
-  auto cluster = Cluster::open(std::move(settings), std::move(hooks), log_);
-  if (!cluster) return tl::unexpected(cluster.error());
-  cluster_ = std::move(*cluster);
-  return {};
+  return hooks;
 }
 
 protocol::Bye ClusterDesk::begin_leaving(const protocol::Bye& otherwise) {
-  cluster_->begin_leaving();
+  cluster_->begin_leaving({});
+  if (relay_) return otherwise;
   const auto successor = cluster_->successor();
   return successor ? moved(*successor) : otherwise;
+}
+
+bool ClusterDesk::move_away(std::function<void()> gone) {
+  assert(gone && !gone_);
+  if (relay_ || !move({})) return false;
+  gone_ = std::move(gone);
+  return true;
+}
+
+/// The rooms stand, nobody is told; all of it is stored; another host goes on with them; then who is here is
+/// sent there, and finds them.
+bool ClusterDesk::move(const std::string& to) {
+  const auto rooms = lobby_.rooms();
+  if (!owns_ || rooms_left_ != 0 || rooms.empty() || !cluster_->successor(to)) return false;
+  cluster_->begin_leaving(to);
+  rooms_left_ = rooms.size();
+  owns_ = false;
+  const auto one_stands = [this] {
+    assert(rooms_left_ > 0);
+    if (--rooms_left_ == 0) cluster_->hand_over();
+  };
+  for (const auto& room : rooms) room->hold([this, one_stands] { boost::asio::post(strand_, one_stands); });
+  return true;
 }
 
 void ClusterDesk::take_over(std::vector<RoomToGoOn> rooms) {
@@ -78,6 +137,7 @@ void ClusterDesk::step_down(const std::string& address) {
     rooms_.closed(name);
     static_cast<void>(lobby_.close(name, moved(address), "the room goes on elsewhere", [] {}));
   }
+  if (gone_) std::exchange(gone_, nullptr)();
 }
 
 Start ClusterDesk::start_of(RoomToGoOn room) const {

@@ -16,9 +16,12 @@
 
 #include "server/cluster/cluster.h"
 #include "server/config.h"
+#include "server/relay/relay.h"
+#include "server/room/lanes.h"
 #include "server/room/lobby.h"
 #include "server/room/start.h"
 #include "server/timing/live_limits.h"
+#include "server/timing/timekeeper.h"
 #include "shared/core/error.h"
 #include "shared/protocol/messages.h"
 
@@ -35,12 +38,20 @@ class ClusterDesk {
     std::function<void(const std::string& why)> fail;  ///< ends the server
   };
 
+  /// Where rooms that are only shown live.
+  struct Stage {
+    boost::asio::io_context& ticks;
+    const Lanes& lanes;
+    Timekeeper& timekeeper;
+  };
+
   /// All outlive it.
-  ClusterDesk(Strand strand, Lobby& lobby, const LiveLimits& limits, Rooms rooms,
+  ClusterDesk(Strand strand, Lobby& lobby, const LiveLimits& limits, Stage stage, Rooms rooms,
               std::shared_ptr<spdlog::logger> log)
       : strand_(std::move(strand)),
         lobby_(lobby),
         limits_(limits),
+        stage_(stage),
         rooms_(std::move(rooms)),
         log_(std::move(log)) {}
 
@@ -51,6 +62,9 @@ class ClusterDesk {
   void start() { cluster_->start(); }
   /// What is said to who is here when the server stops; rooms are not closed any more, but go on elsewhere.
   protocol::Bye begin_leaving(const protocol::Bye& otherwise);
+  /// Has the rooms go on at another host; gone: once they do. False, and nothing done: they are not here, or
+  /// nobody stands by.
+  bool move_away(std::function<void()> gone);
   /// Any thread, when no room is here any more.
   void leave() { cluster_->leave(); }
   /// Where a room is that is not here; empty: it is about to go on; nothing: it is none of the cluster's. Any
@@ -59,23 +73,34 @@ class ClusterDesk {
     if (auto address = cluster_->elsewhere(room)) return address;
     return cluster_->is_on_its_way(room) ? std::optional<std::string>("") : std::nullopt;
   }
+  /// The rooms that who comes here finds.
+  [[nodiscard]] const Directory& directory() const {
+    return relay_ ? static_cast<const Directory&>(*relay_) : lobby_;
+  }
   /// The rooms are here. Any thread.
   [[nodiscard]] bool owns() const { return owns_; }
   /// Any thread.
   [[nodiscard]] Cluster& cluster() { return *cluster_; }
 
  private:
+  core::Expected<void> open_edge(const ServeConfig& config);
+  [[nodiscard]] Cluster::Hooks hooks();
   void take_over(std::vector<RoomToGoOn> rooms);
   void step_down(const std::string& address);
+  bool move(const std::string& to);
   [[nodiscard]] Start start_of(RoomToGoOn room) const;
 
   Strand strand_;
   Lobby& lobby_;
   const LiveLimits& limits_;
+  const Stage stage_;
   const Rooms rooms_;
   const std::shared_ptr<spdlog::logger> log_;
+  std::optional<Relay> relay_;  ///< of an edge
   std::unique_ptr<Cluster> cluster_;
   std::atomic<bool> owns_{false};
+  std::size_t rooms_left_ = 0;  ///< that are to stand before the log is handed over
+  std::function<void()> gone_;  ///< who waits for them to be another host's
 };
 
 }  // namespace woodlouse::server

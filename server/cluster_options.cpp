@@ -17,6 +17,8 @@ constexpr const char* kExamples = R"(FILE is the one of --cluster, as {"nats": [
 Examples:
   woodlouse-server cluster init cluster.json
   woodlouse-server cluster status cluster.json
+  woodlouse-server cluster move cluster.json --to b
+  woodlouse-server cluster drain cluster.json a
   woodlouse-server cluster fsck cluster.json --out joined/)";
 
 /// The system's name, as far as it can be one here.
@@ -25,6 +27,16 @@ std::string system_name() {
   if (::gethostname(name.data(), name.size() - 1) != 0) return {};
   std::string host(name.data());
   return host.substr(0, host.find('.'));
+}
+
+/// What only a host that plays can do.
+std::string of_players(const ServeConfig& serve) {
+  if (!serve.maps.empty()) return "--map";
+  if (serve.record) return "--record";
+  if (serve.records) return "--records";
+  if (serve.bots != 0) return "--bots";
+  if (serve.shadow) return "--shadow";
+  return serve.ticks ? "--ticks" : "";
 }
 
 }  // namespace
@@ -39,21 +51,30 @@ void add_cluster_options(CLI::App& app, TypedCluster& typed) {
   app.add_option("--cluster-address", typed.address,
                  "HOST:PORT at which clients of other hosts find this one; left out: that of --listen")
       ->envname("WOODLOUSE_CLUSTER_ADDRESS");
+  app.add_flag("--cluster-edge", typed.is_edge,
+               "This host plays nothing: it shows the cluster's rooms to spectators, from the log, and sends "
+               "players on; there may be any number of such hosts, and they have no --map")
+      ->envname("WOODLOUSE_CLUSTER_EDGE");
 }
 
 core::Expected<std::optional<ClusterSettings>> checked_cluster(const TypedCluster& typed,
                                                                const ServeConfig& serve) {
   if (!typed.file) {
-    if (!typed.host && !typed.address) return std::nullopt;
-    return core::fail(typed.host ? "--cluster-host" : "--cluster-address", "there is no cluster",
-                      "say which:  --cluster FILE");
+    if (!typed.host && !typed.address && !typed.is_edge) return std::nullopt;
+    return core::fail(typed.host      ? "--cluster-host"
+                      : typed.is_edge ? "--cluster-edge"
+                                      : "--cluster-address",
+                      "there is no cluster", "say which:  --cluster FILE");
   }
+  if (const std::string option = of_players(serve); typed.is_edge && !option.empty())
+    return core::fail(option, "with --cluster-edge nothing is played here", "leave one of the two out");
   if (serve.fork) return core::fail("--cluster", "a fork is played alone");
   if (serve.rotate)
     return core::fail("--rotate", "in a cluster each room plays one game for good",
                       "leave one of the two out");
   auto settings = read_cluster_settings(*typed.file);
   if (!settings) return tl::unexpected(settings.error());
+  settings->is_edge = typed.is_edge;
   settings->host = typed.host ? *typed.host : system_name();
   if (!is_cluster_name(settings->host))
     return core::fail("--cluster-host", "\"" + settings->host + "\" is no name of letters, digits, - and _",
@@ -80,6 +101,12 @@ CLI::App* add_cluster_command(CLI::App& app, TypedClusterErrand& typed) {
   add(Action::kStatus, "status", "Who owns the rooms, who stands by, what is in the log");
   add(Action::kFsck, "fsck", "Read all of the log, re-run every room and name every hole")
       ->add_option("--out", typed.errand.out, "Folder for each room's joined recording");
+  add(Action::kMove, "move", "Have the rooms go on at another host, without a game that stops")
+      ->add_option("--to", typed.errand.host, "At that one; left out: at whoever is next");
+  add(Action::kDrain, "drain",
+      "Have a host give its rooms away, and take none any more until it is started anew")
+      ->add_option("host", typed.errand.host, "Its name")
+      ->required();
   cluster->require_subcommand(1, 1);
   cluster->footer(kExamples);
   return cluster;

@@ -21,6 +21,7 @@ struct ServeConfig;
 struct TypedCluster {
   std::optional<std::filesystem::path> file;
   std::optional<std::string> host, address;
+  bool is_edge = false;
 };
 struct TypedClusterErrand {
   ClusterErrand errand;

@@ -204,7 +204,7 @@ core::Expected<Config> checked(CLI::App& app, TypedServe& typed) {
       return tl::unexpected(applied.error());
   ServeConfig& serve = typed.serve;
   if (!serve.fork) {
-    if (serve.maps.empty())
+    if (serve.maps.empty() && !typed.cluster.is_edge)
       return core::fail("--map", "no map given", "try:  woodlouse-server --map maps/volcano.json");
     if (serve.maps.size() > kMaxRooms)
       return core::fail("--map",

@@ -66,7 +66,7 @@ Server::Server(const ServeConfig& config, Outside outside, std::shared_ptr<spdlo
       outside_(std::move(outside)),
       had_terminal_(has_terminal()),
       limits_(limits_of(config)),
-      environment_{lobby_, limits_, traffic_, timekeeper_, kServerName, log_},
+      environment_{&lobby_, limits_, traffic_, timekeeper_, kServerName, log_},
       acceptor_(lanes_, environment_),
       opener_(ticks_, lanes_, limits_, companions_, timekeeper_, log_),
       room_control_(strand_, lobby_, opener_, companions_, limits_, config,
@@ -171,12 +171,7 @@ core::Expected<void> Server::open_rotation(const ServeConfig& config, std::vecto
 }
 
 core::Expected<void> Server::join_cluster(const ServeConfig& config) {
-  const auto games = choose_games(config);
-  if (!games) return tl::unexpected(games.error());
-  if (games->size() > kMostRoomsOfShard)
-    return core::fail(
-        "--map", fmt::format("{} rooms are more than the {} of a cluster", games->size(), kMostRoomsOfShard));
-  cluster_.emplace(strand_, lobby_, limits_,
+  cluster_.emplace(strand_, lobby_, limits_, ClusterDesk::Stage{ticks_, lanes_, timekeeper_},
                    ClusterDesk::Rooms{[this, config] { return open_rooms(config); },
                                       [this, config](const std::string& name, Start start) {
                                         return open_room(config, name, std::move(start));
@@ -190,6 +185,7 @@ core::Expected<void> Server::join_cluster(const ServeConfig& config) {
   if (const auto opened = cluster_->open(config, address_, environment_.web_url); !opened)
     return tl::unexpected(opened.error());
   companions_.use(cluster_->cluster());
+  environment_.directory = &cluster_->directory();
   environment_.elsewhere = [this](std::string_view room) { return cluster_->elsewhere(room); };
   environment_.hosts = [this] { return cluster_->cluster().hosts(); };
   take_signals();
@@ -316,8 +312,8 @@ void Server::reopen() {
                                      rooms));
 }
 
-void Server::stop(const std::string& text, const std::string& reason) {
-  if (std::exchange(stopping_, true)) return;
+void Server::stop_parts(const std::string& text, const std::string& reason) {
+  if (std::exchange(parts_stop_, true)) return;
   protocol::Bye bye{std::string(protocol::code::kShutdown), text, false};
   if (cluster_) bye = cluster_->begin_leaving(bye);
   deadline_.expires_after(kStopWithin);

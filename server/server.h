@@ -22,6 +22,7 @@
 #include <ostream>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "server/access/doorman.h"
@@ -63,6 +64,8 @@ class Server {
   static constexpr std::size_t kIoThreads = 2;
   /// From the signal to the exit at most.
   static constexpr Duration kStopWithin = std::chrono::milliseconds(800);
+  /// Before that, for a cluster's rooms to go on at another host.
+  static constexpr Duration kMoveWithin = std::chrono::milliseconds(400);
 
   /// Loads the maps or the recording to go on from, opens the ports, creates the recordings.
   static core::Expected<std::unique_ptr<Server>> create(ServeConfig config, Outside outside,
@@ -123,7 +126,17 @@ class Server {
     rooms_running_.erase(name);
     if (rooms_running_.empty()) stop("the game is over", "ticks done");
   }
-  void stop(const std::string& text, const std::string& reason);
+  /// The rooms of a cluster go on elsewhere first.
+  void stop(const std::string& text, const std::string& reason) {
+    if (std::exchange(stopping_, true)) return;
+    const auto stop_all = [this, text, reason] { stop_parts(text, reason); };
+    if (!cluster_ || !cluster_->move_away(stop_all)) return stop_all();
+    deadline_.expires_after(kMoveWithin);
+    deadline_.async_wait([stop_all](const boost::system::error_code& error) {
+      if (!error) stop_all();
+    });
+  }
+  void stop_parts(const std::string& text, const std::string& reason);
   void part_stopped() {
     if (--parts_running_ > 0) return;
     deadline_.cancel();
@@ -166,6 +179,7 @@ class Server {
   std::set<std::string> rooms_running_;  ///< that have not reached the tick limit
   std::size_t parts_running_ = 0;        ///< once stopping: rooms and the acceptor
   bool stopping_ = false;
+  bool parts_stop_ = false;  ///< and a cluster's rooms have had their time to go on elsewhere
   std::optional<GameRotation> rotation_;
   std::optional<ClusterDesk> cluster_;
 };

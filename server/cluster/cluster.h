@@ -38,15 +38,27 @@ class Cluster {
   struct Hooks {
     /// The shard is this host's: these go on here; none: the shard is new, its rooms begin.
     std::function<void(std::vector<RoomToGoOn> rooms)> take_over;
-    /// It is another host's: no room of it may go on here. address: where it is; empty: not known.
+    /// It is another host's, also behind a hand_over(): no room of it may go on here. address: where it is;
+    /// empty: not known.
     std::function<void(std::string address)> step_down;
+    /// Somebody asks that they go on at another host, by its name; empty: at any. Whoever is asked holds
+    /// them, says hand_over(), and ends them at step_down().
+    std::function<void(std::string to)> move;
     /// The rooms that are here.
     std::function<std::vector<protocol::RoomEntry>()> census;
+  };
+  /// Of a host that only shows the rooms: it never owns them, and tells nobody of itself. Called likewise.
+  struct Viewers {
+    /// What the log tells of a room next: a recording's lines, without their newlines.
+    std::function<void(const std::string& room, std::vector<std::string> lines)> lines;
+    std::function<void(const std::string& room)> closed;
   };
 
   /// Waits for NATS. Errors: nobody is there, there is no log (`cluster init` makes it), this build has no
   /// NATS.
   static core::Expected<std::unique_ptr<Cluster>> open(ClusterSettings settings, Hooks hooks,
+                                                       std::shared_ptr<spdlog::logger> log);
+  static core::Expected<std::unique_ptr<Cluster>> open(ClusterSettings settings, Viewers viewers,
                                                        std::shared_ptr<spdlog::logger> log);
   Cluster(const Cluster&) = delete;
   Cluster& operator=(const Cluster&) = delete;
@@ -55,8 +67,12 @@ class Cluster {
 
   /// Follows or takes over, from now on.
   virtual void start() = 0;
-  /// From now on no room is said to be closed: it goes on elsewhere. Any thread.
-  virtual void begin_leaving() = 0;
+  /// From now on no room is said to be closed: it goes on elsewhere, at `to`, a host's name; empty: at any
+  /// that stands by. Any thread.
+  virtual void begin_leaving(const std::string& to) = 0;
+  /// After begin_leaving(), when no room plays any more: they are another host's to go on with. Then, or when
+  /// none has done so soon, step_down() follows; in that case they are this one's to begin anew. Any thread.
+  virtual void hand_over() = 0;
   /// The rooms go on elsewhere, if somebody stands by: what they have told so far is stored, the others are
   /// told. No hook is called any more. Waits for that, half a second at most.
   virtual void leave() = 0;
@@ -72,8 +88,9 @@ class Cluster {
   [[nodiscard]] virtual bool is_on_its_way(std::string_view room) const = 0;
   /// Addresses of other hosts at which its rooms may be found.
   [[nodiscard]] virtual std::vector<std::string> hosts() const = 0;
-  /// Where who is here is to go when this host leaves; nothing: nobody stands by.
-  [[nodiscard]] virtual std::optional<std::string> successor() const = 0;
+  /// Where who is here is to go when this host leaves; `wanted`: if that one, by its name, stands by.
+  /// Nothing: nobody stands by.
+  [[nodiscard]] virtual std::optional<std::string> successor(const std::string& wanted = {}) const = 0;
 
  protected:
   Cluster() = default;

@@ -44,13 +44,56 @@ int init(NatsLink& link, const ClusterSettings& settings, std::ostream& out, std
   return kFine;
 }
 
-int status(NatsLink& link, const ClusterSettings& settings, std::ostream& out, std::ostream& err) {
+core::Expected<std::shared_ptr<HostTable>> hear_hosts(NatsLink& link, const ClusterSettings& settings) {
   const auto table = std::make_shared<HostTable>(settings.host, settings.shard, 0);
   const auto heard =
       link.subscribe(settings.beat_subject("*"), [table](const auto&, const std::string& bytes, auto) {
         if (auto beat = beat_from(bytes)) table->take(std::move(*beat), Clock::now());
       });
-  if (!heard) return report(heard.error(), err);
+  if (!heard) return tl::unexpected(heard.error());
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  return table;
+}
+
+/// Waits until another host owns the rooms.
+int move(NatsLink& link, const ClusterErrand& errand, std::ostream& out, std::ostream& err) {
+  constexpr Duration kWithin = std::chrono::seconds(10);
+  const bool is_drain = errand.action == ClusterErrand::Action::kDrain;
+  const auto table = hear_hosts(link, errand.settings);
+  if (!table) return report(table.error(), err);
+  const auto owner = (*table)->owner(Clock::now());
+  if (!owner) return report({"cluster", "nobody owns its rooms now"}, err);
+  const bool is_owners = !is_drain || owner->host == errand.host;
+  const std::string to = is_drain ? std::string() : errand.host;
+  if (!is_drain && owner->host == to) return report({to, "owns the rooms already"}, err);
+  if (is_owners && !(*table)->successor(Clock::now(), to))
+    return report({to.empty() ? "cluster" : to, "nobody stands by there that could take the rooms",
+                   "woodlouse-server cluster status says who stands by"},
+                  err);
+  const Time asked = Clock::now();
+  const MoveOrder order{is_drain ? errand.host : std::string(), to};
+  if (const auto sent = link.publish(errand.settings.move_subject(), to_text(order)); !sent)
+    return report(sent.error(), err);
+  while (Clock::now() - asked < kWithin) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    const auto now = (*table)->owner(Clock::now());
+    const auto hosts = (*table)->hosts(Clock::now());
+    const bool is_drained = std::any_of(hosts.begin(), hosts.end(), [&errand](const Beat& beat) {
+      return beat.host == errand.host && beat.leaves && !beat.owns;
+    });
+    if (!now || (is_owners && now->host == owner->host) || (is_drain && !is_drained)) continue;
+    const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - asked);
+    out << fmt::format("the rooms of {} are at {}, {}{}\n", errand.settings.shard, now->host, now->address,
+                       is_owners ? fmt::format(", after {} ms", took.count()) : "");
+    if (is_drain) out << errand.host << " takes none any more, until it is started anew\n";
+    return kFine;
+  }
+  return report({"cluster", "nothing has moved within 10 s", "the logs of the hosts say why"}, err);
+}
+
+int status(NatsLink& link, const ClusterSettings& settings, std::ostream& out, std::ostream& err) {
+  const auto table = hear_hosts(link, settings);
+  if (!table) return report(table.error(), err);
   const auto state = link.stream_state();
   if (!state) return report(state.error(), err);
   out << fmt::format("log {}: batches {} to {}, {} bytes, {} of {} replicas have all{}\n", settings.stream(),
@@ -63,15 +106,15 @@ int status(NatsLink& link, const ClusterSettings& settings, std::ostream& out, s
     for (const RoomPlace& place : batch->head.rooms)
       out << fmt::format("room {}: tick {}, keyframe in batch {}\n", place.room, place.tick, place.keyframe);
   }
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  const auto hosts = table->hosts(Clock::now());
+  const auto hosts = (*table)->hosts(Clock::now());
   for (const Beat& beat : hosts)
     out << fmt::format("host {} at {}: {}, {} batch {}{}\n", beat.host, beat.address,
-                       beat.owns    ? "owns the rooms"
-                       : beat.ready ? "stands by"
-                                    : "CAN'T TAKE OVER (its log says why)",
+                       beat.owns     ? "owns the rooms"
+                       : beat.leaves ? "takes no rooms any more"
+                       : beat.ready  ? "stands by"
+                                     : "CAN'T TAKE OVER (its log says why)",
                        beat.owns ? "stored up to" : "has read up to", beat.sequence,
-                       beat.leaves ? ", goes" : "");
+                       beat.owns && beat.leaves ? ", goes" : "");
   if (hosts.empty()) out << "no host is heard\n";
   return kFine;
 }
@@ -113,6 +156,9 @@ int cluster_command(const ClusterErrand& errand, std::ostream& out, std::ostream
       return init(**link, errand.settings, out, err);
     case ClusterErrand::Action::kStatus:
       return status(**link, errand.settings, out, err);
+    case ClusterErrand::Action::kMove:
+    case ClusterErrand::Action::kDrain:
+      return move(**link, errand, out, err);
     case ClusterErrand::Action::kFsck:
       return fsck(**link, errand, out, err);
   }

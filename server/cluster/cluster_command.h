@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <ostream>
+#include <string>
 
 #include "server/cluster/cluster_settings.h"
 
@@ -13,10 +14,13 @@ struct ClusterErrand {
   enum class Action : std::uint8_t {
     kInit,    ///< makes the shard's log, once
     kStatus,  ///< who owns it, who stands by, what is in it
+    kMove,    ///< has its rooms go on at another host
+    kDrain,   ///< has them go on elsewhere than at one host, which takes none any more
     kFsck,    ///< reads all of it, re-runs every room, names every hole
   };
   Action action = Action::kStatus;
   ClusterSettings settings;
+  std::string host;           ///< kMove: to that one, empty: to whoever is next; kDrain: which
   std::filesystem::path out;  ///< kFsck: the folder of the joined recordings; empty: none are written
 };
 

@@ -27,12 +27,15 @@ struct ClusterSettings {
   std::filesystem::path authority, certificate, key;   ///< PEM files of TLS; empty: plain
   std::filesystem::path credentials;                   ///< of NATS; empty: none
   // This host's:
-  std::string host;     ///< its name
-  std::string address;  ///< HOST:PORT at which clients reach it
+  std::string host;      ///< its name
+  std::string address;   ///< HOST:PORT at which clients reach it
+  bool is_edge = false;  ///< it shows the rooms to who watches, and never plays them
 
   /// Subjects and the stream.
   [[nodiscard]] std::string log_subject() const { return "wl." + cluster + ".log." + shard; }
   [[nodiscard]] std::string stream() const { return "WL_" + cluster + "_" + shard; }
+  /// Where an operator asks that the shard's rooms go on at another host.
+  [[nodiscard]] std::string move_subject() const { return "wl." + cluster + ".move." + shard; }
   [[nodiscard]] std::string beat_subject(const std::string& of) const {
     return "wl." + cluster + ".beat." + of;
   }

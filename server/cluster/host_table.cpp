@@ -56,6 +56,7 @@ std::string to_text(const Beat& beat) {
       .hash("nonce2", beat.writer.nonce[1])
       .integer("sequence", beat.sequence)
       .integer("silent_ms", beat.silent_ms)
+      .text("to", beat.to)
       .objects("rooms", beat.rooms, [](json::ObjectText& object, const protocol::RoomEntry& room) {
         object.text("name", room.name)
             .text("map", room.map)
@@ -75,7 +76,7 @@ core::Expected<Beat> beat_from(std::string_view text) {
   if (!document->root().is(json::Kind::kObject)) return core::fail("a beat", "is no object");
   const json::Fields fields(document->root(),
                             {"host", "address", "shard", "owns", "leaves", "ready", "process", "writer",
-                             "epoch", "nonce", "nonce2", "sequence", "silent_ms", "rooms"},
+                             "epoch", "nonce", "nonce2", "sequence", "silent_ms", "rooms", "to"},
                             problems);
   Beat beat;
   beat.host = fields.text("host", kMostHostBytes);
@@ -90,6 +91,7 @@ core::Expected<Beat> beat_from(std::string_view text) {
   beat.writer.nonce = {fields.hash("nonce"), fields.hash("nonce2")};
   beat.sequence = fields.integer("sequence", 0, kMostCount);
   beat.silent_ms = fields.integer("silent_ms", 0, kMostCount);
+  beat.to = fields.text("to", kMostHostBytes);
   const auto rooms = fields.demand("rooms");
   if (rooms && (!rooms->is(json::Kind::kArray) || rooms->size() > kMostRoomsOfShard))
     problems.add(*rooms, "is to be a list of at most 16 rooms");
@@ -100,6 +102,26 @@ core::Expected<Beat> beat_from(std::string_view text) {
     });
   if (problems.count() != 0) return tl::unexpected(problems.errors().front());
   return beat;
+}
+
+std::string to_text(const MoveOrder& order) {
+  std::string text;
+  json::ObjectText line(text);
+  line.text("from", order.from).text("to", order.to);
+  line.end();
+  return text;
+}
+
+core::Expected<MoveOrder> move_order_from(std::string_view text) {
+  if (text.size() > kMostBeatBytes) return core::fail("an order", "is longer than one may be");
+  const auto document = json::parse_file(text, "an order", kBeatLimits, 1);
+  if (!document) return tl::unexpected(document.error());
+  json::Problems problems("an order");
+  if (!document->root().is(json::Kind::kObject)) return core::fail("an order", "is no object");
+  const json::Fields fields(document->root(), {"from", "to"}, problems);
+  MoveOrder order{fields.text("from", kMostHostBytes), fields.text("to", kMostHostBytes)};
+  if (problems.count() != 0) return tl::unexpected(problems.errors().front());
+  return order;
 }
 
 void HostTable::take(Beat beat, Time now) {
@@ -123,10 +145,12 @@ Time HostTable::heard(const Writer& writer) const {
   return known->second.at;
 }
 
-bool HostTable::leaves(const Writer& writer) const {
+std::optional<std::string> HostTable::leaves(const Writer& writer) const {
   const std::lock_guard lock(mutex_);
   const auto known = hosts_.find(writer.host);
-  return known != hosts_.end() && known->second.beat.writer == writer && known->second.beat.leaves;
+  if (known == hosts_.end() || known->second.beat.writer != writer || !known->second.beat.leaves)
+    return std::nullopt;
+  return known->second.beat.to;
 }
 
 std::optional<std::size_t> HostTable::place_in_line(Duration silence, Time now) const {
@@ -163,12 +187,12 @@ std::optional<Beat> HostTable::owner(Time now) const {
   return found;
 }
 
-std::optional<std::string> HostTable::successor(Time now) const {
+std::optional<Beat> HostTable::successor(Time now, std::string_view wanted) const {
   const std::lock_guard lock(mutex_);
   for (const auto& [host, known] : hosts_)
-    if (!known.beat.owns && !known.beat.leaves && known.beat.ready &&
+    if ((wanted.empty() || host == wanted) && !known.beat.owns && !known.beat.leaves && known.beat.ready &&
         now - known.at < std::chrono::milliseconds(200))
-      return known.beat.address;
+      return known.beat;
   return std::nullopt;
 }
 

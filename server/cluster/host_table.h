@@ -24,6 +24,7 @@ struct Beat {
   std::string shard;
   bool owns = false;
   bool leaves = false;                     ///< it goes, and hands its rooms over
+  std::string to{};                        ///< to which host; empty: whoever is next
   bool ready = false;                      ///< of a follower: it has all of the log and could go on with it
   std::uint64_t process = 0;               ///< made by chance: tells two that have one name
   Writer writer;                           ///< where it owns: as whom; else the one it follows
@@ -32,6 +33,15 @@ struct Beat {
   std::vector<protocol::RoomEntry> rooms;  ///< an owner's
   friend bool operator==(const Beat&, const Beat&) = default;
 };
+
+/// What an operator asks of a shard's owner.
+struct MoveOrder {
+  std::string from;  ///< of that host, which is to have no room any more; empty: of any
+  std::string to;    ///< to that one; empty: to whoever is next
+};
+
+std::string to_text(const MoveOrder& order);
+core::Expected<MoveOrder> move_order_from(std::string_view text);
 
 std::string to_text(const Beat& beat);
 /// Errors: it is none; what NATS brings came from outside.
@@ -51,8 +61,8 @@ class HostTable {
 
   /// When that writer was heard last.
   [[nodiscard]] Time heard(const Writer& writer) const;
-  /// Whether it has said that it goes.
-  [[nodiscard]] bool leaves(const Writer& writer) const;
+  /// To which host it has said that its rooms go; empty: whoever is next. Nothing: it stays.
+  [[nodiscard]] std::optional<std::string> leaves(const Writer& writer) const;
   /// How many are to try before this host: those that could go on, by name. None: one of them has heard of
   /// the owner within half of `silence`.
   [[nodiscard]] std::optional<std::size_t> place_in_line(Duration silence, Time now) const;
@@ -62,8 +72,8 @@ class HostTable {
   [[nodiscard]] std::uint64_t highest_epoch() const;
   /// Where the owner's clients go; nothing: no owner is heard, or it goes.
   [[nodiscard]] std::optional<Beat> owner(Time now) const;
-  /// Of a host, not this one, that follows, has all, and was heard just now.
-  [[nodiscard]] std::optional<std::string> successor(Time now) const;
+  /// A host, not this one, that follows, has all, and was heard just now. wanted: that one; empty: any.
+  [[nodiscard]] std::optional<Beat> successor(Time now, std::string_view wanted = {}) const;
   /// Addresses of the others, at most `most`.
   [[nodiscard]] std::vector<std::string> addresses(Time now, std::size_t most) const;
   [[nodiscard]] std::vector<Beat> hosts(Time now) const;

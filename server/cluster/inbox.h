@@ -27,7 +27,9 @@ struct Acknowledged {
 struct Refused {
   std::string why;
 };
-using NodeEvent = std::variant<LogDesk::Job, LogMessage, Acknowledged, Refused>;
+/// There is something to look at that stands elsewhere.
+struct Nudge {};
+using NodeEvent = std::variant<LogDesk::Job, LogMessage, Acknowledged, Refused, Nudge>;
 
 /// Any thread.
 class Inbox final : public LogDesk {

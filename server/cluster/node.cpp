@@ -5,12 +5,20 @@
 #include <utility>
 
 namespace woodlouse::server {
+Node::Node(ClusterSettings settings, Viewers viewers, std::shared_ptr<spdlog::logger> log)
+    : settings_(std::move(settings)),
+      viewers_(std::move(viewers)),
+      log_(std::move(log)),
+      table_({}, settings_.shard, process_) {  // nobody's beat is its own
+  assert(viewers_->lines && viewers_->closed);
+}
+
 Node::Node(ClusterSettings settings, Hooks hooks, std::shared_ptr<spdlog::logger> log)
     : settings_(std::move(settings)),
       hooks_(std::move(hooks)),
       log_(std::move(log)),
       table_(settings_.host, settings_.shard, process_) {
-  assert(!settings_.host.empty() && hooks_.take_over && hooks_.step_down && hooks_.census);
+  assert(!settings_.host.empty() && hooks_.take_over && hooks_.step_down && hooks_.census && hooks_.move);
   beat_.host = settings_.host;
   beat_.address = settings_.address;
   beat_.shard = settings_.shard;
@@ -32,18 +40,54 @@ core::Expected<void> Node::connect() {
   if (const auto state = log_link_->stream_state(); !state)
     return core::fail(state.error().where, "has no such stream: " + state.error().what,
                       "make it, once:  woodlouse-server cluster init --cluster FILE");
+  if (auto heard = hear_beats(); !heard || viewers_) return heard;
+  return hear_operators();
+}
+
+core::Expected<void> Node::hear_beats() {
   return beat_link_->subscribe(settings_.beat_subject("*"),
                                [this](const auto&, const std::string& bytes, auto) {
                                  auto beat = beat_from(bytes);
                                  if (!beat) return;
+                                 const bool goes = beat->leaves;
                                  table_.take(std::move(*beat), Clock::now());
+                                 if (goes) inbox_->put(Nudge{});  // whose rooms wait
                                });
+}
+
+/// What else could be said there is nothing to this host.
+core::Expected<void> Node::hear_operators() {
+  return beat_link_->subscribe(settings_.move_subject(), [this](const auto&, const std::string& bytes, auto) {
+    const auto order = move_order_from(bytes);
+    if (!order) return;
+    const bool is_meant = order->from == settings_.host;
+    if (is_meant) is_drained_ = true;
+    bool owns = false;
+    {
+      const std::lock_guard lock(mutex_);
+      owns = beat_.owns;
+    }
+    if (owns && !is_leaving_ && (is_meant || order->from.empty())) hooks_.move(order->to);
+  });
 }
 
 void Node::start() {
   assert(log_link_ && beat_link_);
   running_ = std::jthread([this] { run(); });
-  beating_ = std::jthread([this](const std::stop_token& stop) { beat(stop); });
+  if (!viewers_) beating_ = std::jthread([this](const std::stop_token& stop) { beat(stop); });
+}
+
+void Node::begin_leaving(const std::string& to) {
+  is_leaving_ = true;
+  const std::lock_guard lock(mutex_);
+  beat_.to = to;
+  if (!beat_.owns) beat_.leaves = true;  // an owner only once all is stored
+}
+
+void Node::hand_over() {
+  assert(is_leaving_);
+  is_to_hand_over_ = true;
+  inbox_->put(Nudge{});
 }
 
 void Node::leave() {
@@ -85,6 +129,12 @@ void Node::run() {
   }
 }
 
+void Node::beat_soon() {
+  const std::lock_guard lock(mutex_);
+  is_beat_due_ = true;
+  beat_now_.notify_all();
+}
+
 // ---- signs of life -------------------------------------------------------------------------------------
 
 void Node::beat(const std::stop_token& stop) {
@@ -103,7 +153,9 @@ void Node::beat(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     tell();
     next = std::max(next + kBeatEvery, Clock::now());
-    std::this_thread::sleep_until(next);
+    std::unique_lock lock(mutex_);
+    if (beat_now_.wait_until(lock, stop, next, [this] { return is_beat_due_; })) next = Clock::now();
+    is_beat_due_ = false;
   }
   tell();
 }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -42,8 +43,12 @@ class Node final : public Cluster {
   /// Without an acknowledgement; then the rooms are told.
   static constexpr Duration kNotDurableAfter = std::chrono::seconds(10);
   static constexpr Duration kLeaveWithin = std::chrono::milliseconds(500);
+  /// In which another host is to take over what was handed to it; then it is this one's again.
+  static constexpr Duration kTakenWithin = std::chrono::seconds(3);
 
   Node(ClusterSettings settings, Hooks hooks, std::shared_ptr<spdlog::logger> log);
+  /// One that only shows the rooms.
+  Node(ClusterSettings settings, Viewers viewers, std::shared_ptr<spdlog::logger> log);
   ~Node() override { leave(); }
 
   core::Expected<void> connect();
@@ -54,13 +59,11 @@ class Node final : public Cluster {
   [[nodiscard]] std::optional<std::string> elsewhere(std::string_view room) const override;
   [[nodiscard]] bool is_on_its_way(std::string_view room) const override;
   [[nodiscard]] std::vector<std::string> hosts() const override;
-  void begin_leaving() override {
-    is_leaving_ = true;
-    const std::lock_guard lock(mutex_);
-    if (!beat_.owns) beat_.leaves = true;  // an owner only once all is stored
-  }
-  [[nodiscard]] std::optional<std::string> successor() const override {
-    return table_.successor(Clock::now());
+  void begin_leaving(const std::string& to) override;
+  void hand_over() override;
+  [[nodiscard]] std::optional<std::string> successor(const std::string& wanted) const override {
+    const auto next = table_.successor(Clock::now(), wanted);
+    return next ? std::optional(next->address) : std::nullopt;
   }
 
  private:
@@ -69,6 +72,8 @@ class Node final : public Cluster {
   bool follow();
   [[nodiscard]] bool begin_following();
   [[nodiscard]] core::Expected<void> read_beginning(const NatsLink::StreamState& state);
+  [[nodiscard]] ShardView fresh_view();
+  void show();
   [[nodiscard]] bool take_message(const LogMessage& message);
   void tell_following(Time now);
   [[nodiscard]] bool is_owner_gone(Time now);
@@ -87,7 +92,11 @@ class Node final : public Cluster {
   [[nodiscard]] bool begin_log_anew();
   void watch_durability(Time now);
   void step_down();
-  void hand_over();
+  void store_the_rest();
+  void watch_handing_over(Time now);
+  void beat_soon();
+  [[nodiscard]] core::Expected<void> hear_beats();
+  [[nodiscard]] core::Expected<void> hear_operators();
   [[nodiscard]] std::optional<LastBatch> read_last();
   bool complain(const core::Error& error);
 
@@ -97,7 +106,8 @@ class Node final : public Cluster {
   void say(LogEvent event, const std::string& text) const { log_event(*log_, event, "cluster: " + text); }
 
   const ClusterSettings settings_;
-  const Hooks hooks_;
+  const Hooks hooks_;                     ///< none of one that only shows
+  const std::optional<Viewers> viewers_;  ///< of one that only shows
   const std::shared_ptr<spdlog::logger> log_;
   const std::shared_ptr<Inbox> inbox_ = std::make_shared<Inbox>();
   const std::uint64_t process_ = make_resume_token()[0];
@@ -106,6 +116,7 @@ class Node final : public Cluster {
 
   // The node's thread's:
   std::optional<ShardView> view_;
+  std::vector<std::pair<std::string, std::vector<std::string>>> to_show_;  ///< lines, by room, in their order
   Time begin_at_{};  ///< to read the log, at the earliest
   bool is_log_empty_ = false;
   Time tried_{};                 ///< to take over, in vain
@@ -122,9 +133,15 @@ class Node final : public Cluster {
   bool is_difference_told_ = false;
   std::string last_fault_;  ///< told already
 
+  std::optional<Time> handed_over_;  ///< since when the rooms are to go on elsewhere, and do not yet
+
   std::atomic<bool> is_leaving_{false};
+  std::atomic<bool> is_to_hand_over_{false};
+  std::atomic<bool> is_drained_{false};                       ///< an operator wants no room here any more
   std::atomic<bool> is_log_cut_{false}, is_beat_cut_{false};  ///< from NATS
   mutable std::mutex mutex_;                                  ///< of what follows
+  std::condition_variable_any beat_now_;
+  bool is_beat_due_ = false;  ///< before its time
   Beat beat_;
   std::vector<std::string> known_rooms_;  ///< of the shard, as the log has them
 

@@ -31,8 +31,9 @@ bool Node::follow() {
     // Who was away himself, or cut off, has heard nobody.
     if (now - std::exchange(looked, now) > settings_.silence / 2 || is_cut_off()) heard_ = now;
     if (view_ && is_log_empty_ && table_.owner(now)) view_.reset();  // somebody has begun it
+    if (handed_over_) watch_handing_over(now);
     tell_following(now);
-    if (view_ && !is_leaving_ && is_owner_gone(now)) {
+    if (view_ && !viewers_ && !is_leaving_ && !is_drained_ && is_owner_gone(now)) {
       if (take_over()) return true;
       view_.reset();  // what came meanwhile was not kept
       tried_ = Clock::now();
@@ -43,7 +44,7 @@ bool Node::follow() {
 
 bool Node::begin_following() {
   begin_at_ = Clock::now() + kBeginEvery;
-  view_.emplace();
+  view_.emplace(fresh_view());
   going_.reset();
   has_lost_rooms_ = false;
   after_ = 0;
@@ -54,8 +55,30 @@ bool Node::begin_following() {
   is_log_empty_ = state->messages == 0;
   if (is_log_empty_) return true;
   if (const auto read = read_beginning(*state); !read) return complain(read.error());
+  show();
   last_fault_.clear();
   return true;
+}
+
+ShardView Node::fresh_view() {
+  if (!viewers_) return {};
+  to_show_.clear();
+  ShardView::Reader reader;
+  reader.line = [this](const std::string& room, std::string_view line) {
+    if (to_show_.empty() || to_show_.back().first != room)
+      to_show_.emplace_back(room, std::vector<std::string>());
+    to_show_.back().second.emplace_back(line);
+  };
+  reader.closed = [this](const std::string& room) {
+    show();
+    viewers_->closed(room);
+  };
+  return ShardView(std::move(reader));
+}
+
+/// What has been read is handed on.
+void Node::show() {
+  for (auto& [room, lines] : std::exchange(to_show_, {})) viewers_->lines(room, std::move(lines));
 }
 
 /// From the last batch that is one, which says where to begin; what is none behind it is passed over.
@@ -114,6 +137,7 @@ bool Node::take_message(const LogMessage& message) {
   }
   if (const auto taken = view_->take(message.sequence, *batch); !taken) return complain(taken.error());
   heard_ = Clock::now();
+  show();
   if (!view_->difference().empty() && !std::exchange(is_difference_told_, true))
     say(LogEvent::kClusterDiffers,
         joined({"FOLLOWER DIFFERS: ", view_->difference(), "; this host takes nothing of it over"}));
@@ -130,7 +154,9 @@ bool Node::complain(const core::Error& error) {
 void Node::tell_following(Time now) {
   const std::lock_guard lock(mutex_);
   beat_.owns = false;
-  beat_.ready = view_ && view_->head() && view_->difference().empty() && !has_lost_rooms_ && !is_cut_off();
+  beat_.leaves = is_leaving_ || is_drained_;
+  beat_.ready = !is_drained_ && view_ && view_->head() && view_->difference().empty() && !has_lost_rooms_ &&
+                !is_cut_off();
   beat_.silent_ms = static_cast<std::uint64_t>(
       std::chrono::duration_cast<std::chrono::milliseconds>(view_ ? silence(now) : Duration{}).count());
   if (!view_) return;
@@ -138,6 +164,22 @@ void Node::tell_following(Time now) {
   for (const auto& [name, room] : view_->rooms()) known_rooms_.push_back(name);
   beat_.writer = view_->head() ? view_->head()->writer : Writer{};
   beat_.sequence = view_->sequence();
+}
+
+/// Until another host has them, or none does; then who is here is sent on.
+void Node::watch_handing_over(Time now) {
+  const bool is_taken = view_ && view_->head() && view_->head()->writer.host != settings_.host;
+  if (!is_taken && now - *handed_over_ < kTakenWithin) return;
+  if (!is_taken) is_drained_ = false;  // or they would be nobody's
+  std::string address = is_taken ? std::string() : settings_.address;
+  if (is_taken)
+    for (const Beat& beat : table_.hosts(now))
+      if (beat.host == view_->head()->writer.host) address = beat.address;
+  if (!inbox_->is_stopping()) hooks_.step_down(address);
+  handed_over_.reset();
+  is_leaving_ = false;
+  const std::lock_guard lock(mutex_);
+  beat_.to.clear();
 }
 
 Duration Node::silence(Time now) const {
@@ -164,7 +206,12 @@ bool Node::is_owner_gone(Time now) {
            silence(now) >
                (view_->head() ? std::min<Duration>(settings_.silence, 5 * kBeatEvery) : settings_.silence) +
                    turn;
-  if (table_.leaves(view_->head()->writer)) return now - *(going_ = going_.value_or(now)) >= turn;
+  constexpr Duration kUnlessWanted = std::chrono::seconds(1);
+  if (const auto to = table_.leaves(view_->head()->writer)) {
+    const bool is_wanted = *to == settings_.host;
+    const Duration wait = is_wanted ? Duration{} : turn + (to->empty() ? Duration{} : kUnlessWanted);
+    return now - *(going_ = going_.value_or(now)) >= wait;
+  }
   return place && silence(now) > settings_.silence + turn;
 }
 
@@ -183,6 +230,7 @@ bool Node::take_over() {
   inbox_->settle();
   log_link_->unfollow();
   tell_owning();
+  beat_soon();
   if (!inbox_->is_stopping() && !is_leaving_) hooks_.take_over(std::move(rooms));
   return true;
 }

@@ -15,7 +15,7 @@ using core::joined;
 
 void Node::own() {
   assert(writer_ && text_);
-  while (!inbox_->is_stopping()) {
+  while (!inbox_->is_stopping() && !is_to_hand_over_) {
     hear(inbox_->take(Clock::now() + kLook));
     if (inbox_->is_in_doubt()) ask_the_log();
     const Time now = Clock::now();
@@ -30,7 +30,9 @@ void Node::own() {
     tell_owning();
     watch_durability(now);
   }
-  hand_over();
+  store_the_rest();
+  if (is_to_hand_over_.exchange(false)) handed_over_ = Clock::now();
+  writer_.reset();
 }
 
 /// Who was away asks before anything is shown. Where nobody answers, the rooms go on after a while, as they
@@ -163,7 +165,8 @@ void Node::step_down() {
   writer_.reset();
 }
 
-void Node::hand_over() {
+/// All that was told, as far as that goes soon; then whoever stands by hears that this host goes.
+void Node::store_the_rest() {
   const Time until = Clock::now() + kLeaveWithin;
   hear(inbox_->take(Clock::now()));
   cut(Clock::now());
@@ -171,11 +174,14 @@ void Node::hand_over() {
     write(Clock::now());
     const Time next = Clock::now() + kLook;
     hear(inbox_->take(next));
-    std::this_thread::sleep_until(next);  // the inbox of one that stops waits for nothing
+    if (inbox_->is_stopping()) std::this_thread::sleep_until(next);  // its inbox waits for nothing
   }
   tell_owning();
-  const std::lock_guard lock(mutex_);
-  beat_.leaves = true;
+  {
+    const std::lock_guard lock(mutex_);
+    beat_.leaves = true;
+  }
+  beat_soon();
 }
 
 }  // namespace woodlouse::server

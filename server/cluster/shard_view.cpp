@@ -41,7 +41,8 @@ core::Expected<void> ShardView::take_header(std::string_view room, const Batch& 
     if (const auto* named = std::get_if<RoomLine>(&*line)) current = named->room;
     const auto* recorded = std::get_if<RecordedLine>(&*line);
     if (recorded == nullptr || current != room || !is_header(recorded->text)) return {};
-    record(rooms_[std::string(room)], recorded->text);
+    const std::string name(room);
+    record(name, rooms_[name], recorded->text);
     is_found = true;
     return {};
   });
@@ -91,7 +92,7 @@ core::Expected<void> ShardView::take_line(const BatchLine& line) {
     return core::fail(place_of(sequence_), "a shard has at most 16 rooms");
   }
   if (const auto* closed = std::get_if<ClosedLine>(&line)) {
-    rooms_.erase(closed->room);
+    if (rooms_.erase(closed->room) != 0 && reader_) reader_->closed(closed->room);
     if (current_ == closed->room) current_.clear();
     return {};
   }
@@ -104,11 +105,21 @@ core::Expected<void> ShardView::take_line(const BatchLine& line) {
   const std::string_view text = std::get<RecordedLine>(line).text;
   // Lines before the first header are of a game whose beginning was not read.
   if (!rooms_.contains(current_) && !is_header(text)) return {};
-  record(rooms_[current_], text);
+  record(current_, rooms_[current_], text);
   return {};
 }
 
-void ShardView::record(Room& room, std::string_view line) {
+void ShardView::pass_on(const std::string& name, Room& room, std::string_view line) {
+  assert(reader_ && room.follower == nullptr);
+  if (is_header(line)) {
+    if (room.header == line) return;
+    room.header = line;
+  }
+  reader_->line(name, line);
+}
+
+void ShardView::record(const std::string& name, Room& room, std::string_view line) {
+  if (reader_) return pass_on(name, room, line);
   if (is_header(line)) {
     // Told again for who comes now.
     if (room.header == line && room.follower->match() != nullptr) return;
@@ -119,7 +130,7 @@ void ShardView::record(Room& room, std::string_view line) {
   assert(room.follower != nullptr);
   if (is_header(line) || is_keyframe(line) || room.follower->match() != nullptr) room.follower->take(line);
   if (const auto& found = room.follower->difference(); found && difference_.empty())
-    difference_ = joined({"room ", current_, ": tick ", std::to_string(found->tick), ": ", found->what});
+    difference_ = joined({"room ", name, ": tick ", std::to_string(found->tick), ": ", found->what});
   const match::Match* match = room.follower->match();
   if (!is_keyframe(line) || match == nullptr) return;
   std::set<match::PlayerId> here;
@@ -129,8 +140,9 @@ void ShardView::record(Room& room, std::string_view line) {
 
 std::uint64_t ShardView::proven() const {
   return std::accumulate(
-      rooms_.begin(), rooms_.end(), std::uint64_t{0},
-      [](std::uint64_t sum, const auto& entry) { return sum + entry.second.follower->proven(); });
+      rooms_.begin(), rooms_.end(), std::uint64_t{0}, [](std::uint64_t sum, const auto& entry) {
+        return entry.second.follower == nullptr ? sum : sum + entry.second.follower->proven();
+      });
 }
 
 }  // namespace woodlouse::server

@@ -1,14 +1,17 @@
 // A shard as one who follows its log has it: each room's game re-run as its lines come, each tick proven, and
-// who may come back to which louse. From it the rooms go on when their host is gone. Pure. One thread.
+// who may come back to which louse. From it the rooms go on when their host is gone. Or, for who only shows
+// them, whose lines are whose, and re-run elsewhere. Pure. One thread.
 #pragma once
 
 #include <cassert>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "server/access/claim.h"
@@ -22,12 +25,22 @@ namespace woodlouse::server {
 
 class ShardView {
  public:
+  /// Who re-runs the rooms in place of this.
+  struct Reader {
+    /// One of a recording's, without its newline. A header that is told again for who comes now comes once.
+    std::function<void(const std::string& room, std::string_view line)> line;
+    std::function<void(const std::string& room)> closed;
+  };
   struct Room {
-    std::string header;  ///< the line, without its newline
-    std::unique_ptr<follow::Follower> follower;
+    std::string header;                          ///< the line, without its newline
+    std::unique_ptr<follow::Follower> follower;  ///< null: a reader has it
     std::map<match::PlayerId, Claim> claims;
   };
   using Rooms = std::map<std::string, Room, std::less<>>;
+
+  ShardView() = default;
+  /// Nothing is re-run here.
+  explicit ShardView(Reader reader) : reader_(std::move(reader)) { assert(reader_->line && reader_->closed); }
 
   /// Where one who knows nothing begins to read, by the last batch: every room's header and keyframe are in
   /// what follows. `headers`: batches before it, of which a header is wanted first, by room.
@@ -61,8 +74,10 @@ class ShardView {
 
  private:
   core::Expected<void> take_line(const BatchLine& line);
-  void record(Room& room, std::string_view line);
+  void record(const std::string& name, Room& room, std::string_view line);
+  void pass_on(const std::string& name, Room& room, std::string_view line);
 
+  std::optional<Reader> reader_;
   Rooms rooms_;
   std::optional<BatchHead> head_;
   std::uint64_t sequence_ = 0;

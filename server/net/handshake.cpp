@@ -104,7 +104,7 @@ std::string where_http_is(std::string_view line, std::string_view web_url) {
 }
 
 protocol::ErrorMessage room_moved(const std::string& asked, std::string address) {
-  constexpr std::uint32_t kAskAgainMs = 200;
+  constexpr std::uint32_t kAskAgainMs = 50;
   if (address.empty())
     return {std::string(code::kMoved),
             core::joined({"join.room: \"", asked, "\" is about to go on: join again"}), false, kAskAgainMs};

@@ -25,6 +25,11 @@ class Directory {
 
   /// The door of that name, the first one for an empty name, or null.
   [[nodiscard]] virtual std::shared_ptr<Door> find(std::string_view name) const = 0;
+  /// That, if who has this role may come in there; or null.
+  [[nodiscard]] std::shared_ptr<Door> find_for(protocol::Role role, std::string_view name) const {
+    auto door = find(name);
+    return door && door->only_shows() && role != protocol::Role::kSpectator ? nullptr : door;
+  }
   [[nodiscard]] virtual std::vector<std::string> names() const = 0;
   [[nodiscard]] virtual protocol::Rooms list() const = 0;
   /// How often a room has opened or closed.

@@ -9,7 +9,7 @@
 
 namespace woodlouse::server {
 
-Display::Display(const RoomSettings& settings, match::Match& game, Outlet& outlet)
+Display::Display(const RoomSettings& settings, const match::Match& game, Outlet& outlet)
     : settings_(settings), game_(&game), outlet_(outlet), map_line_(encode_map_line(game.map())) {
   assert(settings_.state_hz >= 1 && game_->settings().tick_hz % settings_.state_hz == 0);
 }
@@ -76,8 +76,15 @@ void Display::unsubscribe(const SessionOccupant& occupant) {
 
 bool Display::has_inputs() const { return replay::holds_map(game_->map()); }
 
-void Display::begin(match::Match& game, Seats& seats, Company company) {
-  assert(game.tick() == 0 && &game != game_);
+void Display::go_on(const match::Match& game) {
+  assert(game.settings().tick_hz % settings_.state_hz == 0);
+  game_ = &game;
+  snapshot_.reset();
+  keyframe_tick_.reset();
+}
+
+void Display::begin(const match::Match& game, Seats& seats, Company company) {
+  assert(game.settings().tick_hz % settings_.state_hz == 0);
   game_ = &game;
   map_line_ = encode_map_line(game.map());
   snapshot_.reset();

@@ -31,7 +31,7 @@ struct Company {
 class Display {
  public:
   /// settings and outlet outlive it, a game until the next one begins.
-  Display(const RoomSettings& settings, match::Match& game, Outlet& outlet);
+  Display(const RoomSettings& settings, const match::Match& game, Outlet& outlet);
 
   /// The seat gets its channel, and its session the welcome and the newest frames, but no more till
   /// subscribe(). REQUIRES that the seat is that session's.
@@ -42,7 +42,10 @@ class Display {
   /// Whether the game can be watched by inputs: its map is sent whole.
   [[nodiscard]] bool has_inputs() const;
   /// Another game: who is seated is welcomed to it, behind all frames of the one before.
-  void begin(match::Match& game, Seats& seats, Company company);
+  void begin(const match::Match& game, Seats& seats, Company company);
+  /// The same game, in another match at the same tick or a later one; the former one is here no more, but its
+  /// map, until the outlet has done what it was asked.
+  void go_on(const match::Match& game);
 
   void show_newest(const SessionOccupant& occupant) {
     if (occupant.channel == kByInputs) return ask({occupant.subscriber, false});
@@ -85,7 +88,7 @@ class Display {
   [[nodiscard]] std::uint64_t ticks_a_frame() const;
 
   const RoomSettings& settings_;
-  match::Match* game_;
+  const match::Match* game_;
   Outlet& outlet_;
   Line map_line_;
   Layouts layouts_;

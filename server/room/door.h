@@ -47,6 +47,8 @@ class Door {
   /// The session is gone: its thrust ends, and its louse goes or waits.
   virtual void leave(SessionId session, Parting parting) = 0;
 
+  /// The room is played elsewhere: nobody who plays is to come in here.
+  [[nodiscard]] virtual bool only_shows() const { return false; }
   /// Never changes.
   [[nodiscard]] virtual const std::string& name() const = 0;
   /// How many there are, as of now.

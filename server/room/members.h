@@ -73,6 +73,7 @@ class Members {
 
   void admit(Arrival arrival);
   static void refuse_closed(Subscriber& subscriber);
+  static void refuse_held(Subscriber& subscriber);
   void vacate(SessionId session);
   void remove(SessionId session, Parting parting);
   /// The lice go whose players have not come back in time.

@@ -74,6 +74,11 @@ void Outlet::flush() {
   asio::post(strand_, [self = shared_from_this()] { self->encode(); });
 }
 
+void Outlet::keep(std::shared_ptr<const void> what) {
+  flush();
+  asio::post(strand_, [self = shared_from_this(), what = std::move(what)]() mutable { what.reset(); });
+}
+
 void Outlet::change(SessionId session, std::size_t lane, ChannelId channel) {
   asio::post(strand_, [self = shared_from_this(), session, lane, channel] {
     self->lanes_[lane]->change(session, channel);

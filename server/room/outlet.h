@@ -53,6 +53,8 @@ class Outlet : public std::enable_shared_from_this<Outlet> {
   /// The keyframe kept, behind the game's header where there is one, and what came since. REQUIRES one.
   void show_keyframe(std::shared_ptr<Subscriber> subscriber, Line header);
 
+  /// Till all that was asked before is done.
+  void keep(std::shared_ptr<const void> what);
   /// Another game begins: no frame of the one before goes to anybody after this.
   void begin_anew();
   /// Made and said behind all frames of the game before. divisor: Subscriber::welcome()'s.

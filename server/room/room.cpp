@@ -227,6 +227,7 @@ void Room::serve_the_door() {
 
 void Room::admit(Arrival arrival) {
   if (state_ == State::kStopped) return Members::refuse_closed(*arrival.subscriber);
+  if (is_held_) return Members::refuse_held(*arrival.subscriber);
   members_.admit(std::move(arrival));
   if (state_ == State::kAsleep) wake();
 }

@@ -77,6 +77,9 @@ class Room : public std::enable_shared_from_this<Room> {
   /// Ends the ticks, says bye to the members, finishes the watchers' work; then calls `stopped`, on the
   /// room's strand. A room that has stopped takes nobody more; whoever stops it again only hears of its end.
   void stop(const protocol::Bye& bye, const std::string& reason, std::function<void()> stopped);
+  /// No tick passes from now on, nobody comes in, and nobody is told: the game goes on elsewhere, and stop()
+  /// follows. held: on the room's strand, once all that was played has been told to the watchers.
+  void hold(std::function<void()> held);
   /// From now on these hold; who is here stays.
   void use(const protocol::Limits& limits) {
     boost::asio::post(strand_, [self = shared_from_this(), this, limits] {
@@ -219,7 +222,8 @@ class Room : public std::enable_shared_from_this<Room> {
     Watchers watchers;
   };
   std::list<FormerGame> former_;  ///< whose watchers have not finished yet
-  bool has_finished_ = false;     ///< stopped, and so have the watchers of this one
+  bool is_held_ = false;
+  bool has_finished_ = false;  ///< stopped, and so have the watchers of this one
   RoomFigures working_;
   std::string map_file_;          ///< of the game, for its recordings
   std::uint64_t steps_left_ = 0;  ///< until it stands still again; 0: it goes on

@@ -75,6 +75,15 @@ void Room::pause(Ordered answered) {
   });
 }
 
+void Room::hold(std::function<void()> held) {
+  assert(held);
+  asio::post(strand_, [self = shared_from_this(), this, held = std::move(held)] {
+    is_held_ = true;
+    if (state_ == State::kRunning || state_ == State::kAsleep) stand_still();
+    held();
+  });
+}
+
 void Room::resume(Ordered answered) {
   order(std::move(answered), [this](const Ordered& done) {
     const bool steps = std::exchange(steps_left_, 0) != 0;
@@ -210,6 +219,12 @@ void Members::say_from_now_on(const protocol::Notice& notice) {
   std::erase_if(standing_, [&](const protocol::Notice& one) { return one.code == notice.code; });
   standing_.push_back(notice);
   say(notice);
+}
+
+void Members::refuse_held(Subscriber& subscriber) {
+  constexpr std::uint32_t kAgainMs = 50;
+  subscriber.refuse_join({std::string(protocol::code::kMoved),
+                          "join: the room is about to go on at another server: join again", false, kAgainMs});
 }
 
 void Members::pause() {

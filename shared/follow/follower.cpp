@@ -61,6 +61,8 @@ core::Expected<void> Follower::begin(std::string_view line) {
 core::Expected<void> Follower::follow(replay::Line line) {
   if (auto* step = std::get_if<replay::StepLine>(&line)) return this->step(std::move(*step));
   if (auto* keyframe = std::get_if<replay::Keyframe>(&line)) return go_on(std::move(*keyframe));
+  if (const auto* chat = std::get_if<replay::ChatLine>(&line); chat != nullptr && witness_ != nullptr)
+    witness_->said(*chat);
   return {};  // for who reads
 }
 
@@ -73,22 +75,23 @@ core::Expected<void> Follower::go_on(replay::Keyframe keyframe) {
     return {};
   }
   gaps_ += rerun_ && tick != match()->tick() ? 1 : 0;
-  rerun_.reset();
+  const auto former = std::move(rerun_);
   auto rerun = replay::Rerun::from_recorded(map_, *settings_, std::move(keyframe), source_);
   if (!rerun) {
     differ(tick, rerun.error().text());
     return {};
   }
   rerun_ = std::move(*rerun);
+  if (witness_ != nullptr) witness_->began(*match());
   return {};
 }
 
 core::Expected<void> Follower::step(replay::StepLine line) {
   if (!rerun_) return core::fail(source_, "a step stands before any keyframe");
-  const std::uint64_t still =
-      line.steps > 1 && line.step.hash == match()->hash() && line.step.tick == match()->tick()
-          ? rerun_->stand_still(line.steps)
-          : 0;
+  const std::uint64_t still = witness_ == nullptr && line.steps > 1 && line.step.hash == match()->hash() &&
+                                      line.step.tick == match()->tick()
+                                  ? rerun_->stand_still(line.steps)
+                                  : 0;
   proven_ += still;
   line.step.tick += still;
   for (std::uint64_t k = still; k < line.steps; ++k, ++line.step.tick) {
@@ -99,6 +102,7 @@ core::Expected<void> Follower::step(replay::StepLine line) {
       return {};
     }
     ++proven_;
+    if (witness_ != nullptr) witness_->stepped(rerun_->last(), *match());
   }
   return {};
 }

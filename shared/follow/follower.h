@@ -19,10 +19,27 @@
 
 namespace woodlouse::follow {
 
+/// Who is shown the game on its way, not only where a line has led it. Called within take().
+class Witness {
+ public:
+  Witness() = default;
+  Witness(const Witness&) = delete;
+  Witness& operator=(const Witness&) = delete;
+  virtual ~Witness() = default;
+
+  /// A keyframe: the game goes on there, as another match than before, which is there till the call returns.
+  virtual void began(const match::Match& game) = 0;
+  /// A step that went as its line says; each of those, too, of which one line tells that they did nothing.
+  virtual void stepped(const match::StepRecord& step, const match::Match& game) = 0;
+  virtual void said(const replay::ChatLine& chat) = 0;
+};
+
 class Follower {
  public:
-  /// source: names the lines in errors, as "the server's stream".
-  explicit Follower(std::string source) : source_(std::move(source)) {}
+  /// source: names the lines in errors, as "the server's stream". witness: null: nobody; else it outlives
+  /// this.
+  explicit Follower(std::string source, Witness* witness = nullptr)
+      : source_(std::move(source)), witness_(witness) {}
 
   /// Whether a line from the wire is one of a recording: it has no `type`.
   [[nodiscard]] static bool is_recorded(std::string_view line) { return !line.starts_with(R"({"type":)"); }
@@ -49,6 +66,7 @@ class Follower {
   void differ(std::uint64_t tick, std::string what);
 
   std::string source_;
+  Witness* witness_;
   std::size_t lines_ = 0;
   std::optional<match::MatchSettings> settings_;
   std::shared_ptr<const map::Map> map_;

@@ -57,6 +57,8 @@ constexpr std::array kCodes = {
               "the room keeps no records, or its board has no row of that rank"},
     CodeEntry{code::kNoVote, "error", Ends::kNo,
               "the room plays one game alone, or the session has no vote: it is a bot"},
+    CodeEntry{code::kOnlyShown, "error", Ends::kNo,
+              "the room is played at another server and only shown here: what was said reaches nobody"},
     CodeEntry{code::kLeft, "bye", Ends::kYes, "the client sent `leave`, or ended its sending side"},
     CodeEntry{code::kShutdown, "bye", Ends::kYes, "the server stops"},
     CodeEntry{code::kReplaced, "bye", Ends::kYes, "the player came back over another connection"},

@@ -45,6 +45,7 @@ inline constexpr std::string_view kNoLouse = "no_louse";
 // What is not there.
 inline constexpr std::string_view kNoRecords = "no_records";
 inline constexpr std::string_view kNoVote = "no_vote";
+inline constexpr std::string_view kOnlyShown = "only_shown";
 // The end without a fault.
 inline constexpr std::string_view kLeft = "left";
 inline constexpr std::string_view kShutdown = "shutdown";

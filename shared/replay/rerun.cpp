@@ -196,6 +196,7 @@ core::Expected<std::optional<Difference>> Rerun::step(const StepLine& line, cons
            joined({"the input of ", name_of(input), " can't be applied: the player has no louse"}));
   }
   const match::StepRecord& rerun = match_->advance();
+  last_ = &rerun;
   const std::string step = joined({" of step ", std::to_string(recorded.tick), ": "});
   if (recorded.roster != rerun.roster) {
     differ(recorded.tick, joined({"roster", step, first_unlike(recorded.roster, rerun.roster)}));

@@ -2,6 +2,7 @@
 // the question whether it went as recorded.
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -46,6 +47,11 @@ class Rerun {
   [[nodiscard]] std::string difference_to(const Keyframe& keyframe) const;
 
   [[nodiscard]] const match::Match& match() const { return *match_; }
+  /// The last step as it went here, with what the rules said of it; until the next one. REQUIRES a step().
+  [[nodiscard]] const match::StepRecord& last() const {
+    assert(last_ != nullptr);
+    return *last_;
+  }
 
  private:
   explicit Rerun(std::unique_ptr<match::Match> match, match::PlayerId last_joined)
@@ -53,6 +59,7 @@ class Rerun {
 
   std::unique_ptr<match::Match> match_;
   match::PlayerId last_joined_;
+  const match::StepRecord* last_ = nullptr;  ///< the match's own
 };
 
 /// The first louse and field in which the two differ, with both values in full; empty: the same bits.

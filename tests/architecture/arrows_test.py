@@ -41,6 +41,7 @@ ARROWS |= {
     "server/access": SHARED | {"server/timing"},
     "server/admin": SHARED | {"server/access", "server/logging", "server/net", "server/timing", "server/web"},
     "server/metrics": SHARED | {"server/room", "server/timing", "server/watchers"},
+    "server/relay": SHARED | {"server/logging", "server/room", "server/stream", "server/timing"},
     "server/cluster": SHARED | {"server/access", "server/logging", "server/room", "server/stream", "server/timing"},
     "server/commands": SHARED | {"server/admin", "server/net", "server/records", "server/room"},
     "client/cells": SHARED,

@@ -1,6 +1,6 @@
-"""Kills the host of a room again and again, and tells what its players saw.
+"""Kills the host of a room again and again, or has the room moved, and tells what its players saw.
 
-Usage: failover.py [--rounds N] [--bots N] [--silence MS] [--replicas N] [--by KILL|TERM]
+Usage: failover.py [--rounds N] [--bots N] [--silence MS] [--replicas N] [--by KILL|TERM|MOVE]
 
 Each round: the owner is killed while bots steer; another host goes on. Told: from the kill to the first frame of the
 new host, to the last bot that is back, whether each is back in its own louse, whether a tick was lost that the log had
@@ -30,12 +30,12 @@ async def wait_until(condition, patience=stage.PATIENCE, what=""):
         await asyncio.sleep(0.005)
 
 
-async def rounds(nats, hosts, options):
+async def rounds(nats, hosts, witness, options):
     names = list(hosts)
     owner = names[0]
     lice = [stage.Bot(f"bot {k}", [host.address for host in hosts.values()]) for k in range(options.bots)]
     tasks = [asyncio.ensure_future(bot.run()) for bot in lice]
-    outages, returns, lost, strangers, handovers = [], [], 0, 0, []
+    outages, returns, gaps, lost, strangers, handovers = [], [], [], 0, 0, []
     try:
         await wait_until(lambda: all(len(bot.welcomes) >= 1 for bot in lice), what="not all bots came")
         await asyncio.sleep(3)
@@ -45,7 +45,13 @@ async def rounds(nats, hosts, options):
             acked = own_tick(nats)
             other = next(name for name in names if name != owner)
             killed = time.monotonic()
-            hosts[owner].signal(signal.SIGKILL if options.by == "KILL" else signal.SIGTERM)
+            if options.by == "MOVE":
+                losses = sum(len(bot.losses) for bot in lice)
+                moving = asyncio.ensure_future(asyncio.to_thread(nats.command, "move"))
+                await wait_until(lambda: sum(len(bot.losses) for bot in lice) > losses, what="nothing moves")
+                killed = max(bot.losses[-1] for bot in lice if bot.losses)
+            else:
+                hosts[owner].signal(signal.SIGKILL if options.by == "KILL" else signal.SIGTERM)
             await wait_until(lambda: any(len(bot.welcomes) > welcomes[bot.name] and bot.newest[0] > killed and
                                          bot.newest[1] >= bot.welcomes[-1][1]["tick"] for bot in lice),
                              what=f"round {number}: nobody sees a tick again:\n" + hosts[other].log())
@@ -53,18 +59,25 @@ async def rounds(nats, hosts, options):
             await wait_until(lambda: all(len(bot.welcomes) > welcomes[bot.name] for bot in lice),
                              what=f"round {number}: not all came back")
             returns.append(max(bot.welcomes[-1][0] for bot in lice) - killed)
+            await asyncio.sleep(0.5)
+            gaps.append(witness.longest_gap(killed))
             first = min(bot.welcomes[-1][1]["tick"] for bot in lice)
             went_on = int(re.findall(r"goes on from the log of main, tick (\d+)", hosts[other].log())[-1])
             lost += went_on < acked
             handovers.append(went_on - acked)
             strangers += sum(not bot.welcomes[-1][1]["resumed"] or bot.welcomes[-1][1]["id"] != louse[bot.name] for bot in lice)
             assert first >= went_on, (first, went_on)
-            hosts[owner].process.wait(stage.PATIENCE)
-            hosts[owner].process.stdout.close()
-            hosts[owner] = stage.Host(nats, owner, *stage_arguments(options))
-            for bot in lice:
-                bot.addresses = [host.address for host in hosts.values()]
-            hosts[owner].wait_for("cluster_follows")
+            if options.by == "MOVE":
+                code, said = await moving
+                assert code == 0, said
+            else:
+                hosts[owner].process.wait(stage.PATIENCE)
+                hosts[owner].process.stdout.close()
+                hosts[owner] = stage.Host(nats, owner, *stage_arguments(options))
+                for bot in lice:
+                    bot.addresses = [host.address for host in hosts.values()]
+                witness.use(bot.addresses)
+                hosts[owner].wait_for("cluster_follows")
             owner = other
             await asyncio.sleep(options.pause)
     finally:
@@ -73,7 +86,7 @@ async def rounds(nats, hosts, options):
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
-    return outages, returns, lost, strangers
+    return outages, returns, gaps, lost, strangers
 
 
 def stage_arguments(options):
@@ -91,7 +104,7 @@ def main():
     parser.add_argument("--silence", type=int, default=250)
     parser.add_argument("--replicas", type=int, default=1)
     parser.add_argument("--pause", type=float, default=2.0)
-    parser.add_argument("--by", choices=["KILL", "TERM"], default="KILL")
+    parser.add_argument("--by", choices=["KILL", "TERM", "MOVE"], default="KILL")
     options = parser.parse_args()
     stage.skip_where_missing()
     with stage.Nats(options.replicas, silence_ms=options.silence) as nats:
@@ -100,15 +113,17 @@ def main():
         hosts = {"a": first, "b": stage.Host(nats, "b", *stage_arguments(options))}
         hosts["b"].wait_for("cluster_follows")
         try:
-            outages, returns, lost, strangers = stage.play(rounds(nats, hosts, options))
+            with stage.Witness([host.address for host in hosts.values()]) as witness:
+                outages, returns, gaps, lost, strangers = stage.play(rounds(nats, hosts, witness, options))
         finally:
             logs = {name: host.log() for name, host in hosts.items()}
             for host in hosts.values():
                 host.end()
-        milliseconds = [1000 * value for value in outages]
-        print(f"{options.rounds} times SIG{options.by}, {options.bots} bots, silence {options.silence} ms, R{options.replicas}:")
-        print(f"  to the next tick that a player sees [ms]: median {statistics.median(milliseconds):.0f}, "
-              f"p95 {percentile(milliseconds, 0.95):.0f}, all {' '.join(f'{value:.0f}' for value in sorted(milliseconds))}")
+        print(f"{options.rounds} times {options.by}, {options.bots} bots, silence {options.silence} ms, R{options.replicas}:")
+        for what, values in (("to the next tick that one of the bots sees", outages), ("longest pause between two frames of a player by himself", gaps)):
+            milliseconds = [1000 * value for value in values]
+            print(f"  {what} [ms]: median {statistics.median(milliseconds):.0f}, "
+                  f"p95 {percentile(milliseconds, 0.95):.0f}, all {' '.join(f'{value:.0f}' for value in sorted(milliseconds))}")
         print(f"  to the last bot that is back [ms]: at most {1000 * max(returns):.0f}")
         print(f"  acknowledged ticks lost: {lost}; bots that are not back in their lice: {strangers}")
         code, said, proofs = nats.joined()

@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import multiprocessing
 import os
 import re
 import shutil
@@ -81,6 +82,14 @@ class Nats:
         done = subprocess.run([PROGRAM, "cluster", action, self.file, *rest], capture_output=True, text=True, timeout=120)
         return done.returncode, done.stdout + done.stderr
 
+    def say(self, subject, text):
+        """Publishes it, as anybody could who is let in."""
+        with socket.create_connection(("127.0.0.1", self.ports[0])) as line:
+            line.sendall(b'CONNECT {"verbose":false}\r\n' + f"PUB {subject} {len(text)}\r\n{text}\r\nPING\r\n".encode())
+            said = b""
+            while b"PONG" not in said:
+                said += line.recv(4096)
+
     def leader(self):
         """The number of the node that leads the log; None: there is none now."""
         found = re.search(r"led by n(\d+)", self.command("status")[1])
@@ -157,8 +166,8 @@ class Host:
 class Bot:
     """Steers a louse, and comes back to it wherever its room is. addresses: of all hosts."""
 
-    def __init__(self, name, addresses, push=True):
-        self.name, self.addresses, self.push = name, list(addresses), push
+    def __init__(self, name, addresses, push=True, state_hz=2):
+        self.name, self.addresses, self.push, self.state_hz = name, list(addresses), push, state_hz
         self.token, self.louse, self.seq = "", None, 0
         self.welcomes = []   # (time, message)
         self.losses = []     # times at which the line was cut
@@ -193,7 +202,7 @@ class Bot:
                     break
                 kind = line[9:line.index(b'"', 9)]
                 if kind == b"hello":
-                    say(type="join", protocol=1, role="bot", name=self.name, resume=self.token or True, state_hz=2,
+                    say(type="join", protocol=1, role="bot", name=self.name, resume=self.token or True, state_hz=self.state_hz,
                         fields=["id", "x", "y"])
                 elif kind in (b"key", b"delta"):
                     self.frames.append((time.monotonic(), address))
@@ -225,6 +234,51 @@ class Bot:
             self.seq += 1
             say(type="input", seq=self.seq, thrust=[0.8, turn / 6])
             await asyncio.sleep(0.1)
+
+
+class Witness:
+    """A player in a process of his own, who is shown 20 frames a second: many bots in one process keep each other waiting."""
+
+    def __init__(self, addresses):
+        self.pipe, there = multiprocessing.Pipe()
+        self.process = multiprocessing.Process(target=self.work, args=(there, list(addresses)), daemon=True)
+        self.process.start()
+
+    @staticmethod
+    def work(pipe, addresses):
+        bot = Bot("witness", addresses, state_hz=20)
+
+        async def listen():
+            running = asyncio.ensure_future(bot.run())
+            while True:
+                while not pipe.poll():
+                    await asyncio.sleep(0.02)
+                asked = pipe.recv()
+                if asked is None:
+                    break
+                if isinstance(asked, list):
+                    bot.addresses = asked
+                else:
+                    times = [at for at, _ in bot.frames if at > asked - 1]
+                    pipe.send(max((b - a for a, b in zip(times, times[1:])), default=None))
+            running.cancel()
+
+        asyncio.run(listen())
+
+    def use(self, addresses):
+        self.pipe.send(list(addresses))
+
+    def longest_gap(self, since):
+        """Between two frames, from a second before `since` on [s]."""
+        self.pipe.send(since)
+        return self.pipe.recv()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.pipe.send(None)
+        self.process.join(PATIENCE)
 
 
 def play(coroutine):

@@ -137,6 +137,18 @@ TEST_CASE("a beat comes back as it was told, and what is none is refused") {
   CHECK_FALSE(beat_from(to_text(beat) + std::string(20000, ' ')));
 }
 
+TEST_CASE("an order to move is read as it was written, and another is not") {
+  const auto read = move_order_from(to_text(MoveOrder{"a", ""}));
+  REQUIRE(read);
+  CHECK(read->from == "a");
+  CHECK(read->to.empty());
+  for (const char* wrong :
+       {"", "{}", "[]", R"({"from":"a"})", R"({"from":1,"to":"b"})", R"({"from":"","to":"","x":1})"})
+    CHECK_FALSE(move_order_from(wrong));
+  CHECK_FALSE(move_order_from(to_text(MoveOrder{std::string(300, 'a'), ""})));
+  CHECK_FALSE(move_order_from(std::string(20000, ' ')));
+}
+
 TEST_CASE("hosts that could go on try one after the other, and none while one of them hears the owner") {
   const Duration silence = std::chrono::milliseconds(250);
   const Time begin = Time{} + std::chrono::hours(1);
@@ -163,8 +175,12 @@ TEST_CASE("hosts that could go on try one after the other, and none while one of
   unable.ready = false;
   table.take(unable, begin);
   CHECK(table.place_in_line(silence, begin) == 1u);  // who can't go on stands in nobody's way
-  CHECK(table.successor(begin) == "b:1");
+  REQUIRE(table.successor(begin));
+  CHECK(table.successor(begin)->address == "b:1");
   CHECK_FALSE(table.successor(begin + std::chrono::milliseconds(300)));
+  CHECK(table.successor(begin, "d")->host == "d");
+  CHECK_FALSE(table.successor(begin, "a"));  // it could not go on
+  CHECK_FALSE(table.successor(begin, "nobody"));
   CHECK(table.place_in_line(silence, begin + std::chrono::milliseconds(300)) ==
         0u);  // they are silent as well
   Beat other = follower("e", 0);
@@ -201,7 +217,11 @@ TEST_CASE("the owner is the one of the newest epoch who is heard and does not go
   leaves.leaves = true;
   table.take(leaves, now);
   CHECK(table.owner(now)->host == "a");
-  CHECK(table.leaves(leaves.writer));
+  CHECK(table.leaves(leaves.writer) == "");
+  leaves.to = "c";
+  table.take(*beat_from(to_text(leaves)), now);
+  CHECK(table.leaves(leaves.writer) == "c");
+  CHECK_FALSE(table.leaves({4, "a", {4, 1}}));
   CHECK_FALSE(table.owner(now + std::chrono::seconds(2)));
   CHECK(table.highest_epoch() == 5);
 }

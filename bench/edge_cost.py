@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+"""What a watched frame costs at an edge of a cluster, beside the room's own host: processor time above that of either alone, in turns.
+
+    bench/edge_cost.py BIN [--watchers 300] [--rounds 11] [--seconds 5]
+
+BIN is a tree's folder of programs. Host, edge and nats-server have core 0, whoever watches core 1, and nothing else may run on either. All
+watch at 20 Hz a room of 200 lice; what comes is read and thrown away. Prints each round, then medians and their ratio; what host, edge and
+nats-server take alone; and what the room's log is on its way, beside one watcher's frames.
+"""
+import argparse
+import json
+import os
+import pathlib
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+from web_cost import MAP, SETTLED_S, STATE_HZ, Server, by_lines, watched
+
+
+class Process(Server):
+    def __init__(self, command, port=None):
+        self.process = subprocess.Popen(["taskset", "-c", "0", *map(str, command)], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        self.lines_port = port or int(re.search(r":(\d+)$", self.process.stdout.readline())[1])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("programs", type=pathlib.Path)
+    parser.add_argument("--watchers", type=int, default=300)
+    parser.add_argument("--rounds", type=int, default=11)
+    parser.add_argument("--seconds", type=float, default=5)
+    options = parser.parse_args()
+    server, folder = options.programs / "woodlouse-server", pathlib.Path(tempfile.mkdtemp(prefix="edge-cost-"))
+    os.sched_setaffinity(0, {1})
+    port = 42222
+    many = ("--listen", "127.0.0.1:0", "--per-address", "4000", "--join-per-s-address", "4000", "--join-per-s-room", "4000")
+    with Process(["nats-server", "-a", "127.0.0.1", "-p", port, "-js", "-sd", folder / "store", "-l", folder / "nats.log"], port) as nats:
+        time.sleep(1)
+        file = folder / "cluster.json"
+        file.write_text(json.dumps({"nats": [f"nats://127.0.0.1:{port}"]}))
+        subprocess.run([server, "cluster", "init", file], check=True, stdout=subprocess.DEVNULL)
+        with Process([server, "--map", MAP, "--mode", "roam", "--bots", "200", "--bots-alone", "play", "--cluster", file, "--cluster-host", "a", *many]) as host, \
+                Process([server, "--cluster", file, "--cluster-edge", *many]) as edge:
+            time.sleep(3 + SETTLED_S)
+            alone = {}
+            begun, before = time.monotonic(), [one.processor_seconds() for one in (host, edge, nats)]
+            stored = log_bytes(server, file)
+            time.sleep(2 * options.seconds)
+            passed = time.monotonic() - begun
+            for name, one, was in zip(("host", "edge", "nats-server"), (host, edge, nats), before):
+                alone[name] = (one.processor_seconds() - was) / passed
+            log = (log_bytes(server, file) - stored) / passed
+            costs = {"host": [], "edge": []}
+            for _ in range(options.rounds):
+                said = []
+                for name, one in (("host", host), ("edge", edge)):
+                    cores, rate = watched(one, by_lines, options.watchers, options.seconds)
+                    costs[name].append(1e6 * (cores - alone[name]) / (options.watchers * STATE_HZ))
+                    said.append(f"{name} {costs[name][-1]:.2f} us a frame, {rate / options.watchers / 1e3:.1f} KB/s each")
+                print("   ".join(said), f"  ratio {costs['edge'][-1] / costs['host'][-1]:.3f}", flush=True)
+            ratio = statistics.median(e / h for e, h in zip(costs["edge"], costs["host"]))
+            print(f"a frame at the host {statistics.median(costs['host']):.2f} us, at the edge {statistics.median(costs['edge']):.2f} us; median of the ratios {ratio:.3f}")
+            print("alone: " + ", ".join(f"{name} {cores:.4f} cores" for name, cores in alone.items()) + f"; the log {log / 1e3:.1f} KB/s")
+
+
+def log_bytes(server, file):
+    said = subprocess.run([server, "cluster", "status", file], capture_output=True, text=True, check=True).stdout
+    return int(re.search(r"(\d+) bytes", said)[1])
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,183 @@
+"""Hosts that only show a cluster's rooms: what who watches there sees, and what becomes of him when the room moves.
+
+Usage: edge_test.py [TestCase.test ...]"""
+
+import json
+import os
+import signal
+import socket
+import subprocess
+import threading
+import time
+import unittest
+
+import stage
+from faults_test import Clients, Cluster
+
+
+class EdgeHost(stage.Host):
+    """A woodlouse-server that plays nothing."""
+
+    def __init__(self, nats, name, *arguments):
+        self.name = name
+        self.log_file = os.path.join(nats.folder, f"{name}-{time.monotonic_ns()}.log")
+        self.process = subprocess.Popen(
+            [stage.PROGRAM, "--cluster", nats.file, "--cluster-edge", "--listen", "127.0.0.1:0", "--log-file", self.log_file, *arguments],
+            stdout=subprocess.PIPE, text=True)
+        first = self.process.stdout.readline()
+        assert first.startswith("listening "), first + self.log()
+        self.address = first.split()[1]
+
+
+class Watcher:
+    """Reads what one who watches is sent, on a thread of its own."""
+
+    def __init__(self, address, **join):
+        host, port = address.rsplit(":", 1)
+        self.socket = socket.create_connection((host, int(port)))
+        self.join = {"type": "join", "protocol": 1, "role": "spectator", "name": "eve", **join}
+        self.frames = []    # (time, tick)
+        self.hashes = {}    # of keys
+        self.lines = []     # of the recording
+        self.messages = []  # all others
+        self.is_cut = False
+        self.thread = threading.Thread(target=self.read)
+        self.thread.start()
+
+    def say(self, **message):
+        self.socket.sendall(json.dumps(message).encode() + b"\n")
+
+    def read(self):
+        try:
+            with self.socket.makefile("rb") as lines:
+                self.messages.append(json.loads(lines.readline()))
+                self.say(**self.join)
+                for line in lines:
+                    message = json.loads(line)
+                    if "type" not in message:
+                        self.lines.append(line)
+                    elif message["type"] in ("key", "delta"):
+                        self.frames.append((time.monotonic(), message["tick"]))
+                        if "hash" in message:
+                            self.hashes[message["tick"]] = message["hash"]
+                    elif message["type"] == "ping":
+                        self.say(type="pong", t=message["t"])
+                    else:
+                        self.messages.append(message)
+        except OSError:
+            pass
+        self.is_cut = True
+
+    def end(self):
+        try:
+            self.socket.shutdown(socket.SHUT_RDWR)
+        except OSError:
+            pass
+        self.thread.join(stage.PATIENCE)
+        self.socket.close()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.end()
+
+
+class Edge(Cluster):
+    def edge(self, *arguments):
+        edge = self.enterContext(EdgeHost(self.nats, "e", *arguments))
+        edge.wait_for("is shown here")
+        return edge
+
+    def watch(self, address, **join):
+        return self.enterContext(Watcher(address, **join))
+
+    def test_it_shows_what_is_played_and_goes_on_with_it_at_the_next_host(self):
+        first, second = self.two_hosts()
+        edge = self.edge()
+        with Clients(8, [first.address, second.address]) as clients:
+            clients.wait_here()
+            there, here = self.watch(first.address), self.watch(edge.address)
+            by_inputs = self.watch(edge.address, stream="inputs")
+            time.sleep(4)
+            gaps = [b[0] - a[0] for a, b in zip(here.frames, here.frames[1:])]
+            self.assertGreater(len(gaps), 60)
+            self.assertLess(sorted(gaps)[len(gaps) * 9 // 10], 0.1)
+            both = set(there.hashes) & set(here.hashes)
+            self.assertGreaterEqual(len(both), 2)
+            self.assertEqual([there.hashes[tick] for tick in both], [here.hashes[tick] for tick in both])
+            names = {player["name"] for player in here.messages[1]["players"]}
+            self.assertEqual(names, {bot.name for bot in clients.bots})
+            first.signal(signal.SIGKILL)
+            first.process.wait()
+            second.wait_for("cluster_owns")
+            clients.wait_for(lambda bot: len(bot.welcomes) >= 2, "not all came back")
+            went_on = here.frames[-1][1]
+            time.sleep(3)
+            self.assertFalse(here.is_cut or by_inputs.is_cut, edge.log())
+            self.assertGreater(here.frames[-1][1], went_on + 60)
+            ticks = [tick for _, tick in here.frames]
+            self.assertEqual(ticks, sorted(ticks))
+            self.assertEqual([m["type"] for m in here.messages].count("welcome"), 1)
+        self.assertTrue(there.is_cut)
+        by_inputs.end()
+        self.prove(by_inputs)
+        self.assertNotIn("DIFFERS", edge.log())
+        self.check_log()
+
+    def prove(self, watcher):
+        """What was watched by inputs is a recording."""
+        path = os.path.join(self.nats.folder, "watched.ndjson")
+        with open(path, "wb") as out:
+            out.writelines(watcher.lines)
+        said = subprocess.run([stage.PROGRAM, "verify", path], capture_output=True, text=True, timeout=300)
+        self.assertIn("ok", said.stdout, said.stdout + said.stderr)
+        self.assertNotIn("differs", said.stdout)
+
+    def test_who_plays_is_sent_on_and_what_is_said_there_is_answered(self):
+        first = self.host("a")
+        first.wait_for("cluster_owns")
+        edge = self.edge()
+        player = self.watch(edge.address, role="player")
+        player.thread.join(10)
+        error = next(m for m in player.messages if m["type"] == "error")
+        self.assertEqual((error["code"], error["address"]), ("moved", first.address))
+        eve = self.watch(edge.address)
+        end = time.monotonic() + 10
+        while not any(m["type"] == "welcome" for m in eve.messages):
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.02)
+        eve.say(type="chat", text="hello")
+        eve.say(type="get_map")
+        eve.say(type="list")
+        while not {"error", "map", "rooms"} <= {m["type"] for m in eve.messages}:
+            self.assertLess(time.monotonic(), end, eve.messages)
+            time.sleep(0.02)
+        self.assertEqual(next(m for m in eve.messages if m["type"] == "error")["code"], "only_shown")
+        rooms = next(m for m in eve.messages if m["type"] == "rooms")["rooms"]
+        self.assertEqual([(room["name"], room["spectators"]) for room in rooms], [("volcano", 1)])
+        self.assertEqual(edge.end(), 0)
+
+    def test_it_shows_nothing_before_there_is_a_room_and_comes_late_to_one(self):
+        edge = self.enterContext(EdgeHost(self.nats, "e"))
+        nobody = self.watch(edge.address)
+        time.sleep(0.5)
+        self.assertEqual(nobody.messages[0]["rooms"], [])
+        self.assertEqual(nobody.messages[1]["code"], "unknown_room")
+        first = self.host("a")
+        first.wait_for("cluster_owns")
+        edge.wait_for("is shown here")
+        with Clients(2, [first.address]) as clients:
+            clients.wait_here()
+            time.sleep(6)  # past a keyframe
+            late = self.enterContext(EdgeHost(self.nats, "f"))
+            late.wait_for("is shown here")
+            eve = self.watch(late.address)
+            time.sleep(2)
+            self.assertGreater(len(eve.frames), 20)
+            self.assertEqual(len(eve.messages[1]["players"]), 2)
+
+
+if __name__ == "__main__":
+    stage.skip_where_missing()
+    unittest.main(verbosity=2)
