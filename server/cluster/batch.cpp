@@ -150,6 +150,8 @@ std::string pack(const BatchHead& head, std::string_view lines) {
 }
 
 core::Expected<Batch> unpack(std::string_view packed, const std::string& place) {
+  if (packed.empty())
+    return core::fail(place, "is gone from the log", "NATS gives out nothing whose checksum is wrong");
   auto text = unpacked(packed, place);
   if (!text) return tl::unexpected(text.error());
   const std::size_t end = text->find('\n');

@@ -96,14 +96,15 @@ int status(NatsLink& link, const ClusterSettings& settings, std::ostream& out, s
   if (!table) return report(table.error(), err);
   const auto state = link.stream_state();
   if (!state) return report(state.error(), err);
+  int code = kFine;
   out << fmt::format("log {}: batches {} to {}, {} bytes, {} of {} replicas have all{}\n", settings.stream(),
                      state->first, state->last, state->bytes, state->current, state->replicas,
                      state->leader.empty() ? "" : core::joined({", led by ", state->leader}));
   if (const auto last = link.last()) {
     const auto batch = unpack(last->bytes, core::joined({"batch ", std::to_string(last->sequence)}));
-    if (!batch) return report(batch.error(), err);
-    out << "its last batch is that of " << to_text(batch->head.writer) << '\n';
-    for (const RoomPlace& place : batch->head.rooms)
+    if (!batch) code = report(batch.error(), err);
+    if (batch) out << "its last batch is that of " << to_text(batch->head.writer) << '\n';
+    for (const RoomPlace& place : batch ? batch->head.rooms : std::vector<RoomPlace>())
       out << fmt::format("room {}: tick {}, keyframe in batch {}\n", place.room, place.tick, place.keyframe);
   }
   const auto hosts = (*table)->hosts(Clock::now());
@@ -116,7 +117,7 @@ int status(NatsLink& link, const ClusterSettings& settings, std::ostream& out, s
                        beat.owns ? "stored up to" : "has read up to", beat.sequence,
                        beat.owns && beat.leaves ? ", goes" : "");
   if (hosts.empty()) out << "no host is heard\n";
-  return kFine;
+  return code;
 }
 
 int fsck(NatsLink& link, const ClusterErrand& errand, std::ostream& out, std::ostream& err) {
@@ -130,7 +131,17 @@ int fsck(NatsLink& link, const ClusterErrand& errand, std::ostream& out, std::os
     const auto message = link.read(sequence);
     if (!message) return report(message.error(), err);
     const auto batch = unpack(message->bytes, core::joined({"batch ", std::to_string(sequence)}));
-    if (!batch) return report(batch.error(), err);
+    if (!batch) {
+      out << batch.error().text() << '\n';
+      view.lose(sequence);
+      joined.lose();
+      continue;
+    }
+    if (const auto order = view.check_order(sequence, batch->head); !order) {
+      out << order.error().text() << "; it is passed over\n";
+      view.pass_over(sequence);
+      continue;
+    }
     if (std::exchange(writer, to_text(batch->head.writer)) != to_text(batch->head.writer)) {
       ++epochs;
       out << "batch " << sequence << ": " << writer << '\n';

@@ -57,6 +57,7 @@ core::Expected<void> JoinedLog::record(const std::string& name, Room& room, std:
     return {};
   }
   if (const auto tick = number_behind(line, R"({"keyframe":)")) {
+    room.has_lost = false;
     if (room.due && *tick == *room.due) {
       if (!room.has_keyframe) put(room, line);
       room.has_keyframe = true;
@@ -74,7 +75,7 @@ core::Expected<void> JoinedLog::record(const std::string& name, Room& room, std:
     put(room, line);
     return {};
   }
-  if (!room.due) return {};
+  if (!room.due || room.has_lost) return {};
   if (const auto tick = number_behind(line, R"({"step":)")) {
     room.due = *tick + steps_of(line);
     room.has_keyframe = false;
@@ -101,6 +102,10 @@ void JoinedLog::put(Room& room, std::string_view line) {
 
 core::Expected<void> JoinedLog::close() {
   for (auto& [name, room] : rooms_) {
+    if (room.due && room.has_lost) {
+      ++holes_;
+      out_ << "room " << name << ": HOLE: from tick " << *room.due << " on nothing is known\n";
+    }
     if (!room.file.is_open()) continue;
     room.file.close();
     if (room.file.fail()) return core::fail(room.path.string(), "can't be written");

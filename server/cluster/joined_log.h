@@ -24,6 +24,10 @@ class JoinedLog {
 
   /// The stream's next batch, whose lines have been read by a ShardView before.
   core::Expected<void> take(std::uint64_t sequence, const Batch& batch);
+  /// A batch is gone: what follows counts from each room's next keyframe on.
+  void lose() {
+    for (auto& [name, room] : rooms_) room.has_lost = true;
+  }
   /// All is on its way to the disk. Error: something couldn't be written.
   core::Expected<void> close();
   [[nodiscard]] std::size_t holes() const { return holes_; }
@@ -33,6 +37,7 @@ class JoinedLog {
     std::string header;
     std::optional<std::uint64_t> due;  ///< the step that is to come; none: no keyframe yet
     bool has_keyframe = false;         ///< of that tick
+    bool has_lost = false;             ///< steps up to the next keyframe
     std::uint64_t files = 0;
     std::filesystem::path path;
     std::ofstream file;

@@ -44,8 +44,11 @@ class NatsLink {
     std::uint64_t sequence = 0;
     std::string bytes;
   };
+  // One that the stream holds no more, as NATS finds it damaged, is a message without bytes.
+
   /// Errors: there is none, or nobody answers.
   virtual core::Expected<Message> last() = 0;
+  /// Errors: nobody answers.
   virtual core::Expected<Message> read(std::uint64_t sequence) = 0;
   /// Each message from that one on, in order. One reader at a time; reading again ends the one before.
   virtual core::Expected<void> follow(std::uint64_t from, NatsMessageTaken taken) = 0;

@@ -251,6 +251,10 @@ bool Node::catch_up() {
   while (view_->sequence() < last->sequence) {
     const auto message = log_link_->read(view_->sequence() + 1);
     if (!message) return complain(message.error());
+    // What stands behind a gap goes on from what nobody knows any more.
+    if (message->bytes.empty() && message->sequence != last->sequence)
+      return complain({joined({"batch ", std::to_string(message->sequence)}),
+                       "is gone from the log, and more stands behind it"});
     if (!take_message({message->sequence, message->bytes})) return false;
   }
   return view_->difference().empty();

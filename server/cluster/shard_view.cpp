@@ -85,6 +85,13 @@ core::Expected<void> ShardView::take(std::uint64_t sequence, const Batch& batch)
   });
 }
 
+void ShardView::lose(std::uint64_t sequence) {
+  assert(sequence_ == 0 || sequence == sequence_ + 1);
+  sequence_ = sequence;
+  head_.reset();
+  for (auto& [name, room] : rooms_) room.follower->take(room.header);
+}
+
 core::Expected<void> ShardView::take_line(const BatchLine& line) {
   if (const auto* named = std::get_if<RoomLine>(&line)) {
     current_ = named->room;

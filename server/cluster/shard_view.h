@@ -61,6 +61,9 @@ class ShardView {
     assert(sequence == sequence_ + 1);
     sequence_ = sequence;
   }
+  /// One that stood there, and was the log's, is gone or was altered: the rooms go on from their next
+  /// keyframes.
+  void lose(std::uint64_t sequence);
   /// Whether the batch may stand there. Errors: it follows nothing that was read.
   [[nodiscard]] core::Expected<void> check_order(std::uint64_t sequence, const BatchHead& head) const;
   /// Of the batch taken last; 0: none.

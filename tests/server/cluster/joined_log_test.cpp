@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "server/cluster/joined_log.h"
 #include "shared/replay/source_file.h"
@@ -61,4 +62,43 @@ TEST_CASE("a joined log of two hosts is one recording, and verifies") {
   CHECK_FALSE(verdict->difference);
   CHECK(verdict->ticks == 1277);
   CHECK(verdict->from_start());
+}
+
+TEST_CASE("a batch that is gone is a hole up to the next keyframe, and what is around it verifies") {
+  const RecordingsFolder folder;
+  Shard shard;
+  shard.open();
+  shard.join("ann");
+  for (int k = 0; k < 14; ++k) {
+    shard.step(50);
+    shard.cut();
+  }
+  ShardView view;
+  std::ostringstream told;
+  JoinedLog joined(folder.path, told);
+  constexpr std::uint64_t kGone = 3;  // ticks 100 to 150; the next keyframe is that of tick 300
+  for (std::uint64_t sequence = 1; sequence <= shard.batches.size(); ++sequence) {
+    if (sequence == kGone) {
+      view.lose(sequence);
+      joined.lose();
+      continue;
+    }
+    REQUIRE(view.take(sequence, shard.batches[sequence - 1]));
+    REQUIRE(joined.take(sequence, shard.batches[sequence - 1]));
+    if (sequence == kGone + 1) CHECK(view.rooms().at("volcano").follower->match() == nullptr);
+  }
+  joined.lose();
+  REQUIRE(joined.close());
+  CHECK(view.difference().empty());
+  CHECK(view.proven() == 100 + 400);
+  CHECK(followed(view).hash() == shard.game->hash());
+  CHECK(joined.holes() == 2);
+  CHECK(told.str().find("HOLE: ticks 100 to 300 are missing") != std::string::npos);
+  CHECK(told.str().find("HOLE: from tick 700 on nothing is known") != std::string::npos);
+  for (const auto& [file, ticks] : {std::pair{"volcano.ndjson", 100}, std::pair{"volcano.2.ndjson", 400}}) {
+    const auto verdict = replay::verify(replay::source_of_file(folder.path / file, {}));
+    REQUIRE(verdict);
+    CHECK_FALSE(verdict->difference);
+    CHECK(verdict->ticks == static_cast<std::uint64_t>(ticks));
+  }
 }
