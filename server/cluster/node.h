@@ -129,9 +129,9 @@ class Node final : public Cluster {
   std::optional<ShardText> text_;
   Time cut_at_{};
   bool is_told_not_durable_ = false;
-  Time doubted_at_{};  ///< Time{}: the rooms are this host's, as far as is known
-  bool is_difference_told_ = false;
-  std::string last_fault_;  ///< told already
+  Time doubted_at_{};          ///< Time{}: the rooms are this host's, as far as is known
+  bool has_differed_ = false;  ///< some tick, from the log: it takes nothing over
+  std::string last_fault_;     ///< told already
 
   std::optional<Time> handed_over_;  ///< since when the rooms are to go on elsewhere, and do not yet
 

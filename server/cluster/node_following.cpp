@@ -17,7 +17,7 @@ using core::joined;
 /// True: the log is this host's. False: the node ends.
 bool Node::follow() {
   view_.reset();
-  is_difference_told_ = false;
+  has_differed_ = false;
   begin_at_ = tried_ = Time{};
   heard_ = Clock::now();
   Time looked = heard_;
@@ -138,7 +138,7 @@ bool Node::take_message(const LogMessage& message) {
   if (const auto taken = view_->take(message.sequence, *batch); !taken) return complain(taken.error());
   heard_ = Clock::now();
   show();
-  if (!view_->difference().empty() && !std::exchange(is_difference_told_, true))
+  if (!view_->difference().empty() && !std::exchange(has_differed_, true))
     say(LogEvent::kClusterDiffers,
         joined({"FOLLOWER DIFFERS: ", view_->difference(), "; this host takes nothing of it over"}));
   return true;
@@ -155,8 +155,8 @@ void Node::tell_following(Time now) {
   const std::lock_guard lock(mutex_);
   beat_.owns = false;
   beat_.leaves = is_leaving_ || is_drained_;
-  beat_.ready = !is_drained_ && view_ && view_->head() && view_->difference().empty() && !has_lost_rooms_ &&
-                !is_cut_off();
+  beat_.ready =
+      !is_drained_ && view_ && view_->head() && !has_differed_ && !has_lost_rooms_ && !is_cut_off();
   beat_.silent_ms = static_cast<std::uint64_t>(
       std::chrono::duration_cast<std::chrono::milliseconds>(view_ ? silence(now) : Duration{}).count());
   if (!view_) return;
@@ -191,6 +191,7 @@ Duration Node::silence(Time now) const {
 bool Node::is_owner_gone(Time now) {
   constexpr Duration kTurn = std::chrono::milliseconds(100);
   constexpr Duration kUnlessOthersCan = std::chrono::seconds(2);
+  if (has_differed_) return false;  // though it might go on from a later keyframe: which of the two errs?
   if (is_cut_off() || table_.has_twin(now)) {
     if (table_.has_twin(now))
       complain({"the cluster", "another host has this one's name: give each its own by --cluster-host"});
