@@ -12,7 +12,8 @@ import time
 import unittest
 
 import stage
-from faults_test import Clients, Cluster
+from faults_test import Cluster
+from stage import Clients
 
 
 class EdgeHost(stage.Host):

@@ -8,19 +8,12 @@ acknowledged. At the end the joined log is proven."""
 
 import argparse
 import asyncio
-import re
 import signal
 import statistics
 import sys
 import time
 
 import stage
-
-
-def own_tick(nats):
-    """The tick that the log's last batch leads to."""
-    found = re.search(r"room volcano: tick (\d+)", nats.command("status")[1])
-    return int(found.group(1)) if found else 0
 
 
 async def wait_until(condition, patience=stage.PATIENCE, what=""):
@@ -42,7 +35,7 @@ async def rounds(nats, hosts, witness, options):
         for number in range(1, options.rounds + 1):
             louse = {bot.name: bot.welcomes[-1][1]["id"] for bot in lice}
             welcomes = {bot.name: len(bot.welcomes) for bot in lice}
-            acked = own_tick(nats)
+            acked = nats.tick()
             other = next(name for name in names if name != owner)
             killed = time.monotonic()
             if options.by == "MOVE":
@@ -62,7 +55,7 @@ async def rounds(nats, hosts, witness, options):
             await asyncio.sleep(0.5)
             gaps.append(witness.longest_gap(killed))
             first = min(bot.welcomes[-1][1]["tick"] for bot in lice)
-            went_on = int(re.findall(r"goes on from the log of main, tick (\d+)", hosts[other].log())[-1])
+            went_on = hosts[other].went_on_at()
             lost += went_on < acked
             handovers.append(went_on - acked)
             strangers += sum(not bot.welcomes[-1][1]["resumed"] or bot.welcomes[-1][1]["id"] != louse[bot.name] for bot in lice)

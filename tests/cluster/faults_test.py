@@ -3,6 +3,7 @@
 Usage: faults_test.py [TestCase.test ...]      SECONDS_AWAY=300 faults_test.py Nats.test_away"""
 
 import asyncio
+import json
 import os
 import re
 import signal
@@ -10,49 +11,45 @@ import sys
 import time
 import unittest
 
+import metrics
+import nats_wire
 import stage
 
+LAME_DUCK_GAP = 0.5
 
-class Clients:
-    """Bots that run beside a test, on a thread of their own."""
 
-    def __init__(self, count, addresses):
-        import threading
-        self.bots = [stage.Bot(f"bot {k}", addresses) for k in range(count)]
-        self.notices = []
-        self.loop = asyncio.new_event_loop()
-        self.thread = threading.Thread(target=self.work)
-        self.thread.start()
+class Acknowledgements:
+    """When a host was told that more of its log is stored, by its beats (20 a second), heard at one node of NATS."""
 
-    def work(self):
-        asyncio.set_event_loop(self.loop)
-        self.loop.run_until_complete(asyncio.gather(*(bot.run() for bot in self.bots), return_exceptions=True))
+    def __init__(self, nats, node, host):
+        self.times, self.number = [], 0
+        self.wire = nats_wire.Wire(nats.ports[node])
+        self.wire.subscribe(f"wl.woodlouse.beat.{host}", self.take)
 
-    def wait_for(self, condition, what, patience=stage.PATIENCE):
-        end = time.monotonic() + patience
-        while not all(condition(bot) for bot in self.bots):
-            assert time.monotonic() < end, what
-            time.sleep(0.02)
+    def take(self, payload):
+        number = json.loads(payload)["sequence"]
+        if number > self.number:
+            self.times.append(time.monotonic())
+        self.number = number
 
-    def wait_here(self):
-        self.wait_for(lambda bot: bot.welcomes and bot.newest and bot.newest[0] > bot.welcomes[-1][0], "no frames came")
-        time.sleep(0.5)  # what was played last is not in the log yet
+    def largest_gap(self):
+        assert len(self.times) > 10, "nothing is stored"
+        return max(later - sooner for sooner, later in zip(self.times, self.times[1:]))
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
-        for bot in self.bots:
-            bot.stopped = True
-        self.thread.join(stage.PATIENCE)
+        self.wire.close()
 
 
 class Cluster(unittest.TestCase):
     replicas = 1
     settings = {"silence_ms": 300}
+    jetstream = ""
 
     def setUp(self):
-        self.nats = self.enterContext(stage.Nats(self.replicas, **self.settings))
+        self.nats = self.enterContext(stage.Nats(self.replicas, jetstream=self.jetstream, **self.settings))
 
     def host(self, name, *arguments, **options):
         return self.enterContext(stage.Host(self.nats, name, *arguments, **options))
@@ -77,7 +74,7 @@ class Cluster(unittest.TestCase):
 class Hosts(Cluster):
     def test_a_host_that_stood_still_is_fenced_and_its_players_are_sent_on(self):
         first, second = self.two_hosts()
-        with Clients(8, [first.address]) as clients:
+        with stage.Clients(8, [first.address]) as clients:
             clients.wait_here()
             louse = {bot.name: bot.welcomes[-1][1]["id"] for bot in clients.bots}
             first.signal(signal.SIGSTOP)
@@ -113,7 +110,7 @@ class Hosts(Cluster):
     def test_all_hosts_gone_and_back_go_on_with_the_last_tick(self):
         first = self.host("a")
         first.wait_for("cluster_owns")
-        with Clients(3, [first.address]) as clients:
+        with stage.Clients(3, [first.address]) as clients:
             clients.wait_here()
             time.sleep(6)  # past a keyframe
             first.signal(signal.SIGKILL)
@@ -148,7 +145,7 @@ class Nats(Cluster):
     def test_away(self):
         """Nobody stores what is played: rooms go on, players hear of it after 10 s, and all is stored when NATS is back."""
         first, second = self.two_hosts()
-        with Clients(4, [first.address]) as clients:
+        with stage.Clients(4, [first.address]) as clients:
             clients.wait_here()
             self.nats.kill(0)
             away = float(os.environ.get("SECONDS_AWAY", "12"))
@@ -165,13 +162,66 @@ class Nats(Cluster):
         self.check_log(holes=0 if away < 50 else 1)
 
 
+class Full(Cluster):
+    """NATS may store no more: what it says to each batch is an error, and only a restart with a larger store makes room."""
+    jetstream = "max_file_store: 64KB"
+
+    def fill(self, owner):
+        owner.wait_for("insufficient resources", patience=120)
+
+    def make_room(self):
+        self.nats.configure(0, "max_file_store: 64MB")
+        self.nats.kill(0, signal.SIGTERM)
+        self.nats.start(0)
+
+    def test_rooms_go_on_and_all_is_stored_once_there_is_room(self):
+        first, second = self.two_hosts()
+        with stage.Clients(8, [first.address]) as clients:
+            clients.wait_here()
+            self.fill(first)
+            full = time.monotonic()
+            memory = metrics.Metrics(first.door).total("process_resident_memory_bytes")
+            clients.wait_for(lambda bot: "not_durable" in bot.notices, "nobody was told")
+            lasts = float(os.environ.get("SECONDS_FULL", "12"))
+            time.sleep(max(0.0, full + lasts - time.monotonic()))
+            more = metrics.Metrics(first.door).total("process_resident_memory_bytes") - memory
+            print(f"memory of {time.monotonic() - full:.0f} s: {more / 1e6:.1f} MB")
+            self.assertLess(more, 16e6)
+            for bot in clients.bots:
+                self.assertEqual(len(bot.losses), 0)
+                self.assertLess(time.monotonic() - bot.newest[0], 2)
+            self.make_room()
+            clients.wait_for(lambda bot: bot.notices[-1] == "durable", "nobody was told that all is well:\n" + first.log())
+            time.sleep(1)
+            self.assertNotIn("cluster_owns", second.log())
+            self.assertEqual(first.log().count("cluster_owns"), 1)
+        self.check_log(holes=0 if lasts < 50 else 1)
+
+    def test_nobody_takes_over_before_there_is_room(self):
+        first, second = self.two_hosts()
+        with stage.Clients(8, [first.address, second.address]) as clients:
+            clients.wait_here()
+            self.fill(first)
+            time.sleep(1)
+            stored = self.nats.tick()
+            first.signal(signal.SIGKILL)
+            first.process.wait()
+            second.wait_for("did not take this host's first batch")
+            self.assertNotIn("cluster_owns", second.log())
+            self.make_room()
+            second.wait_for("goes on from the log of main")
+            self.assertEqual(second.went_on_at(), stored)
+            clients.wait_for(lambda bot: len(bot.welcomes) == 2 and bot.welcomes[-1][1]["resumed"], second.log())
+        self.check_log()
+
+
 class Replicas(Cluster):
     replicas = 3
     settings = {"silence_ms": 1000}
 
     def test_leader_of_the_log_killed(self):
         first, second = self.two_hosts()
-        with Clients(4, [first.address]) as clients:
+        with stage.Clients(4, [first.address]) as clients:
             clients.wait_here()
             leader = self.nats.leader()
             self.assertIsNotNone(leader)
@@ -185,6 +235,38 @@ class Replicas(Cluster):
             self.assertNotIn("cluster_owns", second.log())
             self.assertEqual(first.log().count("cluster_owns"), 1, first.log())
         self.check_log()
+
+    def test_each_node_in_lame_duck_mode_in_turn(self):
+        """As an operator upgrades NATS: nobody takes over, nothing is missing, and nothing waits for long to be stored."""
+        first, second = self.two_hosts()
+        gaps = []
+        with stage.Clients(4, [first.address]) as clients:
+            clients.wait_here()
+            for number in range(self.replicas):
+                with Acknowledgements(self.nats, (number + 1) % self.replicas, "a") as stored:
+                    time.sleep(1)
+                    self.nats.processes[number].send_signal(signal.SIGUSR2)
+                    time.sleep(3)
+                    self.nats.kill(number, signal.SIGTERM)  # it would go by itself once all its clients have: two minutes
+                    time.sleep(1)
+                    self.nats.start(number)
+                    self.wait_for_replicas()
+                gaps.append(stored.largest_gap())
+            for bot in clients.bots:
+                self.assertEqual(len(bot.losses), 0)
+                self.assertLess(time.monotonic() - bot.newest[0], 2)
+                self.assertNotIn("not_durable", bot.notices)
+            self.assertNotIn("cluster_owns", second.log())
+            self.assertEqual(first.log().count("cluster_owns"), 1, first.log())
+        print("largest gaps between acknowledgements [ms]:", " ".join(f"{1000 * gap:.0f}" for gap in gaps))
+        self.assertLess(max(gaps), LAME_DUCK_GAP, first.log())
+        self.check_log()
+
+    def wait_for_replicas(self):
+        end = time.monotonic() + stage.PATIENCE
+        while f"{self.replicas} of {self.replicas} replicas have all, led by" not in (said := self.nats.command("status")[1]):
+            self.assertLess(time.monotonic(), end, said)
+            time.sleep(0.2)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,8 @@ import time
 import unittest
 
 import stage
-from faults_test import Clients, Cluster
+from faults_test import Cluster
+from stage import Clients
 
 ARGUMENTS = ["--join-per-s-address", "100000", "--join-per-s-room", "100000"]
 

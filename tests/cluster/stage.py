@@ -11,6 +11,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 
 PROGRAM = os.environ["WOODLOUSE_SERVER"]
@@ -40,17 +41,20 @@ def free_ports(count):
 
 
 class Nats:
-    """As many nats-servers with JetStream as `replicas` says, and the file of a cluster that lives on them."""
+    """As many nats-servers with JetStream as `replicas` says, and the file of a cluster that lives on them. address: where they
+    listen; jetstream: more lines of that part of their configuration, as "max_file_store: 1MB"."""
 
-    def __init__(self, replicas=1, **settings):
+    def __init__(self, replicas=1, address="127.0.0.1", jetstream="", **settings):
         self.folder = tempfile.mkdtemp(prefix="woodlouse-nats-")
         self.replicas = replicas
         ports = free_ports(2 * replicas)
         self.ports, routes = ports[:replicas], ports[replicas:]
         self.commands = []
+        for number in range(replicas):
+            self.configure(number, jetstream)
         for number, (port, route) in enumerate(zip(self.ports, routes)):
-            command = ["nats-server", "-a", "127.0.0.1", "-p", str(port), "-n", f"n{number}", "-js",
-                       "-sd", os.path.join(self.folder, f"store{number}"), "-l", os.path.join(self.folder, f"nats{number}.log")]
+            command = ["nats-server", "-c", self.configuration(number), "-a", address, "-p", str(port), "-n", f"n{number}",
+                       "-l", os.path.join(self.folder, f"nats{number}.log")]
             if replicas > 1:
                 command += ["--cluster_name", "test", "--cluster", f"nats://127.0.0.1:{route}",
                             "--routes", ",".join(f"nats://127.0.0.1:{other}" for other in routes)]
@@ -58,15 +62,30 @@ class Nats:
         self.processes = [None] * replicas
         for number in range(replicas):
             self.start(number)
-        self.file = os.path.join(self.folder, "cluster.json")
-        settings = {"nats": [f"nats://127.0.0.1:{port}" for port in self.ports], "replicas": replicas, **settings}
-        with open(self.file, "w") as out:
-            json.dump(settings, out)
-        self.settings = settings
+        self.settings = {"replicas": replicas, **settings}
+        self.file = self.file_for("127.0.0.1")
         end = time.monotonic() + PATIENCE
         while self.command("init")[0] != 0:
             assert time.monotonic() < end, self.command("init")
             time.sleep(0.2)
+
+    def configuration(self, number):
+        return os.path.join(self.folder, f"nats{number}.conf")
+
+    def store(self, number):
+        return os.path.join(self.folder, f"store{number}")
+
+    def configure(self, number, jetstream):
+        """Takes effect when that node is started again."""
+        with open(self.configuration(number), "w") as out:
+            out.write(f'jetstream {{\n  store_dir: "{self.store(number)}"\n  {jetstream}\n}}\n')
+
+    def file_for(self, address):
+        """A cluster's file for one who reaches NATS at that address."""
+        file = os.path.join(self.folder, f"cluster-{address}.json")
+        with open(file, "w") as out:
+            json.dump({"nats": [f"nats://{address}:{port}" for port in self.ports], **self.settings}, out)
+        return file
 
     def start(self, number):
         self.processes[number] = subprocess.Popen(self.commands[number], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -95,6 +114,15 @@ class Nats:
         found = re.search(r"led by n(\d+)", self.command("status")[1])
         return int(found.group(1)) if found else None
 
+    def tick(self):
+        """That the log's last batch leads to; 0: there is none."""
+        found = re.search(r"^room \S+: tick (\d+)", self.command("status")[1], re.M)
+        return int(found.group(1)) if found else 0
+
+    def stored(self):
+        """Bytes that the log has on NATS' disk."""
+        return int(re.search(r"batches \d+ to \d+, (\d+) bytes", self.command("status")[1]).group(1))
+
     def joined(self):
         """Each room's joined recordings, proven: {file's name: what verify says}."""
         folder = tempfile.mkdtemp(dir=self.folder)
@@ -117,15 +145,16 @@ class Nats:
 
 
 class Host:
-    """A woodlouse-server of the cluster."""
+    """A woodlouse-server of the cluster. prefix: the command that starts it somewhere else; file: the cluster's, as it is there."""
 
-    def __init__(self, nats, name, *arguments, maps=("volcano",)):
+    def __init__(self, nats, name, *arguments, maps=("volcano",), prefix=(), listen="127.0.0.1", file=None):
         self.name = name
+        self.door = os.path.join(nats.folder, f"{name}-{time.monotonic_ns()}.sock")
         self.log_file = os.path.join(nats.folder, f"{name}-{time.monotonic_ns()}.log")
         games = [os.path.join(MAPS, each + ".json") for each in maps]
         self.process = subprocess.Popen(
-            [PROGRAM, "--map", *games, "--mode", "roam", "--cluster", nats.file, "--cluster-host", name,
-             "--listen", "127.0.0.1:0", "--log-file", self.log_file, *arguments],
+            [*prefix, PROGRAM, "--map", *games, "--mode", "roam", "--cluster", file or nats.file, "--cluster-host", name,
+             "--listen", f"{listen}:0", "--admin", self.door, "--log-file", self.log_file, *arguments],
             stdout=subprocess.PIPE, text=True)
         first = self.process.stdout.readline()
         assert first.startswith("listening "), first + self.log()
@@ -144,6 +173,10 @@ class Host:
             assert time.monotonic() < end, f"{self.name} never said {text!r}:\n{self.log()}"
             assert self.process.poll() is None, f"{self.name} has ended:\n{self.log()}"
             time.sleep(0.02)
+
+    def went_on_at(self):
+        """The tick from which it goes on with the log, the last time."""
+        return int(re.findall(r"goes on from the log of \S+ tick (\d+)", self.log())[-1])
 
     def signal(self, by):
         self.process.send_signal(by)
@@ -172,6 +205,7 @@ class Bot:
         self.welcomes = []   # (time, message)
         self.losses = []     # times at which the line was cut
         self.byes = []
+        self.notices = []    # their codes
         self.newest = None   # (time, tick) of the newest frame
         self.frames = []     # (time, address) of each frame
         self.stopped = False
@@ -219,6 +253,8 @@ class Bot:
                     say(type="pong", t=json.loads(line)["t"])
                 elif kind == b"bye":
                     self.byes.append(json.loads(line))
+                elif kind == b"notice":
+                    self.notices.append(json.loads(line)["code"])
                 elif kind == b"error" and not joined:
                     return
             if joined:
@@ -279,6 +315,38 @@ class Witness:
     def __exit__(self, *_):
         self.pipe.send(None)
         self.process.join(PATIENCE)
+
+
+class Clients:
+    """Bots that run beside a test, on a thread of their own."""
+
+    def __init__(self, count, addresses):
+        self.bots = [Bot(f"bot {k}", addresses) for k in range(count)]
+        self.loop = asyncio.new_event_loop()
+        self.thread = threading.Thread(target=self.work)
+        self.thread.start()
+
+    def work(self):
+        asyncio.set_event_loop(self.loop)
+        self.loop.run_until_complete(asyncio.gather(*(bot.run() for bot in self.bots), return_exceptions=True))
+
+    def wait_for(self, condition, what, patience=PATIENCE):
+        end = time.monotonic() + patience
+        while not all(condition(bot) for bot in self.bots):
+            assert time.monotonic() < end, what
+            time.sleep(0.02)
+
+    def wait_here(self):
+        self.wait_for(lambda bot: bot.welcomes and bot.newest and bot.newest[0] > bot.welcomes[-1][0], "no frames came")
+        time.sleep(0.5)  # what was played last is not in the log yet
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for bot in self.bots:
+            bot.stopped = True
+        self.thread.join(PATIENCE)
 
 
 def play(coroutine):
