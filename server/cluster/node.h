@@ -75,6 +75,7 @@ class Node final : public Cluster {
   [[nodiscard]] ShardView fresh_view();
   void show();
   [[nodiscard]] bool take_message(const LogMessage& message);
+  [[nodiscard]] bool pass_gap();
   void tell_following(Time now);
   [[nodiscard]] bool is_owner_gone(Time now);
   [[nodiscard]] bool is_cut_off() const { return is_log_cut_ || is_beat_cut_; }

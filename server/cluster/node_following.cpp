@@ -14,6 +14,12 @@ namespace woodlouse::server {
 
 using core::joined;
 
+namespace {
+
+constexpr std::uint64_t kMostPassedOver = 64;  // batches in a row that are none
+
+}  // namespace
+
 /// True: the log is this host's. False: the node ends.
 bool Node::follow() {
   view_.reset();
@@ -83,7 +89,6 @@ void Node::show() {
 
 /// From the last batch that is one, which says where to begin; what is none behind it is passed over.
 core::Expected<void> Node::read_beginning(const NatsLink::StreamState& state) {
-  constexpr std::uint64_t kMostPassedOver = 64;
   std::uint64_t at = state.last;
   core::Expected<Batch> batch = core::fail("the log", "holds no batch");
   for (std::uint64_t tries = 0; tries < kMostPassedOver && at >= state.first; ++tries, --at) {
@@ -124,9 +129,10 @@ core::Expected<void> Node::read_beginning(const NatsLink::StreamState& state) {
 /// batch, or is nobody's who may write, is passed over.
 bool Node::take_message(const LogMessage& message) {
   if (message.sequence <= view_->sequence()) return true;
-  const bool is_next = view_->sequence() == 0 || message.sequence == view_->sequence() + 1;
-  if (!is_next)
+  if (view_->sequence() != 0 && message.sequence - view_->sequence() > kMostPassedOver)
     return complain({"the log", joined({"batch ", std::to_string(view_->sequence() + 1), " did not come"})});
+  while (view_->sequence() != 0 && message.sequence != view_->sequence() + 1)
+    if (!pass_gap()) return false;
   const auto batch = unpack(message.bytes, joined({"batch ", std::to_string(message.sequence)}));
   const auto order = batch ? view_->check_order(message.sequence, batch->head)
                            : core::Expected<void>(tl::unexpected(batch.error()));
@@ -144,6 +150,17 @@ bool Node::take_message(const LogMessage& message) {
   return true;
 }
 
+/// Over the next batch, which did not come. False: it is there, and to be read again.
+bool Node::pass_gap() {
+  const std::uint64_t next = view_->sequence() + 1;
+  const auto missing = log_link_->read(next);
+  if (!missing || !missing->bytes.empty())
+    return complain({"the log", joined({"batch ", std::to_string(next), " did not come"})});
+  complain({joined({"batch ", std::to_string(next)}), "is gone from the log"});
+  view_->lose(next);
+  return true;
+}
+
 /// Once of each fault in a row. False.
 bool Node::complain(const core::Error& error) {
   const std::string text = error.text();
@@ -155,8 +172,8 @@ void Node::tell_following(Time now) {
   const std::lock_guard lock(mutex_);
   beat_.owns = false;
   beat_.leaves = is_leaving_ || is_drained_;
-  beat_.ready =
-      !is_drained_ && view_ && view_->head() && !has_differed_ && !has_lost_rooms_ && !is_cut_off();
+  beat_.ready = !is_drained_ && view_ && view_->head() && !has_differed_ && !has_lost_rooms_ &&
+                !view_->has_gap() && !is_cut_off();
   beat_.silent_ms = static_cast<std::uint64_t>(
       std::chrono::duration_cast<std::chrono::milliseconds>(view_ ? silence(now) : Duration{}).count());
   if (!view_) return;
@@ -198,8 +215,9 @@ bool Node::is_owner_gone(Time now) {
     return false;
   }
   const auto place = table_.place_in_line(settings_.silence, now);
-  const Duration turn = kTurn * static_cast<int>(place.value_or(0)) +
-                        (has_lost_rooms_ || !view_->head() ? kUnlessOthersCan : Duration{});
+  const Duration turn =
+      kTurn * static_cast<int>(place.value_or(0)) +
+      (has_lost_rooms_ || view_->has_gap() || !view_->head() ? kUnlessOthersCan : Duration{});
   if (tried_ != Time{} && now - tried_ < settings_.silence) return false;
   // A new log is nobody's; one that was emptied may be that of a host which lives.
   if (!view_->head() || view_->head()->writer.epoch == 0)
@@ -252,11 +270,8 @@ bool Node::catch_up() {
   while (view_->sequence() < last->sequence) {
     const auto message = log_link_->read(view_->sequence() + 1);
     if (!message) return complain(message.error());
-    // What stands behind a gap goes on from what nobody knows any more.
-    if (message->bytes.empty() && message->sequence != last->sequence)
-      return complain({joined({"batch ", std::to_string(message->sequence)}),
-                       "is gone from the log, and more stands behind it"});
-    if (!take_message({message->sequence, message->bytes})) return false;
+    if (message->bytes.empty() ? !pass_gap() : !take_message({message->sequence, message->bytes}))
+      return false;
   }
   return view_->difference().empty();
 }
@@ -293,6 +308,9 @@ std::vector<RoomToGoOn> Node::rooms_to_go_on() const {
           joined({"ROOM LOST: ", name, ": the log holds no keyframe of it any more"}));
       continue;
     }
+    if (room.stands_still)
+      say(LogEvent::kClusterHole, joined({"LOG HAS A HOLE: room ", name, " goes on at tick ",
+                                          std::to_string(match->tick()), ", before a batch that is gone"}));
     RoomToGoOn& next = rooms.emplace_back();
     next.name = name;
     next.map = match->shared_map();

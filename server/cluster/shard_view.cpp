@@ -56,11 +56,11 @@ core::Expected<void> ShardView::check_order(std::uint64_t sequence, const BatchH
   if (sequence != sequence_ + 1)
     return core::fail(place, joined({"comes behind batch ", std::to_string(sequence_)}));
   if (head.writer == head_->writer) {
-    if (head.number == head_->number + 1) return {};
+    if (head.number == head_->number + 1 || (is_behind_gap_ && head.number > head_->number)) return {};
     return core::fail(place, joined({"is number ", std::to_string(head.number), " of its writer, behind ",
                                      std::to_string(head_->number)}));
   }
-  if (head.number == 0 && head.writer.epoch > head_->writer.epoch) return {};
+  if ((head.number == 0 || is_behind_gap_) && head.writer.epoch > head_->writer.epoch) return {};
   return core::fail(
       place, joined({"is of epoch ", std::to_string(head.writer.epoch), " of ", head.writer.host,
                      ", behind epoch ", std::to_string(head_->writer.epoch), " of ", head_->writer.host}));
@@ -75,6 +75,7 @@ core::Expected<void> ShardView::take(std::uint64_t sequence, const Batch& batch)
                       "hosts of one cluster have the same version");
   if (auto order = check_order(sequence, batch.head); !order) return order;
   head_ = batch.head;
+  is_behind_gap_ = false;
   sequence_ = sequence;
   current_.clear();
   const std::string place = place_of(sequence);
@@ -88,8 +89,13 @@ core::Expected<void> ShardView::take(std::uint64_t sequence, const Batch& batch)
 void ShardView::lose(std::uint64_t sequence) {
   assert(sequence_ == 0 || sequence == sequence_ + 1);
   sequence_ = sequence;
-  head_.reset();
-  for (auto& [name, room] : rooms_) room.follower->take(room.header);
+  is_behind_gap_ = true;
+  for (auto& [name, room] : rooms_) room.stands_still = true;
+}
+
+bool ShardView::has_gap() const {
+  return std::any_of(rooms_.begin(), rooms_.end(),
+                     [](const auto& entry) { return entry.second.stands_still; });
 }
 
 core::Expected<void> ShardView::take_line(const BatchLine& line) {
@@ -134,6 +140,8 @@ void ShardView::record(const std::string& name, Room& room, std::string_view lin
     room.follower = std::make_unique<follow::Follower>("the log");
     room.claims.clear();
   }
+  room.stands_still = room.stands_still && !is_header(line) && !is_keyframe(line);
+  if (room.stands_still) return;
   assert(room.follower != nullptr);
   if (is_header(line) || is_keyframe(line) || room.follower->match() != nullptr) room.follower->take(line);
   if (const auto& found = room.follower->difference(); found && difference_.empty())

@@ -35,6 +35,7 @@ class ShardView {
     std::string header;                          ///< the line, without its newline
     std::unique_ptr<follow::Follower> follower;  ///< null: a reader has it
     std::map<match::PlayerId, Claim> claims;
+    bool stands_still = false;  ///< before a batch that is gone: it goes on from its next keyframe
   };
   using Rooms = std::map<std::string, Room, std::less<>>;
 
@@ -61,9 +62,11 @@ class ShardView {
     assert(sequence == sequence_ + 1);
     sequence_ = sequence;
   }
-  /// One that stood there, and was the log's, is gone or was altered: the rooms go on from their next
+  /// The next one was the log's, and is gone: the rooms stay at the tick before it up to their next
   /// keyframes.
   void lose(std::uint64_t sequence);
+  /// Whether a room waits for its keyframe behind a batch that is gone.
+  [[nodiscard]] bool has_gap() const;
   /// Whether the batch may stand there. Errors: it follows nothing that was read.
   [[nodiscard]] core::Expected<void> check_order(std::uint64_t sequence, const BatchHead& head) const;
   /// Of the batch taken last; 0: none.
@@ -85,7 +88,8 @@ class ShardView {
   std::optional<BatchHead> head_;
   std::uint64_t sequence_ = 0;
   std::string difference_;
-  std::string current_;  ///< the room whose lines follow; empty: none's so far
+  bool is_behind_gap_ = false;  ///< the batch before the next one is gone
+  std::string current_;         ///< the room whose lines follow; empty: none's so far
 };
 
 /// Calls visit(line) for each, without its newline, until it returns an error.

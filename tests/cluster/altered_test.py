@@ -68,6 +68,33 @@ class Disk(Altered):
             self.assertNotIn("HOLE", first.log())
             self.check_hole()
 
+    def test_a_batch_is_altered_while_all_hosts_are_away(self):
+        """It stands behind the newest keyframe: the room goes on at the tick before it."""
+        first = self.host("a")
+        first.wait_for("cluster_owns")
+        with stage.Clients(4, [first.address]) as clients:
+            clients.wait_here()
+            time.sleep(7)
+            louse = {bot.name: bot.welcomes[-1][1]["id"] for bot in clients.bots}
+            stored = self.nats.tick()
+            self.assertGreater(stored, 360)
+            first.signal(signal.SIGKILL)
+            first.process.wait()
+            self.alter(4)
+            second = self.host("b")
+            for bot in clients.bots:
+                bot.addresses = [second.address]
+            clients.wait_for(lambda bot: len(bot.welcomes) == 2, "not all came back: " + second.log())
+            went_on = second.went_on_at()
+            self.assertIn(f"LOG HAS A HOLE: room volcano goes on at tick {went_on}, before a batch that is gone", second.log())
+            self.assertTrue(stored - 90 < went_on < stored, (went_on, stored))
+            for bot in clients.bots:
+                self.assertEqual((bot.welcomes[-1][1]["resumed"], bot.welcomes[-1][1]["id"]), (True, louse[bot.name]))
+            time.sleep(1)
+        _, said, proofs = self.nats.joined()
+        self.assertRegex(said, r"batch \d+: is gone from the log")
+        self.assertEqual([verified for verified, _ in proofs.values()], [0], said)
+
     def test_the_last_batch_is_altered(self):
         """The owner finds nothing of its own at the end of the log: it goes on in another epoch, and tells its rooms anew."""
         first, second = self.two_hosts()
