@@ -8,6 +8,7 @@
 
 #include "server/chosen_games.h"
 #include "server/net/listen_address.h"
+#include "server/net/session.h"
 #include "server/version.h"
 #include "shared/core/joined.h"
 #include "shared/protocol/codes.h"
@@ -28,6 +29,8 @@ protocol::Bye moved(const std::string& address) {
 core::Expected<void> ClusterDesk::open(const ServeConfig& config, const std::string& lines,
                                        const std::string& web_url) {
   assert(!cluster_ && config.cluster);
+  name_ = config.cluster->cluster;
+  shard_ = config.cluster->shard;
   if (config.cluster->is_edge) return open_edge(config);
   const auto games = choose_games(config);
   if (!games) return tl::unexpected(games.error());
@@ -86,6 +89,15 @@ Cluster::Hooks ClusterDesk::hooks() {
   };
   hooks.census = [this] { return lobby_.list().rooms; };
   return hooks;
+}
+
+void ClusterDesk::guide(RoomGuide& guide, SessionEnvironment& sessions) const {
+  assert(cluster_ && !shard_.empty());
+  if (relay_) guide.show(*relay_);
+  guide.use({name_, shard_, [this] { return cluster_->rooms_elsewhere(); },
+             [this](std::string_view room) { return elsewhere(room); }});
+  sessions.elsewhere = [&guide](std::string_view room) { return guide.elsewhere(room); };
+  sessions.hosts = [this] { return cluster_->hosts(); };
 }
 
 protocol::Bye ClusterDesk::begin_leaving(const protocol::Bye& otherwise) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "server/cluster/cluster.h"
+#include "server/cluster/room_guide.h"
 #include "server/config.h"
 #include "server/relay/relay.h"
 #include "server/room/lanes.h"
@@ -26,6 +27,8 @@
 #include "shared/protocol/messages.h"
 
 namespace woodlouse::server {
+
+struct SessionEnvironment;
 
 /// The server's strand, where nothing else is said.
 class ClusterDesk {
@@ -73,10 +76,8 @@ class ClusterDesk {
     if (auto address = cluster_->elsewhere(room)) return address;
     return cluster_->is_on_its_way(room) ? std::optional<std::string>("") : std::nullopt;
   }
-  /// The rooms that who comes here finds.
-  [[nodiscard]] const Directory& directory() const {
-    return relay_ ? static_cast<const Directory&>(*relay_) : lobby_;
-  }
+  /// Who comes is told of the cluster's other hosts and their rooms, too. Before the threads run.
+  void guide(RoomGuide& guide, SessionEnvironment& sessions) const;
   /// The rooms are here. Any thread.
   [[nodiscard]] bool owns() const { return owns_; }
   /// Any thread.
@@ -98,6 +99,7 @@ class ClusterDesk {
   const std::shared_ptr<spdlog::logger> log_;
   std::optional<Relay> relay_;  ///< of an edge
   std::unique_ptr<Cluster> cluster_;
+  std::string name_, shard_;  ///< of the cluster
   std::atomic<bool> owns_{false};
   std::size_t rooms_left_ = 0;  ///< that are to stand before the log is handed over
   std::function<void()> gone_;  ///< who waits for them to be another host's

@@ -66,7 +66,7 @@ Server::Server(const ServeConfig& config, Outside outside, std::shared_ptr<spdlo
       outside_(std::move(outside)),
       had_terminal_(has_terminal()),
       limits_(limits_of(config)),
-      environment_{&lobby_, limits_, traffic_, timekeeper_, kServerName, log_},
+      environment_{guide_, limits_, traffic_, timekeeper_, kServerName, log_},
       acceptor_(lanes_, environment_),
       opener_(ticks_, lanes_, limits_, companions_, timekeeper_, log_),
       room_control_(strand_, lobby_, opener_, companions_, limits_, config,
@@ -185,9 +185,7 @@ core::Expected<void> Server::join_cluster(const ServeConfig& config) {
   if (const auto opened = cluster_->open(config, address_, environment_.web_url); !opened)
     return tl::unexpected(opened.error());
   companions_.use(cluster_->cluster());
-  environment_.directory = &cluster_->directory();
-  environment_.elsewhere = [this](std::string_view room) { return cluster_->elsewhere(room); };
-  environment_.hosts = [this] { return cluster_->cluster().hosts(); };
+  cluster_->guide(guide_, environment_);
   take_signals();
   return {};
 }

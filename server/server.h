@@ -29,6 +29,7 @@
 #include "server/admin/admin_door.h"
 #include "server/ban_desk.h"
 #include "server/chosen_games.h"
+#include "server/cluster/room_guide.h"
 #include "server/cluster_desk.h"
 #include "server/companions.h"
 #include "server/config.h"
@@ -164,6 +165,7 @@ class Server {
   TrafficMetrics traffic_;
   SteadyTimekeeper timekeeper_;
   Lobby lobby_;
+  RoomGuide guide_{lobby_};
   SessionEnvironment environment_;
   const std::shared_ptr<Doorman> doorman_ = std::make_shared<Doorman>();
   Acceptor acceptor_;

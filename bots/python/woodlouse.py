@@ -156,7 +156,8 @@ class Game(Session):
         return self._ground
 
     def rooms(self):
-        """[{name, map, players, bots, spectators}] of the server."""
+        """[{name, map, players, bots, spectators, code}] of the server and, with the address where they are, of its cluster's
+        others. connect(room=...) takes a name or a code, and follows to where the room is. A former server tells no codes."""
         self._rooms = None
         self._ask({"type": "list"}, lambda: self._rooms is not None)
         return self._rooms

@@ -14,6 +14,7 @@
 
 #include "server/access/claim.h"
 #include "server/cluster/cluster_settings.h"
+#include "server/cluster/host_table.h"
 #include "server/room/tick_watcher.h"
 #include "shared/core/error.h"
 #include "shared/match/match.h"
@@ -86,6 +87,8 @@ class Cluster {
   [[nodiscard]] virtual std::optional<std::string> elsewhere(std::string_view room) const = 0;
   /// Whether that room is the shard's, and soon will be somewhere.
   [[nodiscard]] virtual bool is_on_its_way(std::string_view room) const = 0;
+  /// Those of other hosts, as these tell of them; of this host's shard none while they are here.
+  [[nodiscard]] virtual std::vector<HostedRoom> rooms_elsewhere() const = 0;
   /// Addresses of other hosts at which its rooms may be found.
   [[nodiscard]] virtual std::vector<std::string> hosts() const = 0;
   /// Where who is here is to go when this host leaves; `wanted`: if that one, by its name, stands by.

@@ -128,14 +128,17 @@ void HostTable::take(Beat beat, Time now) {
   const std::lock_guard lock(mutex_);
   forget(now);
   if (beat.host == own_ && beat.process != process_) twin_at_ = now;
-  if (beat.host == own_ || beat.shard != shard_) return;
-  if (hosts_.size() >= kMostHosts && !hosts_.contains(beat.host)) return;
+  if (beat.host == own_) return;
+  auto& hosts = beat.shard == shard_ ? hosts_ : strangers_;
+  if (hosts.size() >= kMostHosts && !hosts.contains(beat.host)) return;
   const std::string host = beat.host;
-  hosts_.insert_or_assign(host, Known{std::move(beat), now});
+  hosts.insert_or_assign(host, Known{std::move(beat), now});
 }
 
 void HostTable::forget(Time now) {
-  std::erase_if(hosts_, [now](const auto& entry) { return now - entry.second.at > kForgottenAfter; });
+  const auto is_old = [now](const auto& entry) { return now - entry.second.at > kForgottenAfter; };
+  std::erase_if(hosts_, is_old);
+  std::erase_if(strangers_, is_old);
 }
 
 Time HostTable::heard(const Writer& writer) const {
@@ -211,6 +214,24 @@ std::vector<Beat> HostTable::hosts(Time now) const {
   for (const auto& [host, known] : hosts_)
     if (now - known.at <= kForgottenAfter) found.push_back(known.beat);
   return found;
+}
+
+std::vector<HostedRoom> HostTable::rooms(Time now) const {
+  const std::lock_guard lock(mutex_);
+  std::map<std::string_view, const Beat*> owners;  // by shard
+  for (const auto* hosts : {&hosts_, &strangers_})
+    for (const auto& [host, known] : *hosts) {
+      if (!known.beat.owns || now - known.at > kForgottenAfter) continue;
+      const Beat*& owner = owners[known.beat.shard];
+      if (owner == nullptr || known.beat.writer.epoch > owner->writer.epoch) owner = &known.beat;
+    }
+  std::vector<HostedRoom> rooms;
+  for (const auto& [shard, owner] : owners)
+    for (const protocol::RoomEntry& room : owner->rooms) {
+      rooms.push_back({owner->shard, room});
+      rooms.back().room.address = owner->address;
+    }
+  return rooms;
 }
 
 }  // namespace woodlouse::server

@@ -47,6 +47,12 @@ std::string to_text(const Beat& beat);
 /// Errors: it is none; what NATS brings came from outside.
 core::Expected<Beat> beat_from(std::string_view text);
 
+/// A room, with the address of the host that has it.
+struct HostedRoom {
+  std::string shard;
+  protocol::RoomEntry room;
+};
+
 class HostTable {
  public:
   /// Of which nothing is known that is older.
@@ -56,7 +62,7 @@ class HostTable {
   HostTable(std::string own_host, std::string shard, std::uint64_t process)
       : own_(std::move(own_host)), shard_(std::move(shard)), process_(process) {}
 
-  /// Another host's; others' shards are passed over.
+  /// Another host's; of other shards only where their rooms are is asked for.
   void take(Beat beat, Time now);
 
   /// When that writer was heard last.
@@ -77,6 +83,9 @@ class HostTable {
   /// Addresses of the others, at most `most`.
   [[nodiscard]] std::vector<std::string> addresses(Time now, std::size_t most) const;
   [[nodiscard]] std::vector<Beat> hosts(Time now) const;
+  /// Of all shards, as their owners have told of them; of one that is silent or goes, too, till another one
+  /// is heard or it is forgotten.
+  [[nodiscard]] std::vector<HostedRoom> rooms(Time now) const;
 
  private:
   struct Known {
@@ -90,6 +99,7 @@ class HostTable {
   Time twin_at_{};  ///< when another process of this name was heard
   mutable std::mutex mutex_;
   std::map<std::string, Known, std::less<>> hosts_;
+  std::map<std::string, Known, std::less<>> strangers_;  ///< of other shards
 };
 
 }  // namespace woodlouse::server

@@ -117,6 +117,14 @@ bool Node::is_on_its_way(std::string_view room) const {
          (room.empty() && !known_rooms_.empty());
 }
 
+std::vector<HostedRoom> Node::rooms_elsewhere() const {
+  std::vector<HostedRoom> rooms = table_.rooms(Clock::now());
+  const std::lock_guard lock(mutex_);
+  if (beat_.owns)
+    std::erase_if(rooms, [this](const HostedRoom& one) { return one.shard == settings_.shard; });
+  return rooms;
+}
+
 std::vector<std::string> Node::hosts() const {
   constexpr std::size_t kMost = 16;
   return table_.addresses(Clock::now(), kMost);

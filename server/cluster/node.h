@@ -58,6 +58,7 @@ class Node final : public Cluster {
   [[nodiscard]] std::unique_ptr<TickWatcher> watch(const std::string& room, replay::Header header) override;
   [[nodiscard]] std::optional<std::string> elsewhere(std::string_view room) const override;
   [[nodiscard]] bool is_on_its_way(std::string_view room) const override;
+  [[nodiscard]] std::vector<HostedRoom> rooms_elsewhere() const override;
   [[nodiscard]] std::vector<std::string> hosts() const override;
   void begin_leaving(const std::string& to) override;
   void hand_over() override;

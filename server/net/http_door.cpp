@@ -225,10 +225,10 @@ WebAnswer StreamHttpDoor<Stream>::judge() {
   assert(authority.has_value());
   WebAnswer answered = answer_to(
       {target(), authority->host, field(http::field::accept_encoding), field(http::field::if_none_match)},
-      *environment_.directory,
+      environment_.directory,
       {environment_.server_name, web_.lines_port,
        is_stopping_ || (environment_.doorman != nullptr && environment_.doorman->is_draining()),
-       environment_.directory->is_too_late(now()), web_.pages.get()});
+       environment_.directory.is_too_late(now()), web_.pages.get()});
   asker_.account->charge(Spending::kAnswerBytes, static_cast<double>(answered.content().size()), now());
   return answered;
 }

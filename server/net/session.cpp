@@ -111,7 +111,7 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
   if (std::holds_alternative<protocol::Pong>(message)) return pulse_.hear(now, true);
   if (const auto* list = std::get_if<protocol::List>(&message)) {
     if (rooms_.is_on() && !list->watch) handshake_until_ = now + std::chrono::seconds(limits_->handshake_s);
-    rooms_.set(list->watch, *environment_.directory, now);
+    rooms_.set(list->watch, environment_.directory, now);
     return tell_rooms(now);
   }
   if (auto* wanted = std::get_if<protocol::Join>(&message)) return join(standing_.take_token(*wanted), now);
@@ -127,7 +127,7 @@ void Session::on_message(protocol::ClientMessage message, Time now) {
 }
 
 void Session::join(protocol::Join join, Time now) {
-  door_ = environment_.directory->find_for(join.role, join.room);
+  door_ = environment_.directory.find_for(join.role, join.room);
   view_ = join.view.value_or(protocol::View{});
   if (door_)
     return door_->join({id_, shared_from_this(), std::move(join), allowance_.address().id(), now, is_web_,
@@ -135,7 +135,7 @@ void Session::join(protocol::Join join, Time now) {
   handshake_.refused();
   if (const auto address = environment_.elsewhere ? environment_.elsewhere(join.room) : std::nullopt)
     return refuse(room_moved(join.room, *address));
-  say(unknown_room(join.room, environment_.directory->names()));
+  say(unknown_room(join.room, environment_.directory.names()));
 }
 
 /// Goes out with what else comes by then.
@@ -299,7 +299,7 @@ void Session::on_watch() {
     goes_on_at_.reset();
     take_lines(at);
   }
-  if (rooms_.take_change(*environment_.directory, at)) tell_rooms(at);
+  if (rooms_.take_change(environment_.directory, at)) tell_rooms(at);
   if (!is_to_join())
     check_pulse(at);
   else if (at >= handshake_until_)

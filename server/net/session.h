@@ -53,7 +53,7 @@ namespace woodlouse::server {
 
 /// What all sessions share; outlives them.
 struct SessionEnvironment {
-  const Directory* directory;  ///< not null
+  const Directory& directory;
   const LiveLimits& limits;
   TrafficMetrics& traffic;
   Timekeeper& timekeeper;
@@ -166,7 +166,7 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   }
   void greet() {
     if (std::exchange(is_greeted_, true)) return;
-    say(hello_of(id_, environment_.server_name, environment_.directory->names(), *limits_,
+    say(hello_of(id_, environment_.server_name, environment_.directory.names(), *limits_,
                  environment_.hosts ? environment_.hosts() : std::vector<std::string>{}));
   }
   void take_lines(Time now);
@@ -197,7 +197,7 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
     return handshake_.state() == Handshake::State::kGreeting && !rooms_.is_on();
   }
   void tell_rooms(Time now) {
-    std::string line = protocol::encode(environment_.directory->list());
+    std::string line = protocol::encode(environment_.directory.list());
     allowance_.charge_answer(line.size(), now);
     push(Line(std::move(line)));
     watch_next(now);

@@ -32,7 +32,7 @@ class Directory {
   }
   [[nodiscard]] virtual std::vector<std::string> names() const = 0;
   [[nodiscard]] virtual protocol::Rooms list() const = 0;
-  /// How often a room has opened or closed.
+  /// Another number once a room has opened or closed, or is at another server.
   [[nodiscard]] virtual std::uint64_t changes() const = 0;
   /// Whether the next tick of one of them has been due for longer than passes by itself
   /// (timing/next_tick.h).

@@ -17,8 +17,10 @@ std::string rooms_table(const protocol::Rooms& list) {
   for (const protocol::RoomEntry& room : list.rooms)
     rows += joined({"<tr><td>", html_escaped(room.name), "<td>", html_escaped(room.map), "<td>",
                     std::to_string(room.players), "<td>", std::to_string(room.bots), "<td>",
-                    std::to_string(room.spectators), "\n"});
-  return joined({"<table>\n<tr><th>room<th>map<th>players<th>bots<th>spectators\n", rows, "</table>\n"});
+                    std::to_string(room.spectators), "<td>", html_escaped(room.code), "<td>",
+                    room.address.empty() ? "here" : html_escaped(room.address), "\n"});
+  return joined({"<table>\n<tr><th>room<th>map<th>players<th>bots<th>spectators<th>code<th>where\n", rows,
+                 "</table>\n"});
 }
 
 WebAnswer front_page(std::string_view host, const Directory& directory, const WebFacts& facts) {

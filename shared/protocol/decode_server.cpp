@@ -271,6 +271,8 @@ Decoded read_rooms(FieldReader& reader, const Context&) {
     room.integer("players", entry.players, kAnyUint32);
     room.integer("bots", entry.bots, kAnyUint32);
     room.integer("spectators", entry.spectators, kAnyUint32);
+    room.key_text("code", entry.code, kLabelBytes.high, Presence::kOptional);
+    read_address(room, entry.address);
     rooms.rooms.push_back(std::move(entry));
   });
   return reader.finish<ServerMessage>(std::move(rooms));

@@ -118,6 +118,8 @@ void append_line(std::string& out, const Rooms& rooms) {
   text.objects("rooms", rooms.rooms, [](json::ObjectText& entry, const RoomEntry& room) {
     entry.text("name", room.name).text("map", room.map);
     entry.integer("players", room.players).integer("bots", room.bots).integer("spectators", room.spectators);
+    if (!room.code.empty()) entry.text("code", room.code);
+    if (!room.address.empty()) entry.text("address", room.address);
   });
   text.end_line();
 }

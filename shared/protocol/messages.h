@@ -298,6 +298,8 @@ struct Bye {
 struct RoomEntry {
   std::string name, map;
   std::uint32_t players = 0, bots = 0, spectators = 0;
+  std::string code{};     ///< by which it is joined, too; empty: not told
+  std::string address{};  ///< `host:port` of the server where it is, unchecked; empty: here
   friend bool operator==(const RoomEntry&, const RoomEntry&) = default;
 };
 struct Rooms {

@@ -6,6 +6,7 @@ import signal
 import time
 import unittest
 
+import nats_wire
 import stage
 from faults_test import Cluster
 from stage import Clients
@@ -71,7 +72,8 @@ class Moves(Cluster):
         with Clients(4, [first.address]) as clients:
             clients.wait_here()
             second.signal(signal.SIGSTOP)  # it was heard just now
-            self.nats.say("wl.woodlouse.move.main", '{"from":"","to":"b"}')
+            order = b'{"from":"","to":"b"}'
+            nats_wire.Wire(self.nats.ports[0]).say(f"PUB wl.woodlouse.move.main {len(order)}", order)
             clients.wait_for(lambda bot: len(bot.welcomes) >= 2 and bot.newest[0] > bot.welcomes[-1][0],
                              "nobody plays on: " + first.log())
             self.assertEqual(self.owner(), "a")

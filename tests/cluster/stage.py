@@ -101,14 +101,6 @@ class Nats:
         done = subprocess.run([PROGRAM, "cluster", action, self.file, *rest], capture_output=True, text=True, timeout=120)
         return done.returncode, done.stdout + done.stderr
 
-    def say(self, subject, text):
-        """Publishes it, as anybody could who is let in."""
-        with socket.create_connection(("127.0.0.1", self.ports[0])) as line:
-            line.sendall(b'CONNECT {"verbose":false}\r\n' + f"PUB {subject} {len(text)}\r\n{text}\r\nPING\r\n".encode())
-            said = b""
-            while b"PONG" not in said:
-                said += line.recv(4096)
-
     def leader(self):
         """The number of the node that leads the log; None: there is none now."""
         found = re.search(r"led by n(\d+)", self.command("status")[1])

@@ -55,7 +55,7 @@ class Mutation(unittest.TestCase):
         schema = validator("server")
         # Left out by older servers, which the reader still understands; a newer one sends it.
         older = {"name", "resumed", "spectators", "gone", "central_gravity", "core_radius", "tolerance", "equations", "method", "contact", "edges"}
-        optional = {"hosts", "address", "rules", "stream", "you", "retry_after_ms", "overview", "knots", "game", "crumbs", "place", "phase", "round", "until", "table"}
+        optional = {"hosts", "address", "code", "rules", "stream", "you", "retry_after_ms", "overview", "knots", "game", "crumbs", "place", "phase", "round", "until", "table"}
         counts = self.compare_server(schema, values)
         self.assertGreater(counts["refused"], 2000)
         in_maps = {"surface", "edges", "physics", "spawns", "race", "forage", "hill", "storage", "fingerprint", "radius", "round_s",

@@ -186,9 +186,9 @@ Notice whole_notice() {
 }
 
 Rooms whole_rooms() {
-  Rooms rooms{{{"volcano", "volcano", 2, 3, 0}}};
+  Rooms rooms{{{"volcano", "volcano", 2, 3, 0, "FKTPZ", "10.0.0.6:7777"}}};
   [[maybe_unused]] const auto& [list] = rooms;
-  [[maybe_unused]] const auto& [name, map, players, bots, spectators] = rooms.rooms.front();
+  [[maybe_unused]] const auto& [name, map, players, bots, spectators, code, address] = rooms.rooms.front();
   return rooms;
 }
 

@@ -192,7 +192,7 @@ class Pace {
       std::make_shared<AddressAccount>(1, "10.0.0.1", *limits_.now(), timekeeper_.now());
   TrafficMetrics traffic_;
   OneRoom directory_{room_->door()};
-  SessionEnvironment environment_{&directory_, limits_, traffic_, timekeeper_, "woodlouse", log_};
+  SessionEnvironment environment_{directory_, limits_, traffic_, timekeeper_, "woodlouse", log_};
   std::size_t layouts_;
   std::vector<QuietWire*> wires_;
   std::vector<std::shared_ptr<Session>> sessions_;

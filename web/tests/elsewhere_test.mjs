@@ -117,3 +117,11 @@ test('hosts and addresses of another kind are no message', () => {
   assert.deepEqual(decoded(JSON.stringify(HELLO)).hosts, ['10.0.0.6:7778']);
   for (const wrong of [{ ...HELLO, hosts: 'x' }, { ...HELLO, hosts: [7] }, { ...moved('bye', 7) }, { ...moved('error', []) }]) assert.throws(() => decoded(JSON.stringify(wrong)), /other fields/);
 });
+
+test('a room is told with its code and, where it is at another server, its address', () => {
+  const rooms = (room) => decoded(JSON.stringify({ type: 'rooms', rooms: [{ name: 'hills', map: 'hills', players: 1, bots: 0, spectators: 0, ...room }] }));
+  assert.equal(rooms({ code: 'BXDRM', address: '10.0.0.6:7777' }).rooms[0].address, '10.0.0.6:7777');
+  assert.equal(rooms({}).rooms[0].code, undefined);  // a former server tells none
+  assert.throws(() => rooms({ address: 7777 }));
+  assert.throws(() => rooms({ code: null }));
+});

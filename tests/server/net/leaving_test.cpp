@@ -77,7 +77,7 @@ struct Visit {
   OneRoom directory{house.door};
   LiveLimits limits{{}};
   TrafficMetrics traffic;
-  SessionEnvironment environment{&directory, limits, traffic, house.timekeeper, "woodlouse a.b.c", house.log};
+  SessionEnvironment environment{directory, limits, traffic, house.timekeeper, "woodlouse a.b.c", house.log};
   std::shared_ptr<FarEnd> far = std::make_shared<FarEnd>(house.lanes[0]);
   std::shared_ptr<AddressAccount> address =
       std::make_shared<AddressAccount>(1, "10.0.0.1", *limits.now(), house.timekeeper.now());

@@ -48,7 +48,7 @@ const SHAPES = {
   map: { name: text, hash: text, definition: objectOf({}), 'overview?': flag, 'knots?': objectOf({ origin: pair, spacing: pair, heights: any }) },
   records: { board: text, count: whole, rows: listOf(objectOf({ ...run, rank: whole })) },
   ghost: { ...run, start: whole, behavior: whole, tick_hz: whole, spawn: whole, ticks: whole, inputs: listOf(listOf(number), 100000) },
-  rooms: { rooms: listOf(objectOf({ name: text, map: text, players: whole, bots: whole, spectators: whole }), MOST_OF_RULES) },
+  rooms: { rooms: listOf(objectOf({ name: text, map: text, players: whole, bots: whole, spectators: whole, 'code?': text, 'address?': text }), MOST_OF_RULES) },
   notice: said,
   error: { ...said, fatal: flag, 'retry_after_ms?': number, 'address?': text },
   bye: { ...said, resumable: flag, 'address?': text },

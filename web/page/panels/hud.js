@@ -53,13 +53,15 @@ export class TopBar {
   rooms(names, counts, chosen) {
     const labels = names.map((name) => {
       const room = counts.find((each) => each.name === name), lice = room ? room.players + room.bots : 0;
-      return lice ? `${name} (${lice})` : name;
+      return (lice ? `${name} (${lice})` : name) + (room?.address ? ', at another server' : '');
     });
     const select = byId('room'), said = [...labels, chosen].join('\n');
     if (said === this.#rooms || document.activeElement === select && labels.length === select.options.length) return;
     this.#rooms = said;
     fillChildren(select, names, () => made('option'), (option, name, k) => { option.value = name; setText(option, labels[k]); });
     select.value = chosen;
+    const code = counts.find((each) => each.name === chosen)?.code;
+    select.title = code ? `the room's code, to join it by: ${code}` : '';
   }
 
   /** @param {{text: string, tone: string, why?: string}} proof */
