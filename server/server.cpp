@@ -75,7 +75,8 @@ Server::Server(const ServeConfig& config, Outside outside, std::shared_ptr<spdlo
                     log_),
       moderation_(strand_, lobby_, acceptor_, *doorman_, ban_desk_, log_),
       metrics_({lobby_, traffic_, limits_, timekeeper_, companions_.recordings(), outside_.lost_log_lines,
-                kVersion}),
+                kVersion,
+                [this] { return cluster_ ? std::optional(cluster_->cluster().figures()) : std::nullopt; }}),
       operator_(
           strand_, lobby_, traffic_, timekeeper_, metrics_,
           {room_control_, moderation_, *doorman_, [this](auto done) { reload("admin", std::move(done)); },

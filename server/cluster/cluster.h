@@ -16,6 +16,7 @@
 #include "server/cluster/cluster_settings.h"
 #include "server/cluster/host_table.h"
 #include "server/room/tick_watcher.h"
+#include "server/timing/cluster_figures.h"
 #include "shared/core/error.h"
 #include "shared/match/match.h"
 #include "shared/protocol/messages.h"
@@ -91,6 +92,7 @@ class Cluster {
   [[nodiscard]] virtual std::vector<HostedRoom> rooms_elsewhere() const = 0;
   /// Addresses of other hosts at which its rooms may be found.
   [[nodiscard]] virtual std::vector<std::string> hosts() const = 0;
+  [[nodiscard]] virtual ClusterFigures figures() const = 0;
   /// Where who is here is to go when this host leaves; `wanted`: if that one, by its name, stands by.
   /// Nothing: nobody stands by.
   [[nodiscard]] virtual std::optional<std::string> successor(const std::string& wanted = {}) const = 0;

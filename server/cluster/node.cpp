@@ -125,6 +125,14 @@ std::vector<HostedRoom> Node::rooms_elsewhere() const {
   return rooms;
 }
 
+ClusterFigures Node::figures() const {
+  const Time now = Clock::now();
+  ClusterFigures figures = told_.figures(table_.hosts(now), now);
+  figures.shard = settings_.shard;
+  figures.connected = !is_cut_off();
+  return figures;
+}
+
 std::vector<std::string> Node::hosts() const {
   constexpr std::size_t kMost = 16;
   return table_.addresses(Clock::now(), kMost);

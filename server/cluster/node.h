@@ -23,6 +23,7 @@
 #include "server/cluster/inbox.h"
 #include "server/cluster/log_writer.h"
 #include "server/cluster/nats_link.h"
+#include "server/cluster/node_figures.h"
 #include "server/cluster/shard_text.h"
 #include "server/cluster/shard_view.h"
 #include "server/logging/events.h"
@@ -59,6 +60,7 @@ class Node final : public Cluster {
   [[nodiscard]] std::optional<std::string> elsewhere(std::string_view room) const override;
   [[nodiscard]] bool is_on_its_way(std::string_view room) const override;
   [[nodiscard]] std::vector<HostedRoom> rooms_elsewhere() const override;
+  [[nodiscard]] ClusterFigures figures() const override;
   [[nodiscard]] std::vector<std::string> hosts() const override;
   void begin_leaving(const std::string& to) override;
   void hand_over() override;
@@ -84,7 +86,7 @@ class Node final : public Cluster {
   [[nodiscard]] bool take_over();
   [[nodiscard]] bool catch_up();
   [[nodiscard]] bool take_log();
-  [[nodiscard]] std::vector<RoomToGoOn> rooms_to_go_on() const;
+  [[nodiscard]] std::vector<RoomToGoOn> rooms_to_go_on();
   void own();
   void tell_owning();
   void ask_the_log();
@@ -105,7 +107,10 @@ class Node final : public Cluster {
   // The beating thread:
   void beat(const std::stop_token& stop);
 
-  void say(LogEvent event, const std::string& text) const { log_event(*log_, event, "cluster: " + text); }
+  void say(LogEvent event, const std::string& text) {
+    told_.count(event);
+    log_event(*log_, event, "cluster: " + text);
+  }
 
   const ClusterSettings settings_;
   const Hooks hooks_;                     ///< none of one that only shows
@@ -114,6 +119,7 @@ class Node final : public Cluster {
   const std::shared_ptr<Inbox> inbox_ = std::make_shared<Inbox>();
   const std::uint64_t process_ = make_resume_token()[0];
   HostTable table_;
+  NodeFigures told_;
   std::unique_ptr<NatsLink> log_link_, beat_link_;
 
   // The node's thread's:

@@ -174,6 +174,7 @@ void Node::tell_following(Time now) {
   beat_.leaves = is_leaving_ || is_drained_;
   beat_.ready = !is_drained_ && view_ && view_->head() && !has_differed_ && !has_lost_rooms_ &&
                 !view_->has_gap() && !is_cut_off();
+  told_.follow(beat_.ready, has_differed_, view_ ? view_->sequence() : 0);
   beat_.silent_ms = static_cast<std::uint64_t>(
       std::chrono::duration_cast<std::chrono::milliseconds>(view_ ? silence(now) : Duration{}).count());
   if (!view_) return;
@@ -299,7 +300,7 @@ bool Node::take_log() {
   return false;
 }
 
-std::vector<RoomToGoOn> Node::rooms_to_go_on() const {
+std::vector<RoomToGoOn> Node::rooms_to_go_on() {
   std::vector<RoomToGoOn> rooms;
   for (const auto& [name, room] : view_->rooms()) {
     const match::Match* match = room.follower->match();

@@ -47,6 +47,7 @@ void Node::ask_the_log() {
 }
 
 void Node::tell_owning() {
+  told_.own(*writer_, Clock::now());
   const std::lock_guard lock(mutex_);
   known_rooms_.clear();
   for (const RoomPlace& place : text_->places()) known_rooms_.push_back(place.room);

@@ -47,13 +47,25 @@ enum class Family : std::uint8_t {
   kWebRefused,
   kWebSessions,
   kLogLinesLost,
+  kClusterOwns,
+  kClusterReady,
+  kClusterDiffers,
+  kClusterConnected,
+  kClusterHosts,
+  kClusterSequence,
+  kClusterWaiting,
+  kClusterUnacknowledged,
+  kClusterStored,
+  kClusterTakeovers,
+  kClusterFenced,
+  kClusterHoles,
   kProcessStart,
   kProcessCpu,
   kProcessMemory,
   kProcessDescriptors,
   kProcessDescriptorsLimit,
 };
-inline constexpr std::size_t kFamilyCount = 39;
+inline constexpr std::size_t kFamilyCount = 51;
 
 struct FamilyEntry {
   std::string_view name;

@@ -95,6 +95,41 @@ std::string status_of(Room& room) {
   return line;
 }
 
+void add_cluster(Scrape& scrape, const ClusterFigures& cluster) {
+  const auto flag = [](bool is) { return is ? 1.0 : 0.0; };
+  scrape.add(Family::kClusterOwns, flag(cluster.owns));
+  scrape.add(Family::kClusterReady, flag(cluster.ready));
+  scrape.add(Family::kClusterDiffers, flag(cluster.differs));
+  scrape.add(Family::kClusterConnected, flag(cluster.connected));
+  scrape.add(Family::kClusterHosts, static_cast<double>(cluster.owners), "owns");
+  scrape.add(Family::kClusterHosts, static_cast<double>(cluster.standing_by), "stands_by");
+  scrape.add(Family::kClusterHosts, static_cast<double>(cluster.others), "other");
+  scrape.add(Family::kClusterSequence, cluster.sequence);
+  scrape.add(Family::kClusterWaiting, cluster.waiting);
+  scrape.add(Family::kClusterUnacknowledged, as_seconds(cluster.unacknowledged));
+  scrape.add(Family::kClusterStored, cluster.stored);
+  scrape.add(Family::kClusterTakeovers, cluster.takeovers);
+  scrape.add(Family::kClusterFenced, cluster.fenced);
+  scrape.add(Family::kClusterHoles, cluster.holes);
+}
+
+std::string status_of(const ClusterFigures& cluster) {
+  std::string line = fmt::format("cluster: shard {}: ", cluster.shard);
+  if (cluster.owns)
+    line += fmt::format("owns its rooms, stored up to batch {}, {} wait", cluster.sequence, cluster.waiting);
+  else
+    line += fmt::format("{}, has read up to batch {}", cluster.ready ? "stands by" : "CAN'T TAKE OVER",
+                        cluster.sequence);
+  if (cluster.unacknowledged > std::chrono::seconds(1))
+    line += fmt::format("; NOTHING STORED for {:.1f} s", as_seconds(cluster.unacknowledged));
+  line += fmt::format("; other hosts: {} own, {} stand by, {} can't; takeovers {}, fenced {}, holes {}",
+                      cluster.owners, cluster.standing_by, cluster.others, cluster.takeovers, cluster.fenced,
+                      cluster.holes);
+  if (cluster.differs) line += "; FOLLOWER DIFFERS";
+  if (!cluster.connected) line += "; NATS IS NOT CONNECTED";
+  return line;
+}
+
 }  // namespace
 
 Metrics::Metrics(Sources sources) : sources_(std::move(sources)) { assert(sources_.lost_log_lines); }
@@ -105,6 +140,7 @@ std::string Metrics::text() const {
              std::to_string(protocol::kProtocolVersion));
   add_rooms(scrape);
   add_traffic(scrape);
+  if (const auto cluster = cluster_figures()) add_cluster(scrape, *cluster);
   add_process(scrape);
   return scrape.text();
 }
@@ -173,6 +209,7 @@ std::string Metrics::status() const {
       1e-6 * static_cast<double>(process.resident_bytes.value_or(0)), process.open_descriptors.value_or(0),
       process.max_descriptors ? fmt::format("{}", *process.max_descriptors) : std::string("any number of"),
       sources_.lost_log_lines());
+  if (const auto cluster = cluster_figures()) text += '\n' + status_of(*cluster);
   for (const std::shared_ptr<Room>& room : sources_.lobby.rooms()) {
     text += '\n' + status_of(*room);
     if (room->next_tick().is_too_late(sources_.timekeeper.now())) text += "; TICKS OVERDUE";

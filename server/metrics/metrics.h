@@ -9,6 +9,7 @@
 
 #include "server/metrics/process.h"
 #include "server/room/lobby.h"
+#include "server/timing/cluster_figures.h"
 #include "server/timing/figures.h"
 #include "server/timing/live_limits.h"
 #include "server/timing/timekeeper.h"
@@ -31,6 +32,8 @@ class Metrics {
     const std::optional<Recordings>& recordings;
     std::function<std::uint64_t()> lost_log_lines;
     std::string_view version;
+    /// Its part in a cluster; any thread. Nothing: it is in none.
+    std::function<std::optional<ClusterFigures>()> cluster{};
   };
   explicit Metrics(Sources sources);
 
@@ -38,14 +41,17 @@ class Metrics {
   [[nodiscard]] std::string text() const;
   static constexpr std::string_view kContentType = "text/plain; version=0.0.4; charset=utf-8";
 
-  /// The figures that tell how it is, for people: a line for the server and one a room, the last one without
-  /// its end.
+  /// The figures that tell how it is, for people: a line for the server, one for its cluster and one a room,
+  /// the last one without its end.
   [[nodiscard]] std::string status() const;
 
  private:
   void add_rooms(Scrape& scrape) const;
   void add_traffic(Scrape& scrape) const;
   void add_process(Scrape& scrape) const;
+  [[nodiscard]] std::optional<ClusterFigures> cluster_figures() const {
+    return sources_.cluster ? sources_.cluster() : std::nullopt;
+  }
 
   const Sources sources_;
   Process process_;

@@ -1,4 +1,4 @@
-"""What each host of a cluster tells of all of its rooms, by lines and by HTTP.
+"""What each host of a cluster tells of all of its rooms, by lines, by HTTP and in figures.
 
 Usage: directory_test.py [TestCase.test ...]"""
 
@@ -18,8 +18,10 @@ from faults_test import Cluster
 
 SOURCE = pathlib.Path(stage.MAPS).parent
 sys.path.insert(0, str(SOURCE / "bots" / "python"))
+sys.path[:0] = [str(SOURCE / "tests" / "e2e" / part) for part in ("metrics", "server")]
 
 import woodlouse  # noqa: E402
+from scrape import Scrape, UnixConnection, documented  # noqa: E402
 
 
 class Client:
@@ -141,6 +143,67 @@ class Directory(Cluster):
             self.assertEqual(client.join(rooms[2]["code"])["address"], second.address)
         with Client(second.address) as client:
             self.assertEqual(client.join(rooms[2]["code"])["room"], "volcano")
+
+
+class Figures(Cluster):
+    def admin(self, name):
+        return os.path.join(self.nats.folder, f"{name}.sock")
+
+    def scrape(self, name):
+        connection = UnixConnection(self.admin(name))
+        connection.request("GET", "/metrics")
+        text = connection.getresponse().read().decode()
+        connection.close()
+        return Scrape(text)
+
+    def wait_for_figures(self, name, condition):
+        end = time.monotonic() + stage.PATIENCE
+        while not condition(scrape := self.scrape(name)):
+            assert time.monotonic() < end, scrape.text
+            time.sleep(0.05)
+        return scrape
+
+    def test_each_host_tells_its_part(self):
+        first = self.host("a", "--admin", self.admin("a"))
+        first.wait_for("cluster_owns")
+        second = self.host("b", "--admin", self.admin("b"))
+        second.wait_for("cluster_follows")
+        with Client(first.address) as client:
+            client.join("volcano")
+            owner = self.wait_for_figures("a", lambda s: s["woodlouse_cluster_hosts", "stands_by"] == 1 and
+                                          s["woodlouse_cluster_batches_stored_total"] > 3)
+        told = {name: (owner.types[name], labels) for name, labels in owner.labels.items() if "_cluster_" in name}
+        self.assertEqual(told, {name: what for name, what in documented().items() if "_cluster_" in name})
+        for name, value in (("owns", 1), ("ready", 0), ("connected", 1), ("differs", 0), ("takeovers_total", 1), ("fenced_total", 0),
+                            ("holes_total", 0)):
+            self.assertEqual(owner["woodlouse_cluster_" + name], value, name)
+        self.assertLess(owner["woodlouse_cluster_unacknowledged_seconds"], 2)
+        follower = self.wait_for_figures("b", lambda s: s["woodlouse_cluster_ready"] == 1 and s["woodlouse_cluster_hosts", "owns"] == 1)
+        self.assertEqual(follower["woodlouse_cluster_owns"], 0)
+        self.assertEqual(follower["woodlouse_cluster_batches_stored_total"], 0)
+        self.assertGreaterEqual(follower["woodlouse_cluster_batch"], owner["woodlouse_cluster_batch"] - 5)
+
+        first.signal(signal.SIGSTOP)
+        second.wait_for("cluster_owns")
+        first.signal(signal.SIGCONT)
+        fenced = self.wait_for_figures("a", lambda s: s["woodlouse_cluster_fenced_total"] == 1 and s["woodlouse_cluster_ready"] == 1)
+        self.assertEqual(fenced["woodlouse_cluster_owns"], 0)
+        self.assertEqual(self.scrape("b")["woodlouse_cluster_takeovers_total"], 1)
+
+        said = subprocess.run([stage.PROGRAM, "admin", "--socket", self.admin("b"), "status"], capture_output=True, text=True, timeout=30)
+        self.assertRegex(said.stdout, r"cluster: shard main: owns its rooms, stored up to batch \d+, .*1 stand by.*takeovers 1", said.stderr)
+
+        with Client(second.address) as client:
+            client.join("volcano")
+            self.nats.kill(0)
+            cut = self.wait_for_figures("b", lambda s: s["woodlouse_cluster_unacknowledged_seconds"] > 2)
+            self.assertEqual(cut["woodlouse_cluster_connected"], 0)
+            self.assertGreater(cut["woodlouse_cluster_batches_waiting"], 5)
+            self.nats.start(0)
+            back = self.wait_for_figures("b", lambda s: s["woodlouse_cluster_connected"] == 1 and
+                                         s["woodlouse_cluster_batches_waiting"] <= 1)
+            self.assertLess(back["woodlouse_cluster_unacknowledged_seconds"], 2)
+            self.assertEqual(back["woodlouse_cluster_holes_total"], 0)
 
 
 if __name__ == "__main__":

@@ -31,11 +31,13 @@ bool has(const std::string& text, std::string_view wanted) { return text.find(wa
 struct Watched : House {
   explicit Watched(Watchers watchers = {}) : House(settings(8), open(), std::move(watchers)) {}
 
+  std::optional<ClusterFigures> cluster;
   Lobby lobby;
   TrafficMetrics traffic;
   LiveLimits limits{protocol::Limits{}};
   std::optional<Recordings> recordings;
-  Metrics metrics{{lobby, traffic, limits, timekeeper, recordings, [] { return std::uint64_t{7}; }, "1.2.3"}};
+  Metrics metrics{{lobby, traffic, limits, timekeeper, recordings, [] { return std::uint64_t{7}; }, "1.2.3",
+                   [this] { return cluster; }}};
 };
 
 /// Finds something out while the room stands still.
@@ -192,6 +194,51 @@ TEST_CASE("what was counted is told by its code, reason and status, each of whic
   CHECK(has(text, "woodlouse_web_requests_total 2\n"));
   CHECK(has(text, "woodlouse_log_lines_lost_total 7\n"));
   CHECK(has(text, "woodlouse_build_info{version=\"1.2.3\",behavior=\""));
+}
+
+TEST_CASE("a host of a cluster tells its part in it, and who is in none tells nothing of one") {
+  Watched server;
+  CHECK_FALSE(has(server.metrics.text(), "woodlouse_cluster_"));
+  CHECK_FALSE(has(server.metrics.status(), "cluster"));
+  ClusterFigures figures;
+  figures.shard = "main";
+  figures.owns = figures.connected = true;
+  figures.sequence = 61;
+  figures.waiting = 3;
+  figures.unacknowledged = std::chrono::milliseconds(2500);
+  figures.stored = 40;
+  figures.takeovers = 2;
+  figures.fenced = 1;
+  figures.holes = 5;
+  figures.standing_by = 2;
+  figures.others = 4;
+  server.cluster = figures;
+  const std::string text = server.metrics.text();
+  CHECK(has(text, "woodlouse_cluster_owns 1\n"));
+  CHECK(has(text, "woodlouse_cluster_ready 0\n"));
+  CHECK(has(text, "woodlouse_cluster_differs 0\n"));
+  CHECK(has(text, "woodlouse_cluster_connected 1\n"));
+  CHECK(has(text, "woodlouse_cluster_hosts{role=\"owns\"} 0\n"));
+  CHECK(has(text, "woodlouse_cluster_hosts{role=\"stands_by\"} 2\n"));
+  CHECK(has(text, "woodlouse_cluster_hosts{role=\"other\"} 4\n"));
+  CHECK(has(text, "woodlouse_cluster_batch 61\n"));
+  CHECK(has(text, "woodlouse_cluster_batches_waiting 3\n"));
+  CHECK(has(text, "woodlouse_cluster_unacknowledged_seconds 2.5\n"));
+  CHECK(has(text, "woodlouse_cluster_batches_stored_total 40\n"));
+  CHECK(has(text, "woodlouse_cluster_takeovers_total 2\n"));
+  CHECK(has(text, "woodlouse_cluster_fenced_total 1\n"));
+  CHECK(has(text, "woodlouse_cluster_holes_total 5\n"));
+  const std::string owner = "\ncluster: shard main: owns its rooms, stored up to batch 61, 3 wait";
+  CHECK(has(server.metrics.status(),
+            owner + "; NOTHING STORED for 2.5 s; other hosts: 0 own, 2 stand by, 4 can't"));
+
+  server.cluster = ClusterFigures{};
+  server.cluster->differs = true;
+  CHECK(has(server.metrics.text(), "woodlouse_cluster_differs 1\n"));
+  CHECK(has(server.metrics.status(), "CAN'T TAKE OVER"));
+  CHECK(has(server.metrics.status(), "FOLLOWER DIFFERS; NATS IS NOT CONNECTED"));
+  server.cluster->ready = true;
+  CHECK(has(server.metrics.status(), "stands by, has read up to batch 0"));
 }
 
 TEST_CASE("how many descriptors are open is known, and when none is left, too") {
