@@ -11,6 +11,7 @@ Playout::Playout(std::uint32_t tick_hz, Duration delay) : tick_hz_(tick_hz), del
 
 /// Whole seconds apart: ticks times nanoseconds would not fit after some years.
 Duration Playout::after(std::uint64_t ticks) const {
+  assert(is_of_a_game(ticks));
   constexpr std::uint64_t kSecond = std::chrono::nanoseconds(std::chrono::seconds(1)).count();
   const std::uint64_t rest = ticks % tick_hz_ * kSecond / tick_hz_;
   return std::chrono::duration_cast<Duration>(
@@ -19,6 +20,7 @@ Duration Playout::after(std::uint64_t ticks) const {
 }
 
 void Playout::came(std::uint64_t tick, Time now) {
+  if (!is_of_a_game(tick)) return;
   const Time seen = now - after(tick);
   const bool is_first = !origin_;
   if (is_first || seen <= *origin_ || seen - *origin_ > kStood) {
@@ -37,7 +39,7 @@ void Playout::came(std::uint64_t tick, Time now) {
 }
 
 Time Playout::due(std::uint64_t tick) const {
-  if (!origin_) return Time::min();
+  if (!origin_ || !is_of_a_game(tick)) return Time::min();
   return *origin_ + after(tick) + delay_;
 }
 

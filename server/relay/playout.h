@@ -22,12 +22,16 @@ class Playout {
   /// tick_hz >= 1. delay: from one part to the next, and what their ways differ by.
   Playout(std::uint32_t tick_hz, Duration delay);
 
-  /// All steps before `tick` are here.
+  /// No game lasts longer: what says so is none. [s]
+  static constexpr std::uint64_t kLongestGame = std::uint64_t{1} << 32;
+
+  /// All steps before `tick` are here. One of no game says nothing.
   void came(std::uint64_t tick, Time now);
-  /// When step `tick` is to be shown; before anything came: at once.
+  /// When step `tick` is to be shown; before anything came, or of no game: at once.
   [[nodiscard]] Time due(std::uint64_t tick) const;
 
  private:
+  [[nodiscard]] bool is_of_a_game(std::uint64_t tick) const { return tick / tick_hz_ <= kLongestGame; }
   [[nodiscard]] Duration after(std::uint64_t ticks) const;
 
   std::uint32_t tick_hz_;

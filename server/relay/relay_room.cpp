@@ -37,7 +37,9 @@ std::uint64_t end_of(std::string_view line, std::uint64_t step) {
   constexpr std::string_view kSteps = R"("steps":)";
   const std::size_t at = line.find(kSteps);
   const auto steps = at == std::string_view::npos ? std::nullopt : number_behind(line.substr(at), kSteps);
-  return step + std::clamp<std::uint64_t>(steps.value_or(1), 1, replay::kMaxStepsBetweenKeyframes);
+  const std::uint64_t count =
+      std::clamp<std::uint64_t>(steps.value_or(1), 1, replay::kMaxStepsBetweenKeyframes);
+  return step > UINT64_MAX - count ? UINT64_MAX : step + count;
 }
 
 protocol::ErrorMessage error(std::string_view code, std::string text) {

@@ -1,7 +1,8 @@
-// What NATS brings: batches of a log and beats of hosts. What passes is read to its end without harm, the
-// rooms it tells of are re-run, and what does not says why on one line.
+// What NATS brings: batches of a log, beats of hosts, an operator's orders. What passes is read to its end
+// without harm, the rooms it tells of are re-run, and what does not says why on one line.
 //
-// Input: a letter, 'b' a batch's text (packed here), 'p' a batch as it comes, 't' a beat; and that.
+// Input: a letter, 'b' a batch's text (packed here), 'p' a batch as it comes, 't' a beat, 'o' an order to
+// move; and that.
 #include <cstdint>
 #include <memory>
 #include <sstream>
@@ -57,6 +58,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       demand_readable(beat.error().text().substr(0, fuzz::kMaxErrorBytes));
     else
       demand(beat_from(to_text(*beat)) == *beat, "a beat comes back as it was");
+  }
+  if (data[0] == 'o') {
+    const auto order = move_order_from(text);
+    if (!order) {
+      demand_readable(order.error().text().substr(0, fuzz::kMaxErrorBytes));
+    } else {
+      const auto again = move_order_from(to_text(*order));
+      demand(again && again->from == order->from && again->to == order->to, "an order comes back as it was");
+    }
   }
   return 0;
 }

@@ -57,4 +57,19 @@ TEST_CASE("an old game's ticks are due where they are") {
   CHECK(playout.due(kYears + 500) == at(600));
 }
 
+TEST_CASE("a tick that no game reaches says nothing") {
+  for (const std::uint32_t hz : {1u, 60u, 1000u}) {
+    Playout playout(hz, milliseconds(100));
+    playout.came(100, at(0));
+    const Time due = playout.due(100);
+    for (const std::uint64_t tick : {UINT64_MAX, UINT64_MAX - 1, (Playout::kLongestGame + 1) * hz}) {
+      playout.came(tick, at(50));
+      CHECK(playout.due(tick) < kBegin);
+    }
+    CHECK(playout.due(100) == due);
+    playout.came(Playout::kLongestGame * hz, at(100));  // far, but a game's
+    CHECK(playout.due(Playout::kLongestGame * hz) == at(200));
+  }
+}
+
 }  // namespace woodlouse::server

@@ -275,6 +275,28 @@ TEST_CASE("a line that was altered ends what is shown, and who watched is told")
   CHECK(late->refusals.size() == 1);
 }
 
+TEST_CASE("whatever stands in a log, it ends what is shown and nothing else") {
+  for (const char* wrong :
+       {R"({"step":18446744073709551615,"hash":"0000000000000000"})",
+        R"({"step":18446744073709551615,"steps":18446744073709551615,"hash":"0000000000000000"})",
+        R"({"step":1000000,"hash":"0000000000000000"})", R"({"step":-1})", R"({"step":)", "", "{",
+        R"({"chat":1})", R"({"keyframe":18446744073709551615})", R"({"keyframe":99999999,"hash":"x"})",
+        R"({"end":1})"}) {
+    INFO(wrong);
+    Edge edge;
+    edge.shard.open();
+    edge.go_on(3);
+    const auto eve = edge.join(2, watching("eve"));
+    edge.room->take({wrong});
+    edge.pass(milliseconds(600));
+    edge.shard.step(6);
+    edge.come();
+    edge.pass(milliseconds(600));
+    CHECK(edge.lost.empty() == eve->byes.empty());
+    CHECK((!edge.lost.empty() || eve->frames.back().tick + 3 >= edge.shard.game->tick()));
+  }
+}
+
 TEST_CASE("where a room is shown there are places, too") {
   Edge edge(2);
   edge.shard.open();
