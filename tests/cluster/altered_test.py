@@ -121,6 +121,8 @@ class Disk(Altered):
 
 
 class Forged(Altered):
+    settings = {"silence_ms": 2000}  # longer than an owner is stopped here
+
     def forge(self, owner):
         """Adds a batch in the owner's name, while it is stopped for a moment: its next one, but the hash of a tick is another one. The
         tick that it leads to."""
@@ -161,7 +163,7 @@ class Forged(Altered):
                 bot.addresses = [second.address]
             first.signal(signal.SIGKILL)
             first.process.wait()
-            time.sleep(3)
+            time.sleep(6)
             self.assertNotIn("cluster_owns", second.log())
             second.end()
             again = self.host("b")  # it begins at the keyframe behind the forged batch
