@@ -120,6 +120,14 @@ int status(NatsLink& link, const ClusterSettings& settings, std::ostream& out, s
   return code;
 }
 
+/// Of ten thousands of reads one may come too late.
+core::Expected<NatsLink::Message> read_patiently(NatsLink& link, std::uint64_t sequence) {
+  constexpr int kTries = 20;
+  auto message = link.read(sequence);
+  for (int tried = 1; !message && tried < kTries; ++tried) message = link.read(sequence);
+  return message;
+}
+
 int fsck(NatsLink& link, const ClusterErrand& errand, std::ostream& out, std::ostream& err) {
   const auto state = link.stream_state();
   if (!state) return report(state.error(), err);
@@ -128,7 +136,7 @@ int fsck(NatsLink& link, const ClusterErrand& errand, std::ostream& out, std::os
   std::size_t epochs = 0;
   std::string writer;
   for (std::uint64_t sequence = state->first; sequence != 0 && sequence <= state->last; ++sequence) {
-    const auto message = link.read(sequence);
+    const auto message = read_patiently(link, sequence);
     if (!message) return report(message.error(), err);
     const auto batch = unpack(message->bytes, core::joined({"batch ", std::to_string(sequence)}));
     if (!batch) {
