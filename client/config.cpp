@@ -37,6 +37,7 @@ struct Raw {
   KeyMap keys{};
   int fps = 30;
   bool watch = false;
+  bool rooms = false;
   bool verify = false;
   bool no_files = false;
   bool bell = false;
@@ -68,6 +69,7 @@ Raw raw_of(const Config& config) {
           .keys = config.keys,
           .fps = config.fps,
           .watch = config.part == Part::kWatch,
+          .rooms = config.part == Part::kRooms,
           .verify = config.hashes == Hashes::kVerified,
           .no_files = config.no_files,
           .bell = config.bell,
@@ -118,6 +120,8 @@ core::Expected<Config> understood(const Raw& raw) {
     return core::fail("name", "it has " + std::to_string(raw.name.size()) + " bytes",
                       "from 1 to 24 bytes of UTF-8");
   }
+  if (raw.rooms && (raw.server.empty() || !raw.recording.empty()))
+    return core::fail("rooms", "no server is named", "woodlouse --rooms HOST:PORT");
   if (raw.no_files && !raw.recording.empty())
     return core::fail("replay", "a recording is a file, and --no-files forbids all of them");
   config.no_files = raw.no_files;
@@ -130,6 +134,7 @@ core::Expected<Config> understood(const Raw& raw) {
   if (!token) return tl::unexpected(token.error());
   config.token = std::move(*token);
   config.part = !raw.recording.empty() ? Part::kReplay : raw.watch ? Part::kWatch : Part::kPlay;
+  if (raw.rooms) config.part = Part::kRooms;
   config.recording = raw.recording;
   config.maps = raw.maps;
   config.hashes = raw.verify ? Hashes::kVerified : Hashes::kIgnored;
@@ -184,7 +189,9 @@ void add_options(CLI::App& app, Raw& raw) {
   app.add_option("--name", raw.name, "your name, at most 24 bytes")
       ->envname("WOODLOUSE_NAME")
       ->capture_default_str();
-  app.add_option("--room", raw.room, "room of the server; default: its first")->envname("WOODLOUSE_ROOM");
+  app.add_option("--room", raw.room, "room of the server, or its code; default: its first")
+      ->envname("WOODLOUSE_ROOM");
+  app.add_flag("--rooms", raw.rooms, "only list the rooms of the server and its cluster");
   app.add_option("--token", raw.token, "password of the server; others may see it in a list of processes")
       ->envname("WOODLOUSE_TOKEN");
   app.add_option("--password-file", raw.password_file, "file whose first line is that password")

@@ -19,6 +19,7 @@ enum class Part : std::uint8_t {
   kPlay,
   kWatch,
   kReplay,  ///< a recording; no server
+  kRooms,   ///< a list of a server's rooms; REQUIRES a server
 };
 
 struct Config {

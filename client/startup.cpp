@@ -22,6 +22,7 @@
 #include "client/play/modes/ghost_file.h"
 #include "client/play/session.h"
 #include "client/play/text_game.h"
+#include "client/room_list.h"
 #include "client/terminal/outcome.h"
 #include "client/watch_recording.h"
 #include "shared/map/map_search_file.h"
@@ -195,6 +196,13 @@ Outcome join_and_play(const Config& config, std::unique_ptr<OpenedTerminal> term
 int run_client(const Config& given) {
   Config config = given;
   assert(!config.no_files || (config.server && config.part != Part::kReplay));
+  if (config.part == Part::kRooms) {
+    const auto rooms = ask_for_rooms(*config.server);
+    if (!rooms)
+      return complain(kExitUnreachable, rooms.error().where + ": " + rooms.error().what, rooms.error().hint);
+    std::cout << table_of(*rooms);
+    return kExitFine;
+  }
   const bool as_text = config.glyphs == GlyphChoice::kText;
   if (config.part == Part::kReplay && (as_text || isatty(STDOUT_FILENO) == 0)) {
     return complain(

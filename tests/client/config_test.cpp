@@ -295,3 +295,12 @@ TEST_CASE("without files there is no server to start, and no recording to watch"
     REQUIRE(parsed.output.find("--no-files") != std::string::npos);
   }
 }
+
+TEST_CASE("rooms are listed of a server that is named") {
+  Environment environment;
+  CHECK(parse({"--rooms", "farm.example:7777"}).config.part == Part::kRooms);
+  CHECK(parse({"farm.example", "--rooms"}).config.server->host == "farm.example");
+  CHECK(parse({"--rooms"}).exit_code == 2);
+  CHECK(parse({"--rooms"}).output.find("--rooms HOST:PORT") != std::string::npos);
+  CHECK(parse({"farm.example"}).config.part == Part::kPlay);
+}

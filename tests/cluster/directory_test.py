@@ -6,6 +6,7 @@ import http.client
 import json
 import os
 import pathlib
+import re
 import signal
 import socket
 import subprocess
@@ -16,6 +17,7 @@ import unittest
 import stage
 from faults_test import Cluster
 
+CLIENT = os.environ["WOODLOUSE_CLIENT"]
 SOURCE = pathlib.Path(stage.MAPS).parent
 sys.path.insert(0, str(SOURCE / "bots" / "python"))
 sys.path[:0] = [str(SOURCE / "tests" / "e2e" / part) for part in ("metrics", "server")]
@@ -108,6 +110,10 @@ class Directory(Cluster):
         with woodlouse.connect(second.address, name="kit", room=code) as game:
             self.assertEqual(game.room, "hills")
             self.assertEqual({room["name"] for room in game.rooms()}, {"volcano", "hills"})
+
+        listed = subprocess.run([CLIENT, "--no-files", "--rooms", second.address], capture_output=True, text=True, timeout=30)
+        self.assertEqual(listed.returncode, 0, listed.stderr)
+        self.assertRegex(listed.stdout, rf"(?m)^hills +hills +\d+ +\d+ +\d+  {own['hills']['code']}  {re.escape(first.address)}$")
 
         with Client(second.address) as watcher:
             watcher.say(type="list", watch=True)
