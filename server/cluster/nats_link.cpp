@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <mutex>
-#include <optional>
 #include <utility>
 #include <vector>
 
+#include "server/cluster/ear.h"
 #include "shared/core/joined.h"
 
 namespace woodlouse::server {
@@ -51,58 +50,6 @@ core::Error connection_error(natsStatus status, const ClusterSettings& settings)
   return {error.where, error.what, "is nats-server running there, with -js?"};
 }
 
-/// Who hears of something. libnats doesn't say when its last call is over: an ear that is closed hears
-/// nothing, and is kept, to be another's after a while.
-class Ear {
- public:
-  static Ear* make(NatsLink::Told told, NatsMessageTaken taken) {
-    static std::mutex all_mutex;
-    static std::vector<std::unique_ptr<Ear>> all;
-    const std::lock_guard lock(all_mutex);
-    const auto idle = std::find_if(all.begin(), all.end(), [](const auto& ear) { return ear->is_idle(); });
-    Ear* const ear = idle != all.end() ? idle->get() : all.emplace_back(std::make_unique<Ear>()).get();
-    const std::lock_guard own(ear->mutex_);
-    ear->closed_at_.reset();
-    ear->told_ = std::move(told);
-    ear->taken_ = std::move(taken);
-    return ear;
-  }
-  /// A call that is under way has ended when this returns.
-  void close() {
-    const std::lock_guard lock(mutex_);
-    told_ = {};
-    taken_ = {};
-    closed_at_ = Clock::now();
-  }
-  void on_answer(const jsPubAck* ack, const jsPubAckErr* refusal) {
-    const std::lock_guard lock(mutex_);
-    if (ack != nullptr && told_.acknowledged) told_.acknowledged(ack->Sequence);
-    if (ack == nullptr && told_.refused)
-      told_.refused(refusal != nullptr && refusal->ErrText != nullptr ? refusal->ErrText : "no answer");
-  }
-  void on_connected(bool is_connected) {
-    const std::lock_guard lock(mutex_);
-    if (told_.connected) told_.connected(is_connected);
-  }
-  void on_message(natsMsg* message, std::uint64_t sequence) {
-    const std::lock_guard lock(mutex_);
-    if (taken_) taken_(natsMsg_GetSubject(message), bytes_of(message), sequence);
-  }
-
- private:
-  /// Closed for so long that no call is under way.
-  [[nodiscard]] bool is_idle() {
-    constexpr Duration kLongAgo = std::chrono::seconds(60);
-    const std::lock_guard lock(mutex_);
-    return closed_at_ && Clock::now() - *closed_at_ > kLongAgo;
-  }
-
-  std::mutex mutex_;
-  std::optional<Time> closed_at_;
-  NatsLink::Told told_;
-  NatsMessageTaken taken_;
-};
-
 class Link final : public NatsLink {
  public:
   explicit Link(const ClusterSettings& settings, Told told)
@@ -138,7 +85,11 @@ class Link final : public NatsLink {
     asked.PublishAsync.StallWait = 1;
     asked.PublishAsync.AckHandler = [](jsCtx*, natsMsg* message, jsPubAck* ack, jsPubAckErr* refusal,
                                        void* self) {
-      static_cast<Ear*>(self)->on_answer(ack, refusal);
+      auto* ear = static_cast<Ear*>(self);
+      if (ack != nullptr)
+        ear->on_stored(ack->Sequence);
+      else
+        ear->on_refused(refusal != nullptr && refusal->ErrText != nullptr ? refusal->ErrText : "no answer");
       natsMsg_Destroy(message);
     };
     asked.PublishAsync.AckHandlerClosure = ear_;
@@ -162,8 +113,9 @@ class Link final : public NatsLink {
   core::Expected<Message> last() override {
     natsMsg* found = nullptr;
     jsErrCode code{};
-    const natsStatus status =
-        js_GetLastMsg(&found, context_, stream_.c_str(), subject_.c_str(), nullptr, &code);
+    // Of any subject: another stream's consumer may deliver into this one, under the subject that it had
+    // there, and what stands last is what the next publish has to expect.
+    const natsStatus status = js_GetLastMsg(&found, context_, stream_.c_str(), ">", nullptr, &code);
     if (status != NATS_NOT_FOUND) return message_of(status, found);
     // Empty, or damaged. What is added between the two answers has the fence refuse who goes by this one.
     const auto state = stream_state();
@@ -197,7 +149,7 @@ class Link final : public NatsLink {
           if (natsMsg_GetMetaData(&data, message) != NATS_OK) return;
           const std::uint64_t sequence = data->Sequence.Stream;
           jsMsgMetaData_Destroy(data);
-          static_cast<Ear*>(closure)->on_message(message, sequence);
+          static_cast<Ear*>(closure)->on_message(natsMsg_GetSubject(message), bytes_of(message), sequence);
         },
         following_, nullptr, &options, &code);
     if (status != NATS_OK) return tl::unexpected(error_of(status, stream_));
@@ -274,7 +226,7 @@ class Link final : public NatsLink {
         &made, connection_, subject.c_str(),
         [](natsConnection*, natsSubscription*, natsMsg* message, void* closure) {
           const OwnedMessage owned(message);
-          static_cast<Ear*>(closure)->on_message(message, 0);
+          static_cast<Ear*>(closure)->on_message(natsMsg_GetSubject(message), bytes_of(message), 0);
         },
         ear);
     if (status != NATS_OK) return tl::unexpected(error_of(status, subject));

@@ -5,6 +5,7 @@ Usage: accounts_test.py [TestCase.test ...]"""
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import socket
@@ -167,7 +168,7 @@ class Accounts(unittest.TestCase):
             import asyncio
             running = asyncio.ensure_future(bot.run())
             end = time.monotonic() + stage.PATIENCE
-            while not (bot.newest and bot.newest[1] > 60):
+            while not (bot.welcomes and bot.newest and bot.newest[1] > bot.welcomes[0][1]["tick"] + 120):  # and so it is in the log
                 assert time.monotonic() < end, first.log()
                 await asyncio.sleep(0.05)
             first.signal(signal.SIGKILL)
@@ -212,6 +213,32 @@ class Accounts(unittest.TestCase):
         code, said = self.nats.as_user("admin", "fsck")
         self.assertEqual(code, 0, said)
         self.assertNotIn("cluster_fault", first.log() + second.log())
+
+    def test_what_an_edge_has_sent_into_another_shards_log_ends_an_epoch_and_not_the_log(self):
+        for user in ("admin", "host"):
+            settings = json.loads(pathlib.Path(self.nats.path(f"{user}.json")).read_text())
+            pathlib.Path(self.nats.path(f"other-{user}.json")).write_text(json.dumps({**settings, "shard": "other"}))
+        code, said = self.nats.as_user("other-admin", "init")
+        self.assertEqual(code, 0, said)
+        self.nats.file = self.nats.path("other-host.json")
+        owner = self.enterContext(stage.Host(self.nats, "x", "--bots", "1", "--bots-alone", "play"))
+        owner.wait_for("cluster_owns")
+        time.sleep(1)
+        with Wire(self.nats, "edge") as edge:  # the first message of the other log, which nobody plays
+            made = edge.ask("$JS.API.CONSUMER.CREATE.WL_woodlouse_main", json.dumps({
+                "stream_name": "WL_woodlouse_main", "config": {
+                    "deliver_subject": "wl.woodlouse.log.other", "deliver_policy": "last", "ack_policy": "none", "replay_policy": "instant"}}).encode())
+        self.assertNotIn("error", made)
+        owner.wait_for("LOG HAS A HOLE")
+        end = time.monotonic() + stage.PATIENCE
+        while "epoch 2 of x" not in (said := self.nats.as_user("other-admin", "status")[1]):
+            self.assertLess(time.monotonic(), end, said + owner.log())
+            time.sleep(0.1)
+        before, = re.findall(r"stored up to batch (\d+)", said)
+        time.sleep(1)
+        after, = re.findall(r"stored up to batch (\d+)", self.nats.as_user("other-admin", "status")[1])
+        self.assertGreater(int(after), int(before))
+        self.assertEqual(owner.log().count("LOG HAS A HOLE"), 1, owner.log())
 
     def test_a_host_makes_and_removes_no_log(self):
         with Wire(self.nats, "host") as host:
