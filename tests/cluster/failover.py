@@ -14,6 +14,7 @@ import sys
 import time
 
 import stage
+import witness
 
 
 async def wait_until(condition, patience=stage.PATIENCE, what=""):
@@ -23,7 +24,7 @@ async def wait_until(condition, patience=stage.PATIENCE, what=""):
         await asyncio.sleep(0.005)
 
 
-async def rounds(nats, hosts, witness, options):
+async def rounds(nats, hosts, player, options):
     names = list(hosts)
     owner = names[0]
     lice = [stage.Bot(f"bot {k}", [host.address for host in hosts.values()]) for k in range(options.bots)]
@@ -53,7 +54,7 @@ async def rounds(nats, hosts, witness, options):
                              what=f"round {number}: not all came back")
             returns.append(max(bot.welcomes[-1][0] for bot in lice) - killed)
             await asyncio.sleep(0.5)
-            gaps.append(witness.longest_gap(killed))
+            gaps.append(player.longest_gap(killed))
             first = min(bot.welcomes[-1][1]["tick"] for bot in lice)
             went_on = hosts[other].went_on_at()
             lost += went_on < acked
@@ -69,7 +70,7 @@ async def rounds(nats, hosts, witness, options):
                 hosts[owner] = stage.Host(nats, owner, *stage_arguments(options))
                 for bot in lice:
                     bot.addresses = [host.address for host in hosts.values()]
-                witness.use(bot.addresses)
+                player.use(bot.addresses)
                 hosts[owner].wait_for("cluster_follows")
             owner = other
             await asyncio.sleep(options.pause)
@@ -106,8 +107,8 @@ def main():
         hosts = {"a": first, "b": stage.Host(nats, "b", *stage_arguments(options))}
         hosts["b"].wait_for("cluster_follows")
         try:
-            with stage.Witness([host.address for host in hosts.values()]) as witness:
-                outages, returns, gaps, lost, strangers = stage.play(rounds(nats, hosts, witness, options))
+            with witness.Witness([host.address for host in hosts.values()]) as player:
+                outages, returns, gaps, lost, strangers = stage.play(rounds(nats, hosts, player, options))
         finally:
             logs = {name: host.log() for name, host in hosts.items()}
             for host in hosts.values():
