@@ -127,13 +127,10 @@ class Directory(Cluster):
     def test_hosts_of_another_shard_tell_of_each_other(self):
         first = self.host("a")
         file = os.path.join(self.nats.folder, "alps.json")
-        with open(file, "w") as out:
-            json.dump({**self.nats.settings, "shard": "alps"}, out)
+        with open(self.nats.file) as main, open(file, "w") as out:
+            json.dump({**json.load(main), "shard": "alps"}, out)
         subprocess.run([stage.PROGRAM, "cluster", "init", file], check=True, capture_output=True, timeout=60)
-        # The stage's own file is the first shard's.
-        main, self.nats.file = self.nats.file, file
-        second = self.host("x", maps=("volcano", "hills"))
-        self.nats.file = main
+        second = self.host("x", maps=("volcano", "hills"), file=file)
         first.wait_for("cluster_owns")
         second.wait_for("cluster_owns")
         rooms = wait_for_rooms(first.address, lambda rooms: len(rooms) == 3)
@@ -152,31 +149,28 @@ class Directory(Cluster):
 
 
 class Figures(Cluster):
-    def admin(self, name):
-        return os.path.join(self.nats.folder, f"{name}.sock")
-
-    def scrape(self, name):
-        connection = UnixConnection(self.admin(name))
+    def scrape(self, host):
+        connection = UnixConnection(host.door)
         connection.request("GET", "/metrics")
         text = connection.getresponse().read().decode()
         connection.close()
         return Scrape(text)
 
-    def wait_for_figures(self, name, condition):
+    def wait_for_figures(self, host, condition):
         end = time.monotonic() + stage.PATIENCE
-        while not condition(scrape := self.scrape(name)):
+        while not condition(scrape := self.scrape(host)):
             assert time.monotonic() < end, scrape.text
             time.sleep(0.05)
         return scrape
 
     def test_each_host_tells_its_part(self):
-        first = self.host("a", "--admin", self.admin("a"))
+        first = self.host("a")
         first.wait_for("cluster_owns")
-        second = self.host("b", "--admin", self.admin("b"))
+        second = self.host("b")
         second.wait_for("cluster_follows")
         with Client(first.address) as client:
             client.join("volcano")
-            owner = self.wait_for_figures("a", lambda s: s["woodlouse_cluster_hosts", "stands_by"] == 1 and
+            owner = self.wait_for_figures(first, lambda s: s["woodlouse_cluster_hosts", "stands_by"] == 1 and
                                           s["woodlouse_cluster_batches_stored_total"] > 3)
         told = {name: (owner.types[name], labels) for name, labels in owner.labels.items() if "_cluster_" in name}
         self.assertEqual(told, {name: what for name, what in documented().items() if "_cluster_" in name})
@@ -184,7 +178,7 @@ class Figures(Cluster):
                             ("holes_total", 0)):
             self.assertEqual(owner["woodlouse_cluster_" + name], value, name)
         self.assertLess(owner["woodlouse_cluster_unacknowledged_seconds"], 2)
-        follower = self.wait_for_figures("b", lambda s: s["woodlouse_cluster_ready"] == 1 and s["woodlouse_cluster_hosts", "owns"] == 1)
+        follower = self.wait_for_figures(second, lambda s: s["woodlouse_cluster_ready"] == 1 and s["woodlouse_cluster_hosts", "owns"] == 1)
         self.assertEqual(follower["woodlouse_cluster_owns"], 0)
         self.assertEqual(follower["woodlouse_cluster_batches_stored_total"], 0)
         self.assertGreaterEqual(follower["woodlouse_cluster_batch"], owner["woodlouse_cluster_batch"] - 5)
@@ -192,21 +186,21 @@ class Figures(Cluster):
         first.signal(signal.SIGSTOP)
         second.wait_for("cluster_owns")
         first.signal(signal.SIGCONT)
-        fenced = self.wait_for_figures("a", lambda s: s["woodlouse_cluster_fenced_total"] == 1 and s["woodlouse_cluster_ready"] == 1)
+        fenced = self.wait_for_figures(first, lambda s: s["woodlouse_cluster_fenced_total"] == 1 and s["woodlouse_cluster_ready"] == 1)
         self.assertEqual(fenced["woodlouse_cluster_owns"], 0)
-        self.assertEqual(self.scrape("b")["woodlouse_cluster_takeovers_total"], 1)
+        self.assertEqual(self.scrape(second)["woodlouse_cluster_takeovers_total"], 1)
 
-        said = subprocess.run([stage.PROGRAM, "admin", "--socket", self.admin("b"), "status"], capture_output=True, text=True, timeout=30)
+        said = subprocess.run([stage.PROGRAM, "admin", "--socket", second.door, "status"], capture_output=True, text=True, timeout=30)
         self.assertRegex(said.stdout, r"cluster: shard main: owns its rooms, stored up to batch \d+, .*1 stand by.*takeovers 1", said.stderr)
 
         with Client(second.address) as client:
             client.join("volcano")
             self.nats.kill(0)
-            cut = self.wait_for_figures("b", lambda s: s["woodlouse_cluster_unacknowledged_seconds"] > 2)
+            cut = self.wait_for_figures(second, lambda s: s["woodlouse_cluster_unacknowledged_seconds"] > 2)
             self.assertEqual(cut["woodlouse_cluster_connected"], 0)
             self.assertGreater(cut["woodlouse_cluster_batches_waiting"], 5)
             self.nats.start(0)
-            back = self.wait_for_figures("b", lambda s: s["woodlouse_cluster_connected"] == 1 and
+            back = self.wait_for_figures(second, lambda s: s["woodlouse_cluster_connected"] == 1 and
                                          s["woodlouse_cluster_batches_waiting"] <= 1)
             self.assertLess(back["woodlouse_cluster_unacknowledged_seconds"], 2)
             self.assertEqual(back["woodlouse_cluster_holes_total"], 0)

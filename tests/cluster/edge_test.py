@@ -93,6 +93,12 @@ class Edge(Cluster):
     def watch(self, address, **join):
         return self.enterContext(Watcher(address, **join))
 
+    @staticmethod
+    def hello(host):
+        name, port = host.address.rsplit(":", 1)
+        with socket.create_connection((name, int(port))) as line, line.makefile("rb") as said:
+            return json.loads(said.readline())
+
     def test_it_shows_what_is_played_and_goes_on_with_it_at_the_next_host(self):
         first, second = self.two_hosts()
         edge = self.edge()
@@ -139,6 +145,9 @@ class Edge(Cluster):
         first = self.host("a")
         first.wait_for("cluster_owns")
         edge = self.edge()
+        end = time.monotonic() + 10
+        while not self.hello(edge).get("hosts"):  # it has not heard the owner yet
+            self.assertLess(time.monotonic(), end)
         player = self.watch(edge.address, role="player")
         player.thread.join(10)
         error = next(m for m in player.messages if m["type"] == "error")
