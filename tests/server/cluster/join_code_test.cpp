@@ -47,7 +47,7 @@ TEST_CASE("of two rooms with one code the first by name keeps it, whatever order
   const std::vector<std::string> codes = join_codes("c", rooms);
   CHECK(std::set<std::string>(codes.begin(), codes.end()).size() == rooms.size());
   std::map<RoomName, std::string> of;
-  for (int k = 0; k < kRooms; ++k) of[rooms[k]] = codes[k];
+  for (std::size_t k = 0; k < rooms.size(); ++k) of[rooms[k]] = codes[k];
   int met = 0;
   for (auto& [letters, names] : alone) {
     std::sort(names.begin(), names.end());
