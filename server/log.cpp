@@ -226,8 +226,8 @@ Log::~Log() {
       thread.reset();
       ended->set_value();
     }).detach();
-    end.wait_for(kPatience);
-  } catch (const std::system_error&) {  // no thread for it: what waits is lost
+    end.wait_for(waiting > 0 ? Duration{} : Duration(kPatience));  // it has had that long
+  } catch (const std::system_error&) {                             // no thread for it: what waits is lost
     assert(!logger_);
   }
 }
