@@ -55,7 +55,7 @@ struct WebPort {
   server::LiveLimits live_limits{limits};
   server::TrafficMetrics traffic;
   NoRooms directory;
-  server::SessionEnvironment environment{directory, live_limits, traffic,
+  server::SessionEnvironment environment{directory,  live_limits, traffic,
                                          timekeeper, "woodlouse", std::make_shared<spdlog::logger>("fuzz")};
   server::WebEnvironment web{{{"lice.example.org"}, {}}, 7777};
   std::shared_ptr<server::AddressAccount> account =

@@ -98,7 +98,7 @@ struct Browser {
   LiveLimits live_limits{limits};
   TrafficMetrics traffic;
   FakeDirectory directory{{std::make_shared<FakeDoor>("volcano")}};
-  SessionEnvironment environment{directory, live_limits,       traffic,
+  SessionEnvironment environment{directory,  live_limits,       traffic,
                                  timekeeper, "woodlouse a.b.c", std::make_shared<spdlog::logger>("test")};
   WebEnvironment web{{{"lice.example.org"}, {}}, 7777};
   std::shared_ptr<AddressAccount> account =

@@ -157,7 +157,7 @@ struct Stage {
   std::shared_ptr<FakeDoor> volcano = std::make_shared<FakeDoor>("volcano");
   std::shared_ptr<FakeDoor> meadow = std::make_shared<FakeDoor>("meadow");
   FakeDirectory directory{{volcano, meadow}};
-  SessionEnvironment environment{directory, live_limits,       traffic,
+  SessionEnvironment environment{directory,  live_limits,       traffic,
                                  timekeeper, "woodlouse a.b.c", make_log(log)};
   Lanes lanes{io, 1};
   std::shared_ptr<AddressAccount> address =
