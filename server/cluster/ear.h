@@ -19,8 +19,9 @@ namespace woodlouse::server {
 class Ear {
  public:
   static Ear* make(NatsLink::Told told, NatsMessageTaken taken) {
-    static std::mutex all_mutex;
-    static std::vector<std::unique_ptr<Ear>> all;
+    // Never destroyed: threads of libnats may still call while the process ends.
+    static std::mutex& all_mutex = *new std::mutex;
+    static std::vector<std::unique_ptr<Ear>>& all = *new std::vector<std::unique_ptr<Ear>>;
     const std::lock_guard lock(all_mutex);
     const auto idle = std::find_if(all.begin(), all.end(), [](const auto& ear) { return ear->is_idle(); });
     Ear* const ear = idle != all.end() ? idle->get() : all.emplace_back(std::make_unique<Ear>()).get();

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <deque>
 #include <utility>
 #include <vector>
 
 #include "server/cluster/ear.h"
+#include "server/timing/clock.h"
 #include "shared/core/joined.h"
 
 namespace woodlouse::server {
@@ -62,12 +64,12 @@ class Link final : public NatsLink {
     ear_->close();
     unfollow();
     for (Ear* ear : ears_) ear->close();
+    // First of all, so that libnats' reading thread has ended before anything that it may look at is freed.
+    if (connection_ != nullptr) natsConnection_Close(connection_);
+    left_.clear();
     subscriptions_.clear();
     if (context_ != nullptr) jsCtx_Destroy(context_);
-    if (connection_ != nullptr) {
-      natsConnection_Close(connection_);
-      natsConnection_Destroy(connection_);
-    }
+    if (connection_ != nullptr) natsConnection_Destroy(connection_);
   }
 
   core::Expected<void> connect(const std::string& purpose) {
@@ -158,7 +160,14 @@ class Link final : public NatsLink {
   }
   void unfollow() override {
     if (following_ != nullptr) std::exchange(following_, nullptr)->close();
-    log_.reset();
+    if (log_ == nullptr) return;
+    // The reading thread of libnats 3.4 may have found a subscription and not locked it yet: were it freed
+    // now, that would be a lock in freed memory (nats.c 637). It is freed a while later.
+    constexpr Duration kLongAgo = std::chrono::seconds(60);
+    const Time now = Clock::now();
+    while (!left_.empty() && now - left_.front().first > kLongAgo) left_.pop_front();
+    natsSubscription_Unsubscribe(log_.get());
+    left_.emplace_back(now, std::move(log_));
   }
 
   core::Expected<bool> make_stream(std::string_view first) override {
@@ -285,6 +294,7 @@ class Link final : public NatsLink {
   jsCtx* context_ = nullptr;
   Ear* following_ = nullptr;
   OwnedSubscription log_;
+  std::deque<std::pair<Time, OwnedSubscription>> left_;  ///< when; not freed yet
   std::vector<Ear*> ears_;
   std::vector<OwnedSubscription> subscriptions_;
 };
