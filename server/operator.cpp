@@ -51,10 +51,8 @@ void Operator::carry_out(Command command, Answered answered) {
 
 WebAnswer Operator::page(std::string_view path) const {
   if (path == "/healthz") return refusal(200, "ok");
-  if (path == "/readyz") {
-    if (server_.doorman.is_draining()) return refusal(503, "the server stops");
-    return lobby_.is_too_late(timekeeper_.now()) ? refusal(503, "ticks are overdue") : refusal(200, "ready");
-  }
+  if (path == "/readyz")
+    return readiness(server_.doorman.is_draining(), server_.directory.why_not_ready(timekeeper_.now()));
   if (path == "/metrics") return {200, Metrics::kContentType, metrics_.text()};
   return refusal(404, "there is no such page");
 }

@@ -16,6 +16,7 @@
 #include "server/admin/control.h"
 #include "server/metrics/metrics.h"
 #include "server/moderation.h"
+#include "server/room/directory.h"
 #include "server/room/lobby.h"
 #include "server/room_control.h"
 #include "server/timing/figures.h"
@@ -35,6 +36,7 @@ class Operator final : public Control {
 
   /// What it needs of the server; each is called on the server's strand, and returns at once.
   struct Server {
+    const Directory& directory;
     RoomControl& rooms;
     Moderation& people;
     Doorman& doorman;

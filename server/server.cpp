@@ -77,12 +77,12 @@ Server::Server(const ServeConfig& config, Outside outside, std::shared_ptr<spdlo
       metrics_({lobby_, traffic_, limits_, timekeeper_, companions_.recordings(), outside_.lost_log_lines,
                 kVersion,
                 [this] { return cluster_ ? std::optional(cluster_->cluster().figures()) : std::nullopt; }}),
-      operator_(
-          strand_, lobby_, traffic_, timekeeper_, metrics_,
-          {room_control_, moderation_, *doorman_, [this](auto done) { reload("admin", std::move(done)); },
-           [this](const std::string& text, const std::string& reason) { stop(text, reason); },
-           [this] { return stopping_; }},
-          log_),
+      operator_(strand_, lobby_, traffic_, timekeeper_, metrics_,
+                {guide_, room_control_, moderation_, *doorman_,
+                 [this](auto done) { reload("admin", std::move(done)); },
+                 [this](const std::string& text, const std::string& reason) { stop(text, reason); },
+                 [this] { return stopping_; }},
+                log_),
       admin_(io_, operator_, timekeeper_, log_) {
   environment_.doorman = doorman_.get();
   environment_.moderate = [this](protocol::Moderate wish, std::string room, std::string who,

@@ -50,7 +50,7 @@ class RoomGuide final : public Directory {
   /// With codes; those that are here come first.
   [[nodiscard]] protocol::Rooms list() const override;
   [[nodiscard]] std::uint64_t changes() const override;
-  [[nodiscard]] bool is_too_late(Time now) const override { return here_->is_too_late(now); }
+  [[nodiscard]] std::string_view why_not_ready(Time now) const override { return here_->why_not_ready(now); }
 
  private:
   /// Those that are here have no address.

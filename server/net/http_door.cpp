@@ -228,7 +228,8 @@ WebAnswer StreamHttpDoor<Stream>::judge() {
       environment_.directory,
       {environment_.server_name, web_.lines_port,
        is_stopping_ || (environment_.doorman != nullptr && environment_.doorman->is_draining()),
-       environment_.directory.is_too_late(now()), web_.pages.get()});
+       web_.pages.get()},
+      now());
   asker_.account->charge(Spending::kAnswerBytes, static_cast<double>(answered.content().size()), now());
   return answered;
 }

@@ -84,6 +84,13 @@ std::vector<std::string> Relay::names() const {
   return names;
 }
 
+std::string_view Relay::why_not_ready(Time) const {
+  const std::lock_guard lock(mutex_);
+  const bool shows =
+      std::any_of(rooms_.begin(), rooms_.end(), [](const auto& entry) { return entry.second.is_ready; });
+  return shows ? "" : "no room is shown yet";
+}
+
 protocol::Rooms Relay::list() const {
   const std::lock_guard lock(mutex_);
   protocol::Rooms list;

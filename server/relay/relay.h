@@ -41,8 +41,8 @@ class Relay final : public Directory {
   [[nodiscard]] std::vector<std::string> names() const override;
   [[nodiscard]] protocol::Rooms list() const override;
   [[nodiscard]] std::uint64_t changes() const override { return changes_.load(); }
-  /// Another server's clock says when its ticks are due.
-  [[nodiscard]] bool is_too_late(Time) const override { return false; }
+  /// Before it shows a room: nothing has been read of the log yet, or there is none.
+  [[nodiscard]] std::string_view why_not_ready(Time now) const override;
 
  private:
   struct Shown {

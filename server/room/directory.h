@@ -34,9 +34,8 @@ class Directory {
   [[nodiscard]] virtual protocol::Rooms list() const = 0;
   /// Another number once a room has opened or closed, or is at another server.
   [[nodiscard]] virtual std::uint64_t changes() const = 0;
-  /// Whether the next tick of one of them has been due for longer than passes by itself
-  /// (timing/next_tick.h).
-  [[nodiscard]] virtual bool is_too_late(Time now) const = 0;
+  /// Why nobody should be sent here now; empty: he may be.
+  [[nodiscard]] virtual std::string_view why_not_ready(Time now) const = 0;
 };
 
 /// Of one who wants to hear when a room opens or closes: looks from time to time, so that nobody who has gone

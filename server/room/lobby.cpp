@@ -76,10 +76,11 @@ protocol::Rooms Lobby::list() const {
   return list;
 }
 
-bool Lobby::is_too_late(Time now) const {
+std::string_view Lobby::why_not_ready(Time now) const {
   const std::lock_guard lock(mutex_);
-  return std::any_of(rooms_.begin(), rooms_.end(),
-                     [now](const auto& room) { return room->next_tick().is_too_late(now); });
+  const bool is_late = std::any_of(rooms_.begin(), rooms_.end(),
+                                   [now](const auto& room) { return room->next_tick().is_too_late(now); });
+  return is_late ? "ticks are overdue" : "";
 }
 
 std::vector<std::shared_ptr<Room>> Lobby::rooms() const {

@@ -36,7 +36,8 @@ class Lobby final : public Directory {
   [[nodiscard]] std::vector<std::string> names() const override;
   [[nodiscard]] protocol::Rooms list() const override;
   [[nodiscard]] std::uint64_t changes() const override { return changes_.load(); }
-  [[nodiscard]] bool is_too_late(Time now) const override;
+  /// Where the next tick of a room has been due for longer than passes by itself (timing/next_tick.h).
+  [[nodiscard]] std::string_view why_not_ready(Time now) const override;
   /// In the order they were opened.
   [[nodiscard]] std::vector<std::shared_ptr<Room>> rooms() const;
 

@@ -79,15 +79,18 @@ std::optional<WebAnswer> page_file(const PageFiles& pages, std::string_view path
 
 }  // namespace
 
-WebAnswer answer_to(const WebQuestion& question, const Directory& directory, const WebFacts& facts) {
+WebAnswer readiness(bool is_stopping, std::string_view why_not) {
+  if (is_stopping) return refusal(503, "the server stops");
+  return why_not.empty() ? refusal(200, "ready") : refusal(503, why_not);
+}
+
+WebAnswer answer_to(const WebQuestion& question, const Directory& directory, const WebFacts& facts,
+                    Time now) {
   const std::string_view path = question.target.substr(0, question.target.find('?'));
   if (path == "/about") return front_page(question.host, directory, facts);
   if (path == "/rooms") return rooms_array(directory);
   if (path == "/healthz") return refusal(200, "ok");
-  if (path == "/readyz") {
-    if (facts.is_stopping) return refusal(503, "the server stops");
-    return facts.are_ticks_overdue ? refusal(503, "ticks are overdue") : refusal(200, "ready");
-  }
+  if (path == "/readyz") return readiness(facts.is_stopping, directory.why_not_ready(now));
   if (facts.pages != nullptr)
     if (auto file = page_file(*facts.pages, path, question)) return std::move(*file);
   if (path == "/") return front_page(question.host, directory, facts);

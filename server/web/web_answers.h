@@ -38,12 +38,14 @@ struct WebFacts {
   std::string_view server_name;  ///< with its version
   std::uint16_t lines_port = 0;  ///< where the server speaks first
   bool is_stopping = false;
-  bool are_ticks_overdue = false;    ///< a room's, by more than passes by itself
   const PageFiles* pages = nullptr;  ///< null: there is no page, and / is /about
 };
 
 [[nodiscard]] WebAnswer answer_to(const WebQuestion& question, const Directory& directory,
-                                  const WebFacts& facts);
+                                  const WebFacts& facts, Time now);
+
+/// Of /readyz. why_not: Directory::why_not_ready().
+[[nodiscard]] WebAnswer readiness(bool is_stopping, std::string_view why_not);
 
 /// One line, and a line's end.
 [[nodiscard]] WebAnswer refusal(std::uint32_t status, std::string_view why);

@@ -43,7 +43,7 @@ class NoRooms final : public server::Directory {
   [[nodiscard]] protocol::Rooms list() const override {
     return protocol::Rooms{{{"volcano", "volcano", 1, 2, 3}}};
   }
-  [[nodiscard]] bool is_too_late(server::Time) const override { return false; }
+  [[nodiscard]] std::string_view why_not_ready(server::Time) const override { return {}; }
   [[nodiscard]] std::uint64_t changes() const override { return 0; }
 };
 

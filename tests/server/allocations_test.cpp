@@ -82,7 +82,7 @@ class OneRoom final : public Directory {
   [[nodiscard]] std::shared_ptr<Door> find(std::string_view) const override { return door_; }
   [[nodiscard]] std::vector<std::string> names() const override { return {door_->name()}; }
   [[nodiscard]] protocol::Rooms list() const override { return {}; }
-  [[nodiscard]] bool is_too_late(Time) const override { return false; }
+  [[nodiscard]] std::string_view why_not_ready(Time) const override { return {}; }
   [[nodiscard]] std::uint64_t changes() const override { return 0; }
 
  private:

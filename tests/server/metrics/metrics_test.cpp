@@ -154,7 +154,7 @@ TEST_CASE("what is found out while a room stands still is told, and its next tic
   CHECK(has(text, "woodlouse_recording_failed{room=\"volcano\"} 1\n"));
   CHECK(has(text, "woodlouse_shadow_differences_total{room=\"volcano\"} 3\n"));
   CHECK(has(text, "woodlouse_room_tick_overdue_seconds{room=\"volcano\"} 0\n"));
-  CHECK_FALSE(server.lobby.is_too_late(server.timekeeper.now()));
+  CHECK(server.lobby.why_not_ready(server.timekeeper.now()).empty());
 }
 
 TEST_CASE("a room that hangs in its tick is too late after half a second, and on time once it goes on") {
@@ -162,15 +162,15 @@ TEST_CASE("a room that hangs in its tick is too late after half a second, and on
   REQUIRE(server.lobby.open(server.room, [] {}));
   server.join(1);
   server.tick(10);
-  CHECK_FALSE(server.lobby.is_too_late(server.timekeeper.now()));
+  CHECK(server.lobby.why_not_ready(server.timekeeper.now()).empty());
   server.timekeeper.advance(std::chrono::milliseconds(500));  // and nobody runs what is due
-  CHECK_FALSE(server.lobby.is_too_late(server.timekeeper.now()));
+  CHECK(server.lobby.why_not_ready(server.timekeeper.now()).empty());
   server.timekeeper.advance(std::chrono::milliseconds(500));
-  CHECK(server.lobby.is_too_late(server.timekeeper.now()));
+  CHECK(server.lobby.why_not_ready(server.timekeeper.now()) == "ticks are overdue");
   CHECK(has(server.metrics.status(), "TICKS OVERDUE"));
   CHECK(has(server.metrics.text(), "woodlouse_room_tick_overdue_seconds{room=\"volcano\"} 0.98"));
   server.settle();
-  CHECK_FALSE(server.lobby.is_too_late(server.timekeeper.now()));
+  CHECK(server.lobby.why_not_ready(server.timekeeper.now()).empty());
   CHECK(has(server.metrics.text(), "woodlouse_room_tick_overdue_seconds{room=\"volcano\"} 0\n"));
 }
 

@@ -77,7 +77,9 @@ class FakeDirectory final : public Directory {
     return list;
   }
   [[nodiscard]] std::uint64_t changes() const override { return times_changed; }
-  [[nodiscard]] bool is_too_late(Time) const override { return are_ticks_overdue; }
+  [[nodiscard]] std::string_view why_not_ready(Time) const override {
+    return are_ticks_overdue ? "ticks are overdue" : "";
+  }
 
   bool are_ticks_overdue = false;
   std::uint64_t times_changed = 0;

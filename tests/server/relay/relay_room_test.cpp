@@ -251,12 +251,14 @@ TEST_CASE("rooms that are shown are found once there is something to show, until
   relay.take("volcano", {edge.lines[0]});
   edge.settle();
   CHECK(relay.names().empty());
+  CHECK(relay.why_not_ready(edge.timekeeper.now()) == "no room is shown yet");
   CHECK(relay.find("volcano") == nullptr);
   const std::uint64_t before = relay.changes();
   relay.take("volcano", std::vector<std::string>(edge.lines.begin() + 1, edge.lines.end()));
   edge.settle();
   CHECK(relay.changes() > before);
   CHECK(relay.names() == std::vector<std::string>{"volcano"});
+  CHECK(relay.why_not_ready(edge.timekeeper.now()).empty());
   REQUIRE(relay.find("") != nullptr);
   CHECK(relay.find("")->only_shows());
   CHECK(relay.list().rooms[0].map == "volcano");

@@ -14,9 +14,9 @@ namespace {
 
 WebAnswer asked(const std::string& target, const std::string& room = "volcano", bool is_stopping = false,
                 bool are_ticks_overdue = false) {
-  const FakeDirectory directory({std::make_shared<FakeDoor>(room)});
-  return answer_to({target, "10.0.0.1"}, directory,
-                   {"woodlouse <1.2>", 7777, is_stopping, are_ticks_overdue});
+  FakeDirectory directory({std::make_shared<FakeDoor>(room)});
+  directory.are_ticks_overdue = are_ticks_overdue;
+  return answer_to({target, "10.0.0.1"}, directory, {"woodlouse <1.2>", 7777, is_stopping}, Time{});
 }
 
 bool has(const WebAnswer& answer, std::string_view text) {
@@ -50,6 +50,7 @@ TEST_CASE("who looks after a server is told whether it lives, and whether it is 
   CHECK(asked("/readyz?now").status == 200);
   CHECK(asked("/readyz", "volcano", true).status == 503);
   CHECK(asked("/readyz", "volcano", false, true).status == 503);
+  CHECK(asked("/readyz", "volcano", false, true).body == "ticks are overdue\n");
   CHECK(asked("/healthz", "volcano", false, true).status == 200);
 }
 
@@ -67,7 +68,7 @@ TEST_CASE("where there is a page it is at /, and what this is at /about") {
   const FakeDirectory directory({std::make_shared<FakeDoor>("volcano")});
   const auto ask = [&](WebQuestion question) {
     question.host = "10.0.0.1";
-    return answer_to(question, directory, {"woodlouse", 7777, false, false, pages.get()});
+    return answer_to(question, directory, {"woodlouse", 7777, false, pages.get()}, Time{});
   };
   const WebAnswer page = ask({"/?room=volcano", ""});
   CHECK(page.content() == "<!doctype html>");
