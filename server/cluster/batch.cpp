@@ -1,5 +1,6 @@
 #include "server/cluster/batch.h"
 
+#include <algorithm>
 #include <cassert>
 #include <istream>
 #include <iterator>
@@ -86,7 +87,7 @@ RoomPlace read_place(const json::Value& value, json::Problems& problems) {
 }
 
 core::Expected<BatchHead> read_head(std::string_view line, const std::string& place) {
-  return read_object(line, place, {"batch", "epoch", "host", "nonce", "behavior", "rooms"},
+  return read_object(line, place, {"batch", "epoch", "host", "nonce", "behavior", "rooms", "part", "parts"},
                      [](const json::Fields& fields, json::Problems& problems) {
                        BatchHead head;
                        head.number = fields.integer("batch", 0, kMostCount);
@@ -102,6 +103,10 @@ core::Expected<BatchHead> read_head(std::string_view line, const std::string& pl
                            head.rooms.push_back(read_place(value, problems));
                            return true;
                          });
+                       if (!fields.find("parts")) return head;
+                       head.parts = static_cast<std::uint32_t>(fields.integer("parts", 2, kMostParts));
+                       head.part = static_cast<std::uint32_t>(
+                           fields.integer("part", 0, std::max<std::uint32_t>(head.parts, 1) - 1));
                        return head;
                      });
 }
@@ -125,7 +130,8 @@ core::Expected<std::string> unpacked(std::string_view packed, const std::string&
 }  // namespace
 
 std::string pack(const BatchHead& head, std::string_view lines) {
-  assert(lines.empty() || lines.back() == '\n');
+  const bool is_whole = head.part + 1 == head.parts;
+  assert(head.part < head.parts && (!is_whole || lines.empty() || lines.back() == '\n'));
   assert(head.rooms.size() <= kMostRoomsOfShard && !head.writer.host.empty());
   std::string text;
   json::ObjectText line(text);
@@ -140,13 +146,47 @@ std::string pack(const BatchHead& head, std::string_view lines) {
             .integer("keyframe", place.keyframe)
             .integer("tick", place.tick);
       });
+  if (head.parts > 1) line.integer("part", head.part).integer("parts", head.parts);
   line.end_line();
   replay::FramePacker packer;
   std::string packed;
   packer.append(packed, text);
   packer.append(packed, lines);
+  if (!is_whole) packer.append(packed, "\n");
   packer.end_frame(packed);
   return packed;
+}
+
+std::vector<std::string> pack_in_parts(const BatchHead& head, const std::vector<RoomPlace>& before,
+                                       std::string_view lines) {
+  assert(head.parts == 1);
+  std::vector<std::string> packed{pack(head, lines)};
+  if (packed.front().size() <= kMostMessageBytes) return packed;
+  packed.clear();
+  if (lines.size() > kMostParts * kPartBytes) return packed;
+  BatchHead part = head;
+  part.parts = static_cast<std::uint32_t>((lines.size() + kPartBytes - 1) / kPartBytes);
+  for (; part.part < part.parts; ++part.part, ++part.number) {
+    part.rooms = part.part + 1 == part.parts ? head.rooms : before;
+    packed.push_back(pack(part, lines.substr(part.part * kPartBytes, kPartBytes)));
+    assert(packed.back().size() <= kMostMessageBytes);
+  }
+  return packed;
+}
+
+std::optional<std::string_view> WholeBatches::take(const Batch& batch) {
+  const BatchHead& head = batch.head;
+  const bool goes_on = head.part != 0 && head.part == next_ && head.parts == last_.parts &&
+                       head.writer == last_.writer && head.number == last_.number + 1;
+  last_ = head;
+  next_ = 0;
+  if (head.parts == 1) return batch.lines;
+  if (head.part == 0) lines_.clear();
+  if (head.part != 0 && !goes_on) return std::nullopt;
+  lines_ += batch.lines;
+  if (head.part + 1 == head.parts) return lines_;
+  next_ = head.part + 1;
+  return std::nullopt;
 }
 
 core::Expected<Batch> unpack(std::string_view packed, const std::string& place) {
@@ -158,7 +198,12 @@ core::Expected<Batch> unpack(std::string_view packed, const std::string& place) 
   assert(end != std::string::npos);
   auto head = read_head(std::string_view(*text).substr(0, end), place);
   if (!head) return tl::unexpected(head.error());
-  return Batch{std::move(*head), text->substr(end + 1)};
+  std::string lines = text->substr(end + 1);
+  if (head->part + 1 != head->parts) {
+    if (lines.empty()) return core::fail(place, "is a part of nothing");
+    lines.pop_back();  // the newline that each message ends with
+  }
+  return Batch{std::move(*head), std::move(lines)};
 }
 
 void append_room(std::string& out, std::string_view room) {

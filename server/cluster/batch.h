@@ -8,6 +8,10 @@
 //     {"claim":3,"name":"ann","role":"player","token":".."}   who may come back to which louse
 //     {"closed":"hill"}                                    that room is no more
 //
+// One that is longer than a message of NATS may be goes in parts, each with a head of its own, "part" and
+// "parts" in it, and the next of the batch's numbers; what follows the head is a piece of the text. It is
+// read once all are there: up to then the heads name the rooms' places as they were before.
+//
 // The first line says whose batch it is, and where in the stream one that begins here finds each room's last
 // header and keyframe. Pure. Everything read here came from outside and is checked here.
 #pragma once
@@ -16,6 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -57,24 +62,50 @@ struct BatchHead {
   std::uint64_t number = 0;  ///< of the epoch's batches, from 0: the one that takes the log
   int behavior = match::kBehavior;
   std::vector<RoomPlace> rooms;
+  std::uint32_t part = 0, parts = 1;  ///< part < parts <= kMostParts
   friend bool operator==(const BatchHead&, const BatchHead&) = default;
 };
 
 struct Batch {
   BatchHead head;
-  std::string lines;  ///< behind the head, each with its newline
+  std::string lines;  ///< behind the head, each with its newline; of parts but the last any piece of them
 };
+
+/// What a message of NATS may be, 1 MB by default, less its own head.
+inline constexpr std::size_t kMostMessageBytes = 1'000'000;
+/// Of lines, packed or not: the packed ones, with a head, are no longer than a message may be.
+inline constexpr std::size_t kPartBytes = 900'000;
+inline constexpr std::uint32_t kMostParts = 80;
 
 inline constexpr std::size_t kMostHostBytes = 64;
 /// Of epochs, batches and ticks: one more always fits.
 inline constexpr std::uint64_t kMostCount = std::uint64_t{1} << 62;
 inline constexpr std::size_t kMostRoomBytes = 128;
 
-/// Of head and lines. REQUIRES whole lines.
+/// Of head and lines. REQUIRES whole lines, or a part of some.
 std::string pack(const BatchHead& head, std::string_view lines);
+/// The messages that a batch goes in, numbered from head.number on: one, or its parts. before: the rooms'
+/// places as of the batch before. Empty: it is too long. REQUIRES whole lines.
+std::vector<std::string> pack_in_parts(const BatchHead& head, const std::vector<RoomPlace>& before,
+                                       std::string_view lines);
 /// Errors: it is no batch, or too long; of another behavior, where who reads it could follow none of it.
 /// place: for errors.
 core::Expected<Batch> unpack(std::string_view packed, const std::string& place);
+
+/// Makes batches of their parts, in the stream's order. One thread.
+class WholeBatches {
+ public:
+  /// The lines of the batch that ends with this message, valid till the next one is taken; nothing: parts are
+  /// still to come, or those before this one did not.
+  [[nodiscard]] std::optional<std::string_view> take(const Batch& batch);
+  /// A message is gone: what it was a part of is never whole.
+  void lose() { next_ = 0; }
+
+ private:
+  BatchHead last_;
+  std::uint32_t next_ = 0;  ///< the part that is awaited; 0: none
+  std::string lines_;
+};
 
 // Those lines of a batch that no recording has; each appended with its newline.
 

@@ -76,7 +76,8 @@ core::Expected<ClusterSettings> read_cluster_settings(const std::filesystem::pat
   if (!root.is(json::Kind::kObject))
     return core::fail(file.string(), "is no object", R"(as {"nats": ["nats://127.0.0.1:4222"]})");
   const json::Fields fields(
-      root, {"name", "nats", "shard", "replicas", "batch_ms", "silence_ms", "keep_s", "tls", "credentials"},
+      root,
+      {"name", "nats", "shard", "replicas", "mode", "batch_ms", "silence_ms", "keep_s", "tls", "credentials"},
       problems);
   ClusterSettings settings;
   read_name(fields, "name", settings.cluster, problems);
@@ -85,6 +86,11 @@ core::Expected<ClusterSettings> read_cluster_settings(const std::filesystem::pat
   if (const auto value = fields.find("replicas")) {
     settings.replicas = static_cast<std::uint32_t>(json::integer_in(*value, 1, 5, problems).value_or(1));
     if (settings.replicas % 2 == 0) problems.add(*value, "is to be 1, 3 or 5: a majority decides");
+  }
+  if (const auto value = fields.find("mode")) {
+    const auto mode = json::text_in(*value, 1, kMostTextBytes, problems);
+    settings.is_strict = mode == "strict";
+    if (mode && *mode != "play" && *mode != "strict") problems.add(*value, "is to be play or strict");
   }
   read_milliseconds(fields, "batch_ms", 10, 1000, settings.batch, problems);
   read_milliseconds(fields, "silence_ms", 150, 60'000, settings.silence, problems);

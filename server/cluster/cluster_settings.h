@@ -24,8 +24,9 @@ struct ClusterSettings {
   Duration batch = std::chrono::milliseconds(100);
   Duration silence = std::chrono::milliseconds(1000);  ///< of an owner, before another takes over
   Duration keep = std::chrono::hours(1);               ///< how long the log holds a batch
-  std::filesystem::path authority, certificate, key;   ///< PEM files of TLS; empty: plain
-  std::filesystem::path credentials;                   ///< of NATS; empty: none
+  bool is_strict = false;  ///< nobody is shown a tick before the log has it, and none is played meanwhile
+  std::filesystem::path authority, certificate, key;  ///< PEM files of TLS; empty: plain
+  std::filesystem::path credentials;                  ///< of NATS; empty: none
   // This host's:
   std::string host;      ///< its name
   std::string address;   ///< HOST:PORT at which clients reach it

@@ -45,7 +45,15 @@ class Inbox final : public LogDesk {
     // A tick needn't wake anybody: its line waits for the batch.
     return true;
   }
-  void doubt() override { is_in_doubt_ = true; }
+  void post_soon(Job job) override {
+    const std::lock_guard lock(mutex_);
+    events_.emplace_back(std::move(job));
+    changed_.notify_one();
+  }
+  void doubt() override {
+    is_in_doubt_ = true;
+    put(Nudge{});
+  }
   [[nodiscard]] bool is_in_doubt() const override { return is_in_doubt_; }
   /// The log has been asked: it is this host's.
   void settle() { is_in_doubt_ = false; }
@@ -66,7 +74,7 @@ class Inbox final : public LogDesk {
     const std::lock_guard lock(mutex_);
     return is_stopping_;
   }
-  /// Waits for something of NATS, or until then; all that has come.
+  /// Waits for something that is waited for, or of NATS, or until then; all that has come.
   [[nodiscard]] std::deque<NodeEvent> take(Time until) {
     std::unique_lock lock(mutex_);
     changed_.wait_until(lock, until, [this] { return is_stopping_ || events_.size() > jobs_; });

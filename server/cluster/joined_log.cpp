@@ -40,7 +40,9 @@ core::Expected<void> JoinedLog::take(std::uint64_t sequence, const Batch& batch)
   assert(sequence > 0);
   std::string current;
   const std::string place = joined({"batch ", std::to_string(sequence)});
-  return for_each_line(batch.lines, [&](std::string_view text) -> core::Expected<void> {
+  const auto lines = whole_.take(batch);
+  if (!lines) return {};
+  return for_each_line(*lines, [&](std::string_view text) -> core::Expected<void> {
     const auto line = read_batch_line(text, place);
     if (!line) return tl::unexpected(line.error());
     if (const auto* named = std::get_if<RoomLine>(&*line)) current = named->room;

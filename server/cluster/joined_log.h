@@ -26,6 +26,7 @@ class JoinedLog {
   core::Expected<void> take(std::uint64_t sequence, const Batch& batch);
   /// A batch is gone: what follows counts from each room's next keyframe on.
   void lose() {
+    whole_.lose();
     for (auto& [name, room] : rooms_) room.has_lost = true;
   }
   /// All is on its way to the disk. Error: something couldn't be written.
@@ -49,6 +50,7 @@ class JoinedLog {
   const std::filesystem::path folder_;
   std::ostream& out_;
   std::map<std::string, Room, std::less<>> rooms_;
+  WholeBatches whole_;
   std::size_t holes_ = 0;
 };
 

@@ -16,13 +16,15 @@ TapNumber next_number() {
 
 }  // namespace
 
-LogTap::LogTap(std::shared_ptr<LogDesk> desk, std::string room, replay::Header header, Duration away)
+LogTap::LogTap(std::shared_ptr<LogDesk> desk, std::string room, replay::Header header, Duration away,
+               bool is_strict)
     : desk_(std::move(desk)),
       number_(next_number()),
       room_(std::move(room)),
       header_(std::move(header)),
       keyframe_ticks_(replay::keyframe_ticks(header_.tick_hz)),
-      away_(away) {
+      away_(away),
+      is_strict_(is_strict) {
   assert(desk_ != nullptr && !room_.empty());
 }
 
@@ -71,6 +73,19 @@ void LogTap::step(const LiveStep& step, const match::Match& game) {
   static_cast<void>(post([number = number_, state = game.state(), is_anew](ShardText& text, Time at) {
     text.keyframe(number, state, is_anew, at);
   }));
+}
+
+/// Lines that were refused are in no batch: the game goes on to its next keyframe without them.
+bool LogTap::await_kept(const std::function<void()>& kept) {
+  if (!is_strict_ || has_lost_) return false;
+  desk_->post_soon([number = number_, kept](ShardText& text, Time) { text.await_kept(number, kept); });
+  return true;
+}
+
+/// Who was away while the step was kept may have lost the room.
+bool LogTap::may_show() const {
+  if (is_strict_ && stepped_at_ != Time::max() && Clock::now() - stepped_at_ > away_) desk_->doubt();
+  return !desk_->is_in_doubt();
 }
 
 void LogTap::fall_asleep(const match::Match& game) {

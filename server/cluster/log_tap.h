@@ -27,6 +27,8 @@ class LogDesk {
   virtual ~LogDesk() = default;
   /// False, and nothing done: too much waits.
   [[nodiscard]] virtual bool post(Job job) = 0;
+  /// What somebody waits for: it is looked at soon. Each game has at most one such job here.
+  virtual void post_soon(Job job) = 0;
   /// Whoever was away may have lost his rooms meanwhile: they are in doubt until the log is asked.
   virtual void doubt() = 0;
   [[nodiscard]] virtual bool is_in_doubt() const = 0;
@@ -36,8 +38,9 @@ class LogDesk {
 
 class LogTap final : public TickWatcher {
  public:
-  /// away: between two ticks; after that the game is in doubt.
-  LogTap(std::shared_ptr<LogDesk> desk, std::string room, replay::Header header, Duration away);
+  /// away: between two ticks; after that the game is in doubt. is_strict: nobody is shown what is not stored.
+  LogTap(std::shared_ptr<LogDesk> desk, std::string room, replay::Header header, Duration away,
+         bool is_strict = false);
 
   void attach(Announce announce) override { announce_ = std::move(announce); }
   void begin(const match::Match& game) override;
@@ -47,7 +50,8 @@ class LogTap final : public TickWatcher {
   void step(const LiveStep& step, const match::Match& game) override;
   void fall_asleep(const match::Match& game) override;
   void wake(const match::Match&) override { stepped_at_ = Time::max(); }
-  [[nodiscard]] bool may_show() const override { return !desk_->is_in_doubt(); }
+  [[nodiscard]] bool await_kept(const std::function<void()>& kept) override;
+  [[nodiscard]] bool may_show() const override;
   void finish(const std::string& reason, std::function<void()> done) override;
 
  private:
@@ -60,6 +64,7 @@ class LogTap final : public TickWatcher {
   const replay::Header header_;
   const std::uint64_t keyframe_ticks_;
   const Duration away_;
+  const bool is_strict_;
   Time stepped_at_ = Time::max();  ///< the last step; max: none since it began, or stood still
   Announce announce_;
   std::uint64_t beginnings_ = 0;

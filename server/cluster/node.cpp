@@ -100,7 +100,8 @@ void Node::leave() {
 }
 
 std::unique_ptr<TickWatcher> Node::watch(const std::string& room, replay::Header header) {
-  return std::make_unique<LogTap>(inbox_, room, std::move(header), settings_.silence / 2);
+  return std::make_unique<LogTap>(inbox_, room, std::move(header), settings_.silence / 2,
+                                  settings_.is_strict);
 }
 
 std::optional<std::string> Node::elsewhere(std::string_view room) const {

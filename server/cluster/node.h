@@ -37,7 +37,7 @@ class Node final : public Cluster {
   static constexpr Duration kLook = std::chrono::milliseconds(5);
   /// Between two attempts to read the log from a beginning.
   static constexpr Duration kBeginEvery = std::chrono::milliseconds(250);
-  /// Text of a batch that waits for no time; a message of NATS is at most 1 MB, packed.
+  /// Text of a batch that waits for no time: it is one message of NATS, packed, but where a line is long.
   static constexpr std::size_t kCutBytes = 512u << 10;
   /// Batches that are not acknowledged; then the log begins anew once it takes some.
   static constexpr std::size_t kMostWaiting = 600;
@@ -74,6 +74,7 @@ class Node final : public Cluster {
   void run();
   bool follow();
   [[nodiscard]] bool begin_following();
+  [[nodiscard]] core::Expected<std::string> read_whole(std::uint64_t sequence);
   [[nodiscard]] core::Expected<void> read_beginning(const NatsLink::StreamState& state);
   [[nodiscard]] ShardView fresh_view();
   void show();
@@ -93,6 +94,8 @@ class Node final : public Cluster {
   void hear(std::deque<NodeEvent> events);
   void cut(Time now);
   void write(Time now);
+  void tell_kept();
+  [[nodiscard]] Time next_look(Time now) const;
   [[nodiscard]] bool begin_log_anew();
   void watch_durability(Time now);
   void step_down();
@@ -135,6 +138,8 @@ class Node final : public Cluster {
   std::optional<LogWriter> writer_;
   Writer former_;  ///< this host's epoch before, where its log had to begin anew
   std::optional<ShardText> text_;
+  std::deque<std::pair<std::uint64_t, std::vector<std::function<void()>>>>
+      kept_;  ///< who waits for the batches below that number
   Time cut_at_{};
   bool is_told_not_durable_ = false;
   Time doubted_at_{};          ///< Time{}: the rooms are this host's, as far as is known

@@ -87,6 +87,21 @@ void Node::show() {
   for (auto& [room, lines] : std::exchange(to_show_, {})) viewers_->lines(room, std::move(lines));
 }
 
+/// Lines of the batch that begins there.
+core::Expected<std::string> Node::read_whole(std::uint64_t sequence) {
+  WholeBatches whole;
+  for (std::uint32_t part = 0; part < kMostParts; ++part) {
+    const std::string place = joined({"batch ", std::to_string(sequence + part)});
+    const auto message = log_link_->read(sequence + part);
+    if (!message) return tl::unexpected(message.error());
+    const auto batch = unpack(message->bytes, place);
+    if (!batch) return tl::unexpected(batch.error());
+    if (const auto lines = whole.take(*batch)) return std::string(*lines);
+    if (batch->head.part != part) break;
+  }
+  return core::fail(joined({"batch ", std::to_string(sequence)}), "is not whole");
+}
+
 /// From the last batch that is one, which says where to begin; what is none behind it is passed over.
 core::Expected<void> Node::read_beginning(const NatsLink::StreamState& state) {
   std::uint64_t at = state.last;
@@ -109,12 +124,10 @@ core::Expected<void> Node::read_beginning(const NatsLink::StreamState& state) {
   });
   const auto beginning = ShardView::beginning({at, head});
   for (const auto& [room, sequence] : beginning.headers) {
-    const auto message = log_link_->read(sequence);
-    if (!message) return tl::unexpected(message.error());
+    const auto lines = read_whole(sequence);
+    if (!lines) return tl::unexpected(lines.error());
     const std::string place = joined({"batch ", std::to_string(sequence)});
-    const auto headers = unpack(message->bytes, place);
-    if (!headers) return tl::unexpected(headers.error());
-    if (auto taken = view_->take_header(room, *headers, place); !taken) return taken;
+    if (auto taken = view_->take_header(room, *lines, place); !taken) return taken;
   }
   say(LogEvent::kClusterFollows,
       joined({"follows the log of ", settings_.shard, ", which is that of ", to_text(batch->head.writer),

@@ -16,12 +16,14 @@ using core::joined;
 void Node::own() {
   assert(writer_ && text_);
   while (!inbox_->is_stopping() && !is_to_hand_over_) {
-    hear(inbox_->take(Clock::now() + kLook));
+    hear(inbox_->take(next_look(Clock::now())));
     if (inbox_->is_in_doubt()) ask_the_log();
     const Time now = Clock::now();
     text_->renew(now);
-    if (now >= cut_at_ || text_->size() >= kCutBytes) cut(now);
+    const bool is_awaited = text_->is_awaited() && writer_->waiting() == 0;
+    if (now >= cut_at_ || text_->size() >= kCutBytes || is_awaited) cut(now);
     write(now);
+    tell_kept();
     // Its own former epoch is no other host's: what said that it was gone was an old read.
     const bool is_gone =
         writer_->state() == LogWriter::State::kGone || (!writer_->is_open() && writer_->other() == former_);
@@ -35,12 +37,19 @@ void Node::own() {
   writer_.reset();
 }
 
+/// What NATS answers and what is awaited wakes this thread; a batch has its time. A thread that looked more
+/// often would cost more than the small rooms that it serves.
+Time Node::next_look(Time now) const {
+  const Time unasked = now + LogWriter::kAskEvery;
+  return cut_at_ > now ? std::min(cut_at_, unasked) : unasked;
+}
+
 /// Who was away asks before anything is shown. Where nobody answers, the rooms go on after a while, as they
 /// do while nothing is stored.
 void Node::ask_the_log() {
   if (doubted_at_ == Time{}) doubted_at_ = Clock::now();
   const auto last = read_last();
-  if (last || Clock::now() - doubted_at_ > kNotDurableAfter) doubted_at_ = Time{};
+  if (last || (!settings_.is_strict && Clock::now() - doubted_at_ > kNotDurableAfter)) doubted_at_ = Time{};
   if (!last) return doubted_at_ == Time{} ? inbox_->settle() : void();  // or it is asked again
   if (last->head.writer == writer_->writer()) return inbox_->settle();
   writer_->failed();  // which has it read, and judged
@@ -73,11 +82,13 @@ void Node::hear(std::deque<NodeEvent> events) {
 
 /// What there is to tell; the first batch of an epoch tells nothing, and an idle log is kept alive.
 void Node::cut(Time now) {
-  constexpr std::size_t kMostPacked = 1'000'000;
   text_->flush();
   const bool is_first = writer_->next_number() == 0;
   const bool is_late = now - cut_at_ > settings_.keep / 3;
-  if (text_->size() == 0 && !is_first && !is_late) return;
+  if (text_->size() == 0 && !is_first && !is_late) {
+    for (const auto& kept : text_->take_awaiting()) kept();
+    return;
+  }
   const auto lose = [this](const std::string& why) {
     text_->lose();
     inbox_->begin_anew();
@@ -87,12 +98,24 @@ void Node::cut(Time now) {
     if (text_->size() < kCutBytes) return;  // some may be taken yet
     return lose("nothing is stored");
   }
+  std::vector<RoomPlace> before = text_->places();
+  std::erase_if(before, [](const RoomPlace& place) { return place.header == 0; });
   const std::string lines = text_->cut(writer_->next_sequence());
-  std::string packed =
-      pack({writer_->writer(), writer_->next_number(), match::kBehavior, text_->places()}, lines);
+  std::vector<std::string> parts = pack_in_parts(
+      {writer_->writer(), writer_->next_number(), match::kBehavior, text_->places()}, before, lines);
   cut_at_ = now + settings_.batch;
-  if (packed.size() > kMostPacked) return lose("a batch is longer than a message may be");
-  writer_->add(std::move(packed));
+  if (parts.empty()) return lose("a batch is longer than it may be");
+  for (std::string& part : parts) writer_->add(std::move(part));
+  if (auto awaiting = text_->take_awaiting(); !awaiting.empty())
+    kept_.emplace_back(writer_->next_number(), std::move(awaiting));
+}
+
+/// Whose step is stored may be shown it.
+void Node::tell_kept() {
+  while (!kept_.empty() && kept_.front().first <= writer_->acked()) {
+    for (const auto& kept : kept_.front().second) kept();
+    kept_.pop_front();
+  }
 }
 
 void Node::write(Time now) {
@@ -132,6 +155,8 @@ bool Node::begin_log_anew() {
   say(LogEvent::kClusterHole,
       joined({"LOG HAS A HOLE: its last batch is ", std::to_string(last->sequence), ", of ",
               to_text(last->head.writer), ", less than was stored; its rooms are told anew"}));
+  for (const auto& [number, waiting] : std::exchange(kept_, {}))
+    for (const auto& kept : waiting) kept();  // told anew with what follows
   writer_.emplace(
       Writer{std::max(former.epoch, last->head.writer.epoch) + 1, settings_.host, make_resume_token()},
       last->sequence);
@@ -143,14 +168,24 @@ bool Node::begin_log_anew() {
 }
 
 void Node::watch_durability(Time now) {
-  const bool is_late = writer_->silence(now) > (is_cut_off() ? settings_.silence : kNotDurableAfter);
+  const bool is_strict = settings_.is_strict;
+  const bool is_soon = is_strict || is_cut_off();
+  const bool is_late = writer_->silence(now) > (is_soon ? settings_.silence : kNotDurableAfter);
   if (is_late == is_told_not_durable_) return;
   is_told_not_durable_ = is_late;
-  say(is_late ? LogEvent::kClusterNotDurable : LogEvent::kClusterDurable,
-      is_late ? "NOT DURABLE: nothing is stored; the rooms go on" : "what is played is stored again");
-  text_->announce(
-      {std::string(is_late ? protocol::code::kNotDurable : protocol::code::kDurable),
-       is_late ? "what is played now would be lost with this server" : "what is played is safe again"});
+  if (is_late)
+    say(LogEvent::kClusterNotDurable,
+        joined({"NOT DURABLE: nothing is stored; the rooms ", is_strict ? "stand still" : "go on"}));
+  else
+    say(LogEvent::kClusterDurable, "what is played is stored again");
+  if (is_strict)
+    text_->announce(is_late ? protocol::Notice{std::string(protocol::code::kPaused),
+                                               "the game waits: nothing that is played can be stored"}
+                            : protocol::Notice{std::string(protocol::code::kResumed), "the game goes on"});
+  else
+    text_->announce(
+        {std::string(is_late ? protocol::code::kNotDurable : protocol::code::kDurable),
+         is_late ? "what is played now would be lost with this server" : "what is played is safe again"});
 }
 
 void Node::step_down() {
@@ -162,6 +197,7 @@ void Node::step_down() {
     const std::lock_guard lock(mutex_);
     beat_.owns = false;
   }
+  kept_.clear();  // nobody is shown what another host's log has not
   hooks_.step_down(owner ? owner->address : std::string());
   writer_.reset();
 }
@@ -177,6 +213,8 @@ void Node::store_the_rest() {
     hear(inbox_->take(next));
     if (inbox_->is_stopping()) std::this_thread::sleep_until(next);  // its inbox waits for nothing
   }
+  tell_kept();
+  kept_.clear();
   tell_owning();
   {
     const std::lock_guard lock(mutex_);

@@ -98,6 +98,13 @@ void ShardText::keyframe(TapNumber tap, const match::MatchState& state, bool is_
   if (room != nullptr) tell(*room, state, is_anew || !room->has_begun || now >= room->renew_at, now);
 }
 
+void ShardText::await_kept(TapNumber tap, std::function<void()> kept) {
+  assert(kept);
+  const Room* room = find(tap);
+  if (room == nullptr || !room->has_begun) return kept();
+  awaiting_.push_back(std::move(kept));
+}
+
 void ShardText::rest(TapNumber tap, match::MatchState state) {
   if (Room* room = find(tap)) room->resting = std::move(state);
 }
@@ -120,6 +127,7 @@ void ShardText::renew(Time now) {
 void ShardText::lose() {
   lines_.clear();
   last_ = nullptr;
+  for (const auto& kept : take_awaiting()) kept();
   for (auto& [name, room] : rooms_) room.has_begun = room.has_header = room.has_keyframe = false;
   for (auto& [name, room] : rooms_) room.renew_at = Time{};
 }

@@ -5,12 +5,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "server/access/claim.h"
@@ -44,13 +46,19 @@ class ShardText {
   void step(TapNumber tap, const RecordedStep& step);
   /// is_anew: lines before it are missing.
   void keyframe(TapNumber tap, const match::MatchState& state, bool is_anew, Time now);
+  /// kept: called once its lines so far are stored, or are lost; at once where there are none.
+  void await_kept(TapNumber tap, std::function<void()> kept);
+  [[nodiscard]] bool is_awaited() const { return !awaiting_.empty(); }
+  /// Who waits for the lines of the last cut.
+  [[nodiscard]] std::vector<std::function<void()>> take_awaiting() { return std::exchange(awaiting_, {}); }
   /// It stands still there.
   void rest(TapNumber tap, match::MatchState state);
   void close(TapNumber tap);
 
   /// Rooms that stand still are told anew when it is time; then there is something to cut.
   void renew(Time now);
-  /// All lines so far are dropped; each room is told of no more until a keyframe of it comes.
+  /// All lines so far are dropped, and who waits for them waits no more; each room is told of no more until a
+  /// keyframe of it comes.
   void lose();
   void announce(const protocol::Notice& notice) const;
 
@@ -92,6 +100,7 @@ class ShardText {
   std::map<std::string, Room, std::less<>> rooms_;
   std::map<std::string, RoomPlace, std::less<>> places_;
   std::string lines_;
+  std::vector<std::function<void()>> awaiting_;
   bool keeps_rooms_ = false;
   const Room* last_ = nullptr;  ///< whose the last line is
 };

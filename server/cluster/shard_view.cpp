@@ -23,7 +23,7 @@ bool is_keyframe(std::string_view line) { return line.starts_with(R"({"keyframe"
 
 ShardView::Beginning ShardView::beginning(const LastBatch& last) {
   Beginning beginning;
-  beginning.from = last.sequence;
+  beginning.from = last.sequence - std::min<std::uint64_t>(last.head.part, last.sequence - 1);
   for (const RoomPlace& place : last.head.rooms)
     if (place.keyframe != 0) beginning.from = std::min(beginning.from, place.keyframe);
   for (const RoomPlace& place : last.head.rooms)
@@ -31,11 +31,11 @@ ShardView::Beginning ShardView::beginning(const LastBatch& last) {
   return beginning;
 }
 
-core::Expected<void> ShardView::take_header(std::string_view room, const Batch& batch,
+core::Expected<void> ShardView::take_header(std::string_view room, std::string_view lines,
                                             const std::string& place) {
   std::string current;
   bool is_found = false;
-  auto read = for_each_line(batch.lines, [&](std::string_view text) -> core::Expected<void> {
+  auto read = for_each_line(lines, [&](std::string_view text) -> core::Expected<void> {
     const auto line = read_batch_line(text, place);
     if (!line) return tl::unexpected(line.error());
     if (const auto* named = std::get_if<RoomLine>(&*line)) current = named->room;
@@ -77,9 +77,11 @@ core::Expected<void> ShardView::take(std::uint64_t sequence, const Batch& batch)
   head_ = batch.head;
   is_behind_gap_ = false;
   sequence_ = sequence;
+  const auto lines = whole_.take(batch);
+  if (!lines) return {};
   current_.clear();
   const std::string place = place_of(sequence);
-  return for_each_line(batch.lines, [&](std::string_view text) -> core::Expected<void> {
+  return for_each_line(*lines, [&](std::string_view text) -> core::Expected<void> {
     auto line = read_batch_line(text, place);
     if (!line) return tl::unexpected(line.error());
     return take_line(*line);
@@ -90,6 +92,7 @@ void ShardView::lose(std::uint64_t sequence) {
   assert(sequence_ == 0 || sequence == sequence_ + 1);
   sequence_ = sequence;
   is_behind_gap_ = true;
+  whole_.lose();
   for (auto& [name, room] : rooms_) room.stands_still = true;
 }
 

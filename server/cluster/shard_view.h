@@ -50,8 +50,8 @@ class ShardView {
     std::map<std::string, std::uint64_t, std::less<>> headers;
   };
   static Beginning beginning(const LastBatch& last);
-  /// The header of that room in a batch; nothing more of it is looked at.
-  core::Expected<void> take_header(std::string_view room, const Batch& batch, const std::string& place);
+  /// The header of that room in a whole batch; nothing more of it is looked at.
+  core::Expected<void> take_header(std::string_view room, std::string_view lines, const std::string& place);
 
   /// The stream's next batch. Errors: it can't follow what was read so far, or its lines are none of a log:
   /// what is known is worth nothing any more.
@@ -88,6 +88,7 @@ class ShardView {
   std::optional<BatchHead> head_;
   std::uint64_t sequence_ = 0;
   std::string difference_;
+  WholeBatches whole_;
   bool is_behind_gap_ = false;  ///< the batch before the next one is gone
   std::string current_;         ///< the room whose lines follow; empty: none's so far
 };

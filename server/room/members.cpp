@@ -120,7 +120,7 @@ std::optional<protocol::ErrorMessage> Members::why_not(const Arrival& arrival) {
                  core::joined({"join: room ", settings_.name, " takes ",
                                std::to_string(settings_.limits.join_per_s_room), " players a second"}),
                  retry_after_ms(*wait));
-  if (!may_wait()) return error(code::kPaused, "join: too many have joined since the room was paused");
+  if (!may_wait()) return error(code::kPaused, "join: too many have joined since the room stands still");
   return std::nullopt;
 }
 
@@ -244,12 +244,6 @@ void Members::end(const Seat& seat) {
   if (seat.louse != 0) send(events_.left(game_->tick(), seat));
 }
 
-void Members::announce(const protocol::Notice& notice) {
-  notices_.push_back(notice);
-  seats_.for_each<SessionOccupant>(
-      [&](const Seat&, const SessionOccupant& occupant) { occupant.subscriber->answer(notice); });
-}
-
 void Members::dismiss(const protocol::Bye& bye) {
   for (const Seat& seat : seats_.take_away_sessions()) {
     const auto& occupant = std::get<SessionOccupant>(seat.occupant);
@@ -293,7 +287,7 @@ bool Members::refuse_when_busy(const Seat& seat, Spending what, Time arrived) {
 
 /// Inputs reach at most InputQueue's horizon ahead, so that this is soon.
 void Members::on_message(Seat&, const SessionOccupant& occupant, const protocol::Leave&, Time) {
-  if (may_wait_ || occupant.acked_from <= game_->tick())  // in a paused room none is on its way
+  if (may_wait_ || occupant.acked_from <= game_->tick())  // where none follows soon none is on its way
     return outlet_->let_go(occupant.session, occupant.subscriber->lane());
   leaving_.emplace(occupant.acked_from, occupant.session);
 }
@@ -302,7 +296,7 @@ void Members::on_message(Seat& seat, const SessionOccupant&, const protocol::Res
   if (refuse_when_busy(seat, Spending::kRespawn, arrived)) return;
   if (!may_wait())
     return std::get<SessionOccupant>(seat.occupant)
-        .subscriber->answer(error(code::kPaused, "respawn: too many wait since the room was paused"));
+        .subscriber->answer(error(code::kPaused, "respawn: too many wait since the room stands still"));
   respawn.at_gate ? game_->respawn_at_gate(seat.louse) : game_->respawn(seat.louse);
   send(events_.respawned(game_->tick(), seat));
 }

@@ -88,6 +88,13 @@ class Members {
   /// No tick passes till resume(): who joins hears so, too, and what waits for the next tick is bounded.
   void pause();
   void resume();
+  /// No step follows for a while, as what was played is kept first: what waits for the next one is bounded.
+  void await_keeping() {
+    if (!may_wait_) may_wait_ = kMostPaused;
+  }
+  void end_keeping() {
+    if (!is_paused_) may_wait_.reset();
+  }
   /// No step follows for now.
   void stand() { display_.stand(seats_); }
   /// What waited has been done by a tick.
@@ -212,7 +219,8 @@ class Members {
   Events events_;
   HouseCrew crew_;
   std::map<SessionId, AddressId> skip_votes_;  ///< of players who are here
-  std::optional<std::size_t> may_wait_;  ///< so many more joins and respawns; none: the room is not paused
+  std::optional<std::size_t> may_wait_;  ///< so many more joins and respawns; none: the next tick comes soon
+  bool is_paused_ = false;
 };
 
 }  // namespace woodlouse::server

@@ -122,6 +122,7 @@ void Room::stop(const protocol::Bye& bye, const std::string& reason, std::functi
     if (!is_first) return;
     const bool was_watched = state_ != State::kWaiting;
     state_ = State::kStopped;
+    unshown_.reset();
     next_tick_.expect_none();
     alarm_->cancel();
     end_steps(core::fail({}, "the room has closed"));
@@ -144,52 +145,6 @@ void Room::finish(const Watchers& watchers, const std::string& reason, std::func
   };
   for (const auto& watcher : watchers) watcher->finish(reason, part_done);
   part_done();
-}
-
-bool Room::is_game_over() const {
-  if (rotation_ == nullptr) return false;
-  if (members_.wants_next()) return true;
-  if (const rules::Rules* rules = game_->rules()) return rules->round().number > settings_.rounds_a_game;
-  const auto round = static_cast<std::uint64_t>(std::chrono::seconds(kRoamRound).count());
-  return game_->tick() >= round * settings_.rounds_a_game * game_->settings().tick_hz;
-}
-
-/// Asks for the next one, once; whether it is here, and all have heard the last events of this one.
-bool Room::is_next_ready() {
-  if (!std::exchange(is_next_asked_, true))
-    rotation_->prepare([room = weak_from_this()](NextGame next) {
-      const auto self = room.lock();
-      if (!self) return;
-      auto made = std::make_shared<NextGame>(std::move(next));  // a job can be copied, a game can't
-      asio::post(self->strand_, [self, made] { self->next_ = std::move(*made); });
-    });
-  if (!next_) return false;
-  const std::uint64_t most = static_cast<std::uint64_t>(kLastWords.count()) * game_->settings().tick_hz;
-  return ++over_ticks_ > most || members_.backlog() == 0;
-}
-
-void Room::begin_next() {
-  assert(next_ && next_->start.match->settings().tick_hz == game_->settings().tick_hz);
-  former_ticks_ += game_->tick();
-  const auto former = former_.insert(former_.end(), {std::move(game_), std::move(watchers_)});
-  game_ = std::move(next_->start.match);
-  watchers_ = std::move(next_->watchers);
-  std::unique_ptr<bots::Team> team = std::move(next_->start.team);
-  map_file_ = std::move(next_->start.map_file);
-  next_.reset();
-  is_next_asked_ = false;
-  over_ticks_ = 0;
-  ++games_;
-  say(LogEvent::kGameBegan,
-      fmt::format("game {} begins: {} of map {}", games_, state::to_text(game_->settings().mode),
-                  game_->map().definition.name));
-  begin_watching();
-  members_.begin(*game_, std::move(team));
-  finish(former->watchers, "the room plays another game", [this, former] {
-    for (const auto& watcher : former->watchers) watcher->add_figures(working_);
-    former_.erase(former);
-    end_if_finished();
-  });
 }
 
 void Room::end_if_finished() {
@@ -262,6 +217,7 @@ void Room::await_tick() {
 }
 
 void Room::on_tick_due() {
+  assert(!unshown_);
   const Time now = timekeeper_.now();
   const std::uint64_t moves = clock_->moves();
   const Duration late = clock_->begin(now);
@@ -271,9 +227,37 @@ void Room::on_tick_due() {
         fmt::format("tick {} came {} ms late; the clock moved, nothing is made up for", game_->tick(),
                     std::chrono::duration_cast<std::chrono::milliseconds>(late).count()));
   tick(now);
-  working_.work.add(timekeeper_.now() - now);
+  unshown_->work = timekeeper_.now() - now;
+  if (!is_to_be_kept()) return end_tick();
+  next_tick_.expect_none();
+  members_.await_keeping();
+}
+
+/// Asks a watcher to keep what the tick has played; whether the tick ends once that is done.
+bool Room::is_to_be_kept() {
+  const auto kept = [room = weak_from_this(), number = unshown_->number, game = games_] {
+    const auto self = room.lock();
+    if (!self) return;
+    asio::post(self->strand_, [self, number, game] {
+      const bool waits = self->unshown_ && self->unshown_->number == number && self->games_ == game;
+      if (waits) self->end_tick();
+    });
+  };
+  return std::any_of(watchers_.begin(), watchers_.end(),
+                     [&kept](const auto& watcher) { return watcher->await_kept(kept); });
+}
+
+void Room::end_tick() {
+  const Time begun = timekeeper_.now();
+  show();
+  working_.work.add(unshown_->work + (timekeeper_.now() - begun));
+  const bool is_over = unshown_->is_over;
+  unshown_.reset();
+  members_.end_keeping();
   ++working_.ticks;
   if (working_.ticks % game_->settings().tick_hz == 0) post_figures();
+  if (state_ != State::kRunning) return;
+  if (is_over) return await_tick();
   if (settings_.tick_limit && former_ticks_ + game_->tick() >= *settings_.tick_limit) {
     state_ = State::kStopped;
     next_tick_.expect_none();
@@ -285,6 +269,9 @@ void Room::on_tick_due() {
   } else if (is_to_sleep()) {
     return fall_asleep();
   }
+  // Of a long wait nothing is made up for.
+  if (begun > clock_->deadline() + TickClock::kMaxLateTicks * clock_->period())
+    clock_->restart(std::chrono::ceil<Beat>(begun));
   await_tick();
 }
 
@@ -322,11 +309,16 @@ void Room::tick(Time now) {
   members_.give_up_vacant();
   members_.steer_house_bots();
   const match::StepRecord& record = game_->advance();
-  const LiveStep step(record, members_.margins(number, now));
-  for (const auto& watcher : watchers_) watcher->step(step, *game_);
+  unshown_.emplace(number, now, record, members_.margins(number, now));
+  for (const auto& watcher : watchers_) watcher->step(unshown_->step, *game_);
   if (late_) begin_late();
-  members_.answer(number, now);
-  members_.tell(step);
+}
+
+/// What the tick did, to who is here.
+void Room::show() {
+  assert(unshown_);
+  members_.answer(unshown_->number, unshown_->due);
+  members_.tell(unshown_->step);
   if (std::all_of(watchers_.begin(), watchers_.end(),
                   [](const auto& watcher) { return watcher->may_show(); }))
     members_.send_frames();

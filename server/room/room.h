@@ -26,6 +26,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -36,6 +37,7 @@
 #include "server/room/members.h"
 #include "server/room/rotation.h"
 #include "server/room/start.h"
+#include "server/stream/recorded_step.h"
 #include "server/timing/clock.h"
 #include "server/timing/figures.h"
 #include "server/timing/next_tick.h"
@@ -175,6 +177,9 @@ class Room : public std::enable_shared_from_this<Room> {
   void await_tick();
   void on_tick_due();
   void tick(Time now);
+  [[nodiscard]] bool is_to_be_kept();
+  void end_tick();
+  void show();
   [[nodiscard]] bool is_to_sleep();
   void fall_asleep();
   void wake();
@@ -208,6 +213,17 @@ class Room : public std::enable_shared_from_this<Room> {
   // The strand's:
   Queue at_the_door_;
   std::optional<TickClock> clock_;
+  /// What a tick has played, till it is shown.
+  struct Unshown {
+    Unshown(std::uint64_t of, Time at, const match::StepRecord& record, std::span<const InputMargin> margins)
+        : number(of), due(at), step(record, margins) {}
+    std::uint64_t number;
+    Time due;  ///< begun
+    Duration work{};
+    bool is_over = false;  ///< the room has stood still since
+    LiveStep step;
+  };
+  std::optional<Unshown> unshown_;  ///< between two ticks: a watcher keeps it first
   std::function<void()> ended_;
   enum class State { kWaiting, kRunning, kAsleep, kPaused, kStopped };
   std::atomic<State> state_ = State::kWaiting;  ///< any thread may look

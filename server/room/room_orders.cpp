@@ -91,6 +91,7 @@ void Room::resume(Ordered answered) {
     say(LogEvent::kRoomResumed, fmt::format("goes on with tick {}", game_->tick()));
     end_steps(core::fail({}, "was resumed before all steps were done"));
     members_.resume();
+    if (unshown_) members_.await_keeping();
     if (!steps) go_on();
     done(game_->tick());
   });
@@ -113,6 +114,7 @@ void Room::stand_still() {
   if (state_ == State::kRunning)
     for (const auto& watcher : watchers_) watcher->fall_asleep(*game_);
   state_ = State::kPaused;
+  if (unshown_) unshown_->is_over = true;
   next_tick_.expect_none();
   alarm_->cancel();
   members_.stand();
@@ -127,7 +129,7 @@ void Room::go_on() {
   post_figures();
   for (const auto& watcher : watchers_) watcher->wake(*game_);
   clock_->restart(std::chrono::ceil<std::chrono::milliseconds>(timekeeper_.now()));
-  await_tick();
+  if (!unshown_) await_tick();
 }
 
 void Room::end_steps(core::Expected<std::uint64_t> tick) {
@@ -227,13 +229,28 @@ void Members::refuse_held(Subscriber& subscriber) {
                           "join: the room is about to go on at another server: join again", false, kAgainMs});
 }
 
+/// Whoever joins later hears what holds then: nothing that is over, nor that it is.
+void Members::announce(const protocol::Notice& notice) {
+  const bool is_end = notice.code == protocol::code::kDurable || notice.code == protocol::code::kResumed;
+  const std::string_view over =
+      notice.code == protocol::code::kDurable ? protocol::code::kNotDurable : protocol::code::kPaused;
+  if (is_end)
+    std::erase_if(notices_, [over](const protocol::Notice& told) { return told.code == over; });
+  else
+    notices_.push_back(notice);
+  seats_.for_each<SessionOccupant>(
+      [&](const Seat&, const SessionOccupant& occupant) { occupant.subscriber->answer(notice); });
+}
+
 void Members::pause() {
+  is_paused_ = true;
   may_wait_ = kMostPaused;
   say_from_now_on(
       {std::string(protocol::code::kPaused), "the operator has paused this room: it stands still"});
 }
 
 void Members::resume() {
+  is_paused_ = false;
   may_wait_.reset();
   std::erase_if(standing_,
                 [](const protocol::Notice& notice) { return notice.code == protocol::code::kPaused; });

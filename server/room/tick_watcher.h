@@ -44,8 +44,11 @@ class TickWatcher {
   virtual void claimed(const Claim& /*claim*/) {}
   /// After the step. `game`: as the step left it, nothing queued since.
   virtual void step(const LiveStep& /*step*/, const match::Match& /*game*/) {}
+  /// Behind step(). True: nobody is shown the step, nor told of it, and no further one is played, before
+  /// `kept` is called, on any thread; of all watchers of a room one at most asks for it.
+  [[nodiscard]] virtual bool await_kept(const std::function<void()>& /*kept*/) { return false; }
   /// Whether this game is still the room's, as far as is known: what no longer is, is shown to nobody. Behind
-  /// step().
+  /// step() and, where that was asked for, its keeping.
   [[nodiscard]] virtual bool may_show() const { return true; }
   /// After everything else of the tick is done: who is in the room was answered and shown it.
   virtual void rest(const match::Match& /*game*/) {}

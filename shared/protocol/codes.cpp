@@ -73,8 +73,8 @@ constexpr std::array kCodes = {
               "the server will stop soon, the text says when; nobody joins any more but who comes back"},
     CodeEntry{
         code::kPaused, "error, notice", Ends::kNo,
-        "the operator has paused the room: no tick passes. As an error: too many have joined or asked for "
-        "something meanwhile"},
+        "no tick passes: the operator has paused the room, or, in a cluster of mode strict, nothing can be "
+        "stored. As an error: too many have joined or asked for something meanwhile"},
     CodeEntry{code::kResumed, "notice", Ends::kNo, "the room goes on"},
     CodeEntry{code::kModerated, "notice", Ends::kNo, "what a moderator asked for is done"},
     CodeEntry{code::kOperator, "notice", Ends::kNo, "the operator or a moderator says the text to all"},

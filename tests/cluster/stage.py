@@ -138,11 +138,11 @@ class Nats:
 class Host:
     """A woodlouse-server of the cluster. prefix: the command that starts it somewhere else; file: the cluster's, as it is there."""
 
-    def __init__(self, nats, name, *arguments, maps=("volcano",), prefix=(), listen="127.0.0.1", file=None):
+    def __init__(self, nats, name, *arguments, maps=("volcano",), folder=MAPS, prefix=(), listen="127.0.0.1", file=None):
         self.name = name
         self.door = os.path.join(nats.folder, f"{name}-{time.monotonic_ns()}.sock")
         self.log_file = os.path.join(nats.folder, f"{name}-{time.monotonic_ns()}.log")
-        games = [os.path.join(MAPS, each + ".json") for each in maps]
+        games = [os.path.join(folder, each + ".json") for each in maps]
         self.process = subprocess.Popen(
             [*prefix, PROGRAM, "--map", *games, "--mode", "roam", "--cluster", file or nats.file, "--cluster-host", name,
              "--listen", f"{listen}:0", "--admin", self.door, "--log-file", self.log_file, *arguments],
@@ -199,6 +199,7 @@ class Bot:
         self.notices = []    # their codes
         self.newest = None   # (time, tick) of the newest frame
         self.frames = []     # (time, address) of each frame
+        self.ticks = []      # (time, tick) likewise
         self.stopped = False
 
     async def run(self):
@@ -232,6 +233,7 @@ class Bot:
                 elif kind in (b"key", b"delta"):
                     self.frames.append((time.monotonic(), address))
                     self.newest = (time.monotonic(), int(re.search(rb'"tick":(\d+)', line).group(1)))
+                    self.ticks.append(self.newest)
                 elif kind == b"welcome":
                     joined = True
                     message = json.loads(line)

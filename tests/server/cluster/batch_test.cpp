@@ -1,8 +1,10 @@
 // Batches of a log, and what others say of themselves: what comes from outside is checked.
 #include <catch2/catch.hpp>
 
+#include <random>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "server/cluster/batch.h"
 #include "server/cluster/host_table.h"
@@ -49,6 +51,39 @@ TEST_CASE("a batch comes back as it was packed") {
   CHECK(batch->head == head);
   CHECK(batch->lines == lines);
   CHECK(unpack(pack(head, ""), "here")->lines.empty());
+}
+
+TEST_CASE("a batch that no message has room for goes in parts, and is the same once all are read") {
+  std::string lines = R"({"format":)";
+  std::mt19937_64 random(7);  // which no packer makes much shorter
+  while (lines.size() < 3'000'000) lines += std::to_string(random());
+  lines += "}\n{\"step\":7}\n";
+  const BatchHead head = some_head();
+  const std::vector<RoomPlace> before{{"hills/race", 2, 40, 11}};
+  const auto packed = pack_in_parts(head, before, lines);
+  REQUIRE(packed.size() == 4);
+  WholeBatches whole;
+  for (std::size_t k = 0; k < packed.size(); ++k) {
+    CHECK(packed[k].size() <= kMostMessageBytes);
+    const auto part = unpack(packed[k], "here");
+    REQUIRE(part);
+    CHECK(part->head.number == head.number + k);
+    CHECK(part->head.rooms == (k == 3 ? head.rooms : before));
+    const auto read = whole.take(*part);
+    REQUIRE(read.has_value() == (k == 3));
+    if (read) CHECK((*read == lines));
+  }
+  for (const std::vector<int>& order : {std::vector{0, 1, 3}, {0, 2, 3}, {1, 2, 3}, {0, 1, 1, 2, 3}, {3}})
+    for (const int k : order) CHECK_FALSE(whole.take(*unpack(packed[static_cast<std::size_t>(k)], "here")));
+  for (const int k : {0, 1, 2}) CHECK_FALSE(whole.take(*unpack(packed[static_cast<std::size_t>(k)], "here")));
+  whole.lose();
+  CHECK_FALSE(whole.take(*unpack(packed[3], "here")));
+  const std::string small = "{\"step\":7}\n";
+  CHECK(pack_in_parts(head, before, small) == std::vector{pack(head, small)});
+  std::string endless(kMostParts * kPartBytes + 1, '\n');
+  for (char& c : endless) c = static_cast<char>('a' + random() % 26);
+  endless.back() = '\n';
+  CHECK(pack_in_parts(head, before, endless).empty());
 }
 
 TEST_CASE("what is no batch says where and what") {

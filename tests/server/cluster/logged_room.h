@@ -29,6 +29,7 @@ struct Desk final : LogDesk {
     job(text, now);
     return true;
   }
+  void post_soon(Job job) override { job(text, now); }
   void doubt() override { is_doubted = true; }
   [[nodiscard]] bool is_in_doubt() const override { return is_doubted; }
   [[nodiscard]] std::uint64_t beginnings() const override { return begun; }

@@ -45,8 +45,8 @@ TEST_CASE("who comes late begins at the newest keyframe, by what the last batch 
   CHECK(beginning.from == 18);  // ticks 850 to 900
   REQUIRE(beginning.headers.at("volcano") == 1);
   ShardView view;
-  REQUIRE(view.take_header("volcano", shard.batches[0], "x"));
-  CHECK_FALSE(view.take_header("hills", shard.batches[0], "x"));
+  REQUIRE(view.take_header("volcano", shard.batches[0].lines, "x"));
+  CHECK_FALSE(view.take_header("hills", shard.batches[0].lines, "x"));
   read_all(view, shard, beginning.from - 1);
   CHECK(followed(view).hash() == shard.game->hash());
   CHECK(followed(view).tick() == 1000);
@@ -232,6 +232,33 @@ TEST_CASE("a game that stood still for too long is in doubt, and shown to nobody
   hasty.step(LiveStep(record, {}), *shard.game);
   CHECK_FALSE(hasty.may_show());
   CHECK_FALSE(shard.tap->may_show());  // so are all of the host
+}
+
+TEST_CASE("a strict game waits till its lines are stored, or are lost, and not for lines that are none") {
+  Shard shard;
+  shard.open();
+  CHECK_FALSE(shard.tap->await_kept([] {}));  // of mode play
+  LogTap strict(shard.desk, "hills", replay::make_header(*shard.game, "test", "volcano.json"),
+                std::chrono::hours(1), true);
+  int kept = 0;
+  const auto count = [&kept] { ++kept; };
+  CHECK(strict.await_kept(count));  // not begun: there is nothing to store
+  CHECK(kept == 1);
+  strict.begin(*shard.game);
+  REQUIRE(strict.await_kept(count));
+  CHECK(shard.text.is_awaited());
+  shard.cut();
+  for (const auto& stored : shard.text.take_awaiting()) stored();
+  CHECK(kept == 2);
+  CHECK_FALSE(shard.text.is_awaited());
+  REQUIRE(strict.await_kept(count));
+  shard.text.lose();
+  CHECK(kept == 3);
+  shard.desk->is_full = true;
+  const match::StepRecord& record = shard.game->advance();
+  strict.step(LiveStep(record, {}), *shard.game);
+  CHECK_FALSE(strict.await_kept(count));  // its lines were refused
+  CHECK(kept == 3);
 }
 
 TEST_CASE("batches out of their order, of an old epoch or another behavior are refused") {

@@ -2,7 +2,11 @@
 
 #include <catch2/catch.hpp>
 
+#include <functional>
+#include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/server/room/house.h"
@@ -70,6 +74,102 @@ TEST_CASE("a room ends at its tick limit, once, and ticks no more") {
   house.room->stop({"shutdown", "the game is over", false}, "test", [] {});
   house.settle();
   CHECK(house.room->figures()->ticks == 3);
+}
+
+namespace {
+
+/// Keeps each step when the test says so.
+class Keeper final : public TickWatcher {
+ public:
+  explicit Keeper(std::vector<std::function<void()>>& into) : asked_(into) {}
+  void begin(const match::Match&) override {}
+  bool await_kept(const std::function<void()>& kept) override {
+    asked_.push_back(kept);
+    return true;
+  }
+  void finish(const std::string&, std::function<void()> done) override { done(); }
+
+ private:
+  std::vector<std::function<void()>>& asked_;
+};
+
+/// A room that a keeper watches, with somebody in it.
+struct KeptHouse {
+  KeptHouse() {
+    Watchers watchers;
+    watchers.push_back(std::make_unique<Keeper>(asked));
+    RoomSettings each_tick = settings(8);
+    each_tick.state_hz = 60;
+    house.emplace(each_tick, House::open(), std::move(watchers));
+    house->room->start([] {});
+    house->tick();
+    keep();
+    guest = house->join(1);
+    guest->frames.clear();
+  }
+  void keep() {
+    asked.back()();
+    house->settle();
+  }
+  std::vector<std::function<void()>> asked;
+  std::optional<House> house;
+  std::shared_ptr<Guest> guest;
+};
+
+}  // namespace
+
+TEST_CASE("a step that is to be kept is shown once it is, and none is played meanwhile") {
+  KeptHouse kept;
+  House& house = *kept.house;
+  house.tick();
+  CHECK(kept.asked.size() == 2);
+  CHECK(kept.guest->frames.empty());
+  house.tick(3);
+  house.timekeeper.advance(std::chrono::seconds(10));
+  house.settle();
+  CHECK(kept.asked.size() == 2);
+  CHECK(kept.guest->frames.empty());
+  kept.asked.front()();  // of the step before
+  house.settle();
+  CHECK(kept.guest->frames.empty());
+  kept.keep();
+  CHECK(kept.guest->frames.size() == 1);
+  house.tick();
+  CHECK(kept.asked.size() == 3);  // of ten seconds nothing is made up for
+  kept.keep();
+  CHECK(kept.guest->frames.size() == 2);
+  house.room->stop({"shutdown", "the server stops", false}, "test", [] {});
+  house.settle();
+  CHECK(house.room->figures()->clock_moves == 0);
+}
+
+TEST_CASE("a room that is paused, stepped or stopped while a step is kept plays as many as were asked for") {
+  KeptHouse kept;
+  House& house = *kept.house;
+  house.tick();
+  REQUIRE(kept.asked.size() == 2);
+  house.room->pause([](const auto& tick) { CHECK(tick); });
+  std::optional<std::uint64_t> stepped;
+  house.room->step(1, [&](const auto& tick) { stepped = tick.value(); });
+  house.tick(2);
+  CHECK(kept.asked.size() == 2);
+  kept.keep();
+  CHECK_FALSE(stepped);  // what is kept now was played before
+  house.tick(2);
+  REQUIRE(kept.asked.size() == 3);
+  kept.keep();
+  REQUIRE(stepped);
+  CHECK(*stepped == 3);
+  house.tick(5);
+  CHECK(kept.asked.size() == 3);
+  house.room->resume([](const auto& tick) { CHECK(tick); });
+  house.tick(2);
+  REQUIRE(kept.asked.size() == 4);
+  house.room->stop({"shutdown", "the server stops", false}, "test", [] {});
+  house.settle();
+  const std::size_t shown = kept.guest->frames.size();
+  kept.keep();
+  CHECK(kept.guest->frames.size() == shown);
 }
 
 TEST_CASE("within a tick inputs are acknowledged before the frame that shows what they did") {
