@@ -28,7 +28,9 @@ ANSWERS = b"\x1b[?2026;2$y\x1bP1$r0;48:2::1:2:3m\x1b\\\x1b[5;2R\x1b[5;2R"
 LAST_QUESTION, LAST_ANSWER = b"\x1b[c", b"\x1b[?62;22c"
 FRAME_BEGIN, FRAME_END = b"\x1b[?2026h", b"\x1b[?2026l"
 LOOKS = {"ascii": ["--color", "mono", "--glyphs", "ascii"], "colour": ["--color", "truecolor", "--glyphs", "half"]}
-SHADES = {"c72c57", "8f1f3f"}  # of your louse's colour
+SHADES = {"c72c57", "8f1f3f"}  # of your louse's colour, where it is lit from the side
+LIT = "ff3870"  # and in full light, as its trail is: a body has a head beside it
+HEADS = {"fffffa", "c7c7c3", "8f8f8c"}
 PANEL = 47  # the column in which the panel begins at 80x24
 REACTION = 0.2  # seconds between two looks at the screen
 
@@ -61,14 +63,21 @@ class Judge:
         picture = "\n".join(line[:PANEL] for line in lines[1:23])
         if self.look == "ascii" and picture.count("@") != 1:
             yield "no louse"
-        # Its name, or where it is lit from the side: trails have other shades.
-        if self.look == "colour" and "you" not in picture and not self.shows(SHADES, buffer):
+        # Its name, which a big figure may hide, or its body.
+        if self.look == "colour" and "you" not in picture and not self.shows_body(buffer):
             yield "no louse"
 
     @staticmethod
-    def shows(colours, buffer):
-        return any(cell.fg in colours or cell.bg in colours for row in range(1, 23)
-                   for cell in (buffer[row][column] for column in range(PANEL)))
+    def shows_body(buffer):
+        pixels = {}
+        for row in range(1, 23):
+            for column in range(PANEL):
+                cell = buffer[row][column]
+                above, below = {"\u2580": (cell.fg, cell.bg), "\u2584": (cell.bg, cell.fg)}.get(cell.data, (cell.bg, cell.bg))
+                pixels[2 * row, column], pixels[2 * row + 1, column] = above, below
+        return any(colour in SHADES or colour == LIT and any(pixels.get((y + down, x + right)) in HEADS
+                                                             for down, right in ((1, 0), (-1, 0), (0, 1), (0, -1)))
+                   for (y, x), colour in pixels.items())
 
 
 class Player:
