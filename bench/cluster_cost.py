@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What a cluster costs: a tick with its log and without, in turns; NATS; a host that stands by; and many small rooms in one server.
 
-    bench/cluster_cost.py BIN [--rounds 5] [--seconds 10] [--only tick,shard,rooms]
+    bench/cluster_cost.py BIN [--rounds 5] [--seconds 10] [--only tick,shard,rooms,shards]
 
 BIN is a tree's folder of programs. The server that is measured has core 0; the load, NATS and who stands by have core 1, and nothing else may
 run on either. Shares are of a core, by the scheduler's own nanoseconds. A tick's work is that of its room's strand
@@ -9,6 +9,7 @@ run on either. Shares are of a core, by the scheduler's own nanoseconds. A tick'
 """
 import argparse
 import contextlib
+import json
 import os
 import pathlib
 import statistics
@@ -198,16 +199,41 @@ def many_rooms(scratch, rounds, seconds):
         tell(f"{count * MANY_ROOMS} rooms in {count} server{'s' if count > 1 else ''}", medians(its))
 
 
+def many_shards(scratch, rounds, seconds):
+    """As many servers as make a thousand rooms, all on one core, each of whose shards is logged by one NATS on the other."""
+    count = 1008 // SHARD_ROOMS
+    runs = []
+    for _ in range(rounds):
+        with stage.Nats(1) as nats, contextlib.ExitStack() as all_of_them:
+            on_other_core(nats.processes[0])
+            servers = []
+            for number in range(count):
+                file = os.path.join(nats.folder, f"shard{number}.json")
+                pathlib.Path(file).write_text(json.dumps({"nats": [f"nats://127.0.0.1:{nats.ports[0]}"], "shard": f"s{number}"}))
+                subprocess.run([stage.PROGRAM, "cluster", "init", file], check=True, stdout=subprocess.DEVNULL)
+                servers.append(all_of_them.enter_context(Server(scratch, f"a{number}", *HOUSE, rooms=SHARD_ROOMS, cluster=file)))
+            for server in servers:
+                server.wait_for("room_opened")
+            time.sleep(SETTLED_S)
+            others = {f"{number}.": server.process for number, server in enumerate(servers[1:], 2)}
+            found = measured(servers[0], seconds, {"nats": nats.processes[0], **others})
+            of_servers = [value for name, value in found.items() if name.endswith("core %") and not name.startswith("nats")]
+            memory = [value for name, value in found.items() if name.endswith(" MB") and not name.startswith("nats")]
+            runs.append({name: found[name] for name in ("work us", "ticks/s", "late p50 ms", "late p99 ms", "nats core %", "nats MB")} |
+                        {"servers core %": sum(of_servers), "servers MB": sum(memory)})
+    tell(f"{count * SHARD_ROOMS} rooms in {count} servers, logged", medians(runs))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("programs", type=pathlib.Path, metavar="BIN")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--seconds", type=float, default=10.0)
-    parser.add_argument("--only", default="tick,shard,rooms")
+    parser.add_argument("--only", default="tick,shard,rooms,shards")
     arguments = parser.parse_args()
     wanted = set(arguments.only.split(","))
-    if wanted - {"tick", "shard", "rooms"}:
-        parser.error("--only takes tick, shard, rooms")
+    if wanted - {"tick", "shard", "rooms", "shards"}:
+        parser.error("--only takes tick, shard, rooms, shards")
     os.environ["WOODLOUSE_SERVER"] = str(arguments.programs.resolve() / "woodlouse-server")
     os.environ["WOODLOUSE_MAPS"] = str(ROOT / "maps")
     sys.path.insert(0, str(ROOT / "tests" / "cluster"))
@@ -223,6 +249,8 @@ def main():
             in_turns(f"{SHARD_ROOMS} rooms of 8", Setting(scratch, arguments.seconds, SHARD_ROOMS, 0), arguments.rounds)
         if "rooms" in wanted:
             many_rooms(scratch, arguments.rounds, arguments.seconds)
+        if "shards" in wanted:
+            many_shards(scratch, arguments.rounds, arguments.seconds)
 
 
 if __name__ == "__main__":

@@ -85,6 +85,15 @@ constexpr const char* kNotCanonical =
     "is not a map as a program writes it: another text, or in another order";
 constexpr const char* kNotCanonicalHint = "it was altered, or written by something else";
 
+constexpr const char* kSomethingElse =
+    "a map is a JSON object; of an elevation file one is made: woodlouse-server make-map FILE --out MAP.json";
+
+/// It does not even begin as a map does.
+bool is_something_else(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && text[first] != '{';
+}
+
 std::optional<MapDefinition> read(std::string_view text, const GridPlace& place, Form form,
                                   json::Problems& problems) {
   if (text.size() > kMaxMapBytes) {
@@ -93,7 +102,9 @@ std::optional<MapDefinition> read(std::string_view text, const GridPlace& place,
   }
   const auto document = json::parse_file(text, problems.source(), {kMaxDepth, kMaxValues});
   if (!document) {
-    problems.add(document.error());
+    core::Error error = document.error();
+    if (is_something_else(text)) error.hint = kSomethingElse;
+    problems.add(std::move(error));
     return std::nullopt;
   }
   if (form == Form::kCanonical && samples_function(document->root())) {

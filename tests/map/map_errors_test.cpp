@@ -108,6 +108,8 @@ TEST_CASE("a map says its name and its terrain, once, and is an object") {
   CHECK(error_of("{\"name\":\"m\",\n\"name\":\"n\"}") == "m.json:2: name: stands twice (keep one of them)");
   CHECK(error_of("[]") == "m.json:1: an object is wanted, not a list");
   CHECK(error_of("").find("m.json:1: not JSON: ") == 0);
+  CHECK(error_of("ncols 4\nnrows 4\n").ends_with("make-map FILE --out MAP.json)"));
+  CHECK_FALSE(error_of("{\"name\":").ends_with(")"));
   CHECK(error_of("{\n\"name\":\"\",\"terrain\":{\"function\":\"hills\"}}")
             .find("m.json:2: name: text of 0 bytes") == 0);
   CHECK(error_of("{\n\"name\":\"a\\u001b\",\"terrain\":{\"function\":\"hills\"}}")
