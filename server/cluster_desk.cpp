@@ -103,6 +103,9 @@ void ClusterDesk::guide(RoomGuide& guide, SessionEnvironment& sessions) const {
 protocol::Bye ClusterDesk::begin_leaving(const protocol::Bye& otherwise) {
   cluster_->begin_leaving({});
   if (relay_) return otherwise;
+  // Who has taken them over by now is no successor any more.
+  if (!went_to_.empty()) return moved(went_to_);
+  if (const auto owner = cluster_->elsewhere({})) return moved(*owner);
   const auto successor = cluster_->successor();
   return successor ? moved(*successor) : otherwise;
 }
@@ -132,6 +135,7 @@ bool ClusterDesk::move(const std::string& to) {
 
 void ClusterDesk::take_over(std::vector<RoomToGoOn> rooms) {
   owns_ = true;
+  went_to_.clear();
   const auto opened = [&]() -> core::Expected<void> {
     for (RoomToGoOn& room : rooms) {
       const std::string name = room.name;
@@ -144,6 +148,7 @@ void ClusterDesk::take_over(std::vector<RoomToGoOn> rooms) {
 
 void ClusterDesk::step_down(const std::string& address) {
   owns_ = false;
+  went_to_ = address;
   for (const auto& room : lobby_.rooms()) {
     const std::string name = room->name();
     rooms_.closed(name);

@@ -102,6 +102,7 @@ class ClusterDesk {
   std::string name_, shard_;  ///< of the cluster
   std::atomic<bool> owns_{false};
   std::size_t rooms_left_ = 0;  ///< that are to stand before the log is handed over
+  std::string went_to_;         ///< where the rooms went from here; empty: nowhere, or it is not known
   std::function<void()> gone_;  ///< who waits for them to be another host's
 };
 

@@ -203,6 +203,8 @@ core::Expected<Batch> unpack(std::string_view packed, const std::string& place) 
     if (lines.empty()) return core::fail(place, "is a part of nothing");
     lines.pop_back();  // the newline that each message ends with
   }
+  if (head->parts > 1 && lines.size() > kPartBytes)
+    return core::fail(place, "is a longer part than there is");
   return Batch{std::move(*head), std::move(lines)};
 }
 

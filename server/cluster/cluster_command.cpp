@@ -88,7 +88,10 @@ int move(NatsLink& link, const ClusterErrand& errand, std::ostream& out, std::os
     if (is_drain) out << errand.host << " takes none any more, until it is started anew\n";
     return kFine;
   }
-  return report({"cluster", "nothing has moved within 10 s", "the logs of the hosts say why"}, err);
+  return report({"cluster", "nothing has moved within 10 s",
+                 "the logs of the hosts say why, or that of NATS: may who asks publish " +
+                     errand.settings.move_subject() + "?"},
+                err);
 }
 
 int status(NatsLink& link, const ClusterSettings& settings, std::ostream& out, std::ostream& err) {

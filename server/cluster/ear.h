@@ -50,6 +50,10 @@ class Ear {
     const std::lock_guard lock(mutex_);
     if (told_.connected) told_.connected(is_connected);
   }
+  void on_closed() {
+    const std::lock_guard lock(mutex_);
+    if (told_.closed) told_.closed();
+  }
   void on_message(std::string subject, std::string bytes, std::uint64_t sequence) {
     const std::lock_guard lock(mutex_);
     if (taken_) taken_(std::move(subject), std::move(bytes), sequence);

@@ -180,11 +180,11 @@ std::uint64_t HostTable::highest_epoch() const {
   return highest;
 }
 
-std::optional<Beat> HostTable::owner(Time now) const {
+std::optional<Beat> HostTable::owner(Time now, Duration within) const {
   const std::lock_guard lock(mutex_);
   std::optional<Beat> found;
   for (const auto& [host, known] : hosts_) {
-    if (!known.beat.owns || known.beat.leaves || now - known.at > std::chrono::seconds(1)) continue;
+    if (!known.beat.owns || known.beat.leaves || now - known.at > within) continue;
     if (!found || known.beat.writer.epoch > found->writer.epoch) found = known.beat;
   }
   return found;
@@ -194,7 +194,7 @@ std::optional<Beat> HostTable::successor(Time now, std::string_view wanted) cons
   const std::lock_guard lock(mutex_);
   for (const auto& [host, known] : hosts_)
     if ((wanted.empty() || host == wanted) && !known.beat.owns && !known.beat.leaves && known.beat.ready &&
-        now - known.at < std::chrono::milliseconds(200))
+        now - known.at < std::chrono::milliseconds(500))
       return known.beat;
   return std::nullopt;
 }

@@ -77,7 +77,7 @@ class HostTable {
   /// That anybody has told of.
   [[nodiscard]] std::uint64_t highest_epoch() const;
   /// Where the owner's clients go; nothing: no owner is heard, or it goes.
-  [[nodiscard]] std::optional<Beat> owner(Time now) const;
+  [[nodiscard]] std::optional<Beat> owner(Time now, Duration within = std::chrono::seconds(1)) const;
   /// A host, not this one, that follows, has all, and was heard just now. wanted: that one; empty: any.
   [[nodiscard]] std::optional<Beat> successor(Time now, std::string_view wanted = {}) const;
   /// Addresses of the others, at most `most`.

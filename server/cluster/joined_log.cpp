@@ -69,6 +69,11 @@ core::Expected<void> JoinedLog::record(const std::string& name, Room& room, std:
       ++holes_;
       out_ << "room " << name << ": HOLE: ticks " << *room.due << " to " << *tick << " are missing\n";
     }
+    if (room.due && *tick < *room.due) {
+      ++holes_;
+      out_ << "room " << name << ": BEGINS ANEW at tick " << *tick << ", though tick " << *room.due
+           << " was to come\n";
+    }
     if (room.header.empty()) return {};  // its header is older than the log
     room.due = *tick;
     room.has_keyframe = true;

@@ -82,9 +82,9 @@ bool LogTap::await_kept(const std::function<void()>& kept) {
   return true;
 }
 
-/// Who was away while the step was kept may have lost the room.
-bool LogTap::may_show() const {
-  if (is_strict_ && stepped_at_ != Time::max() && Clock::now() - stepped_at_ > away_) desk_->doubt();
+/// What is kept was this host's: it counts from now for how long it was away.
+bool LogTap::may_show() {
+  if (is_strict_ && stepped_at_ != Time::max()) stepped_at_ = Clock::now();
   return !desk_->is_in_doubt();
 }
 

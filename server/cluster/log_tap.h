@@ -51,7 +51,7 @@ class LogTap final : public TickWatcher {
   void fall_asleep(const match::Match& game) override;
   void wake(const match::Match&) override { stepped_at_ = Time::max(); }
   [[nodiscard]] bool await_kept(const std::function<void()>& kept) override;
-  [[nodiscard]] bool may_show() const override;
+  [[nodiscard]] bool may_show() override;
   void finish(const std::string& reason, std::function<void()> done) override;
 
  private:

@@ -49,7 +49,13 @@ core::Error connection_error(natsStatus status, const ClusterSettings& settings)
   std::string servers;
   for (const std::string& server : settings.nats) servers += joined({servers.empty() ? "" : ", ", server});
   core::Error error = error_of(status, "NATS at " + servers);
-  return {error.where, error.what, "is nats-server running there, with -js?"};
+  const bool is_refused = status == NATS_CONNECTION_AUTH_FAILED || status == NATS_SSL_ERROR ||
+                          status == NATS_SECURE_CONNECTION_REQUIRED ||
+                          status == NATS_SECURE_CONNECTION_WANTED || status == NATS_PROTOCOL_ERROR;
+  return {error.where, error.what,
+          is_refused
+              ? "do nats, tls and credentials in the cluster's file fit what NATS asks for? its log says"
+              : "is nats-server running there, with -js?"};
 }
 
 class Link final : public NatsLink {
@@ -190,7 +196,12 @@ class Link final : public NatsLink {
     jsStreamInfo* made = nullptr;
     const natsStatus status = js_AddStream(&made, context_, &config, &asked, &code);
     const OwnedInfo info(made);
-    if (status != NATS_OK) return tl::unexpected(error_of(status, stream_));
+    if (status != NATS_OK) {
+      const core::Error error = error_of(status, stream_);
+      return core::fail(
+          error.where, error.what,
+          status == NATS_TIMEOUT ? "NATS does not answer who may not ask: its log says so" : "");
+    }
     if (info->State.Msgs > 0) return false;
     jsPubAck* ack = nullptr;
     jsPubOptions options;
@@ -273,6 +284,8 @@ class Link final : public NatsLink {
         options, [](natsConnection*, void* self) { static_cast<Ear*>(self)->on_connected(false); }, ear_));
     then(natsOptions_SetReconnectedCB(
         options, [](natsConnection*, void* self) { static_cast<Ear*>(self)->on_connected(true); }, ear_));
+    then(natsOptions_SetClosedCB(
+        options, [](natsConnection*, void* self) { static_cast<Ear*>(self)->on_closed(); }, ear_));
     // Else libnats writes it to standard error.
     then(natsOptions_SetErrorHandler(
         options, [](natsConnection*, natsSubscription*, natsStatus, void*) {}, nullptr));

@@ -27,6 +27,7 @@ class NatsLink {
     std::function<void(std::uint64_t sequence)> acknowledged;
     std::function<void(std::string why)> refused;
     std::function<void(bool is_connected)> connected;
+    std::function<void()> closed{};  ///< for good: it is to be opened anew
   };
 
   /// Waits for the first connection, at most a few seconds. purpose: in NATS' own list of connections.

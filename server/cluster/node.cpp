@@ -26,22 +26,54 @@ Node::Node(ClusterSettings settings, Hooks hooks, std::shared_ptr<spdlog::logger
 }
 
 core::Expected<void> Node::connect() {
-  auto writing =
+  if (auto opened = open_log_link(); !opened) return opened;
+  if (auto opened = open_beat_link(); !opened) return opened;
+  if (const auto state = log_link_->stream_state(); !state)
+    return core::fail(state.error().where, "has no such stream: " + state.error().what,
+                      "make it, once:  woodlouse-server cluster init FILE");
+  return {};
+}
+
+core::Expected<void> Node::open_log_link() {
+  auto link =
       NatsLink::open(settings_, "log",
                      {[inbox = inbox_](std::uint64_t sequence) { inbox->put(Acknowledged{sequence}); },
                       [inbox = inbox_](std::string why) { inbox->put(Refused{std::move(why)}); },
-                      [this](bool is_connected) { is_log_cut_ = !is_connected; }});
-  if (!writing) return tl::unexpected(writing.error());
-  auto beats = NatsLink::open(settings_, "beats",
-                              {{}, {}, [this](bool is_connected) { is_beat_cut_ = !is_connected; }});
-  if (!beats) return tl::unexpected(beats.error());
-  log_link_ = std::move(*writing);
-  beat_link_ = std::move(*beats);
-  if (const auto state = log_link_->stream_state(); !state)
-    return core::fail(state.error().where, "has no such stream: " + state.error().what,
-                      "make it, once:  woodlouse-server cluster init --cluster FILE");
+                      [this](bool is_connected) { is_log_cut_ = !is_connected; },
+                      [this] { is_log_cut_ = is_log_closed_ = true; }});
+  if (!link) return tl::unexpected(link.error());
+  log_link_ = std::move(*link);
+  is_log_cut_ = is_log_closed_ = false;
+  return {};
+}
+
+core::Expected<void> Node::open_beat_link() {
+  auto link = NatsLink::open(settings_, "beats",
+                             {{},
+                              {},
+                              [this](bool is_connected) { is_beat_cut_ = !is_connected; },
+                              [this] { is_beat_cut_ = is_beat_closed_ = true; }});
+  if (!link) return tl::unexpected(link.error());
+  beat_link_ = std::move(*link);
+  is_beat_cut_ = is_beat_closed_ = false;
   if (auto heard = hear_beats(); !heard || viewers_) return heard;
   return hear_operators();
+}
+
+/// libnats gives a line up for good where it is refused twice, as while a certificate is changed: another one
+/// is made then. True: the log's is another one.
+bool Node::renew_links() {
+  constexpr Duration kEvery = std::chrono::seconds(1);
+  const bool is_beat = viewers_ && is_beat_closed_;  // a host's other thread has it
+  if ((!is_log_closed_ && !is_beat) || Clock::now() < renew_at_) return false;
+  renew_at_ = Clock::now() + kEvery;
+  if (is_beat)
+    if (const auto opened = open_beat_link(); !opened) complain(opened.error());
+  if (!is_log_closed_) return false;
+  const auto opened = open_log_link();
+  if (!opened) return complain(opened.error());
+  say(LogEvent::kClusterFollows, "NATS takes this host again");
+  return true;
 }
 
 core::Expected<void> Node::hear_beats() {
@@ -79,8 +111,9 @@ void Node::start() {
 
 void Node::begin_leaving(const std::string& to) {
   is_leaving_ = true;
+  const auto next = table_.successor(Clock::now(), to);
   const std::lock_guard lock(mutex_);
-  beat_.to = to;
+  beat_.to = next ? next->host : to;     // one alone, or all who stand by would try
   if (!beat_.owns) beat_.leaves = true;  // an owner only once all is stored
 }
 
@@ -105,7 +138,9 @@ std::unique_ptr<TickWatcher> Node::watch(const std::string& room, replay::Header
 }
 
 std::optional<std::string> Node::elsewhere(std::string_view room) const {
-  const auto owner = table_.owner(Clock::now());
+  // One that is silent may be gone: who asks is better told to ask again.
+  constexpr Duration kHeardWithin = 6 * kBeatEvery;
+  const auto owner = table_.owner(Clock::now(), kHeardWithin);
   if (!owner) return std::nullopt;
   const bool is_there = std::any_of(owner->rooms.begin(), owner->rooms.end(),
                                     [room](const protocol::RoomEntry& entry) { return entry.name == room; });
@@ -167,7 +202,12 @@ void Node::beat(const std::stop_token& stop) {
     static_cast<void>(beat_link_->publish(settings_.beat_subject(settings_.host), to_text(beat)));
   };
   Time next = Clock::now();
+  Time renew_at{};
   while (!stop.stop_requested()) {
+    if (is_beat_closed_ && Clock::now() >= renew_at) {
+      renew_at = Clock::now() + std::chrono::seconds(1);
+      static_cast<void>(open_beat_link());  // the other thread says why not
+    }
     tell();
     next = std::max(next + kBeatEvery, Clock::now());
     std::unique_lock lock(mutex_);

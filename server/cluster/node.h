@@ -13,6 +13,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -80,6 +81,8 @@ class Node final : public Cluster {
   void show();
   [[nodiscard]] bool take_message(const LogMessage& message);
   [[nodiscard]] bool pass_gap();
+  [[nodiscard]] bool has_log_gone_back(Time now);
+  void tell_line();
   void tell_following(Time now);
   [[nodiscard]] bool is_owner_gone(Time now);
   [[nodiscard]] bool is_cut_off() const { return is_log_cut_ || is_beat_cut_; }
@@ -107,6 +110,10 @@ class Node final : public Cluster {
   [[nodiscard]] std::optional<LastBatch> read_last();
   bool complain(const core::Error& error);
 
+  [[nodiscard]] core::Expected<void> open_log_link();
+  [[nodiscard]] core::Expected<void> open_beat_link();
+  bool renew_links();
+
   // The beating thread:
   void beat(const std::stop_token& stop);
 
@@ -129,12 +136,17 @@ class Node final : public Cluster {
   std::optional<ShardView> view_;
   std::vector<std::pair<std::string, std::vector<std::string>>> to_show_;  ///< lines, by room, in their order
   Time begin_at_{};  ///< to read the log, at the earliest
+  Time renew_at_{};  ///< to make a line that is closed anew, likewise
   bool is_log_empty_ = false;
-  Time tried_{};                 ///< to take over, in vain
-  std::optional<Time> going_;    ///< since when the owner is known to go
-  bool has_lost_rooms_ = false;  ///< whose beginning could not be read any more
-  std::uint64_t after_ = 0;      ///< the stream's last sequence number, where it holds nothing to read
-  Time heard_{};                 ///< the owner, by its batches
+  Time tried_{};                       ///< to take over, in vain
+  std::optional<Time> going_;          ///< since when the owner is known to go
+  bool has_lost_rooms_ = false;        ///< whose beginning could not be read any more
+  std::uint64_t after_ = 0;            ///< the stream's last sequence number, where it holds nothing to read
+  Time heard_{};                       ///< the owner, by its batches
+  Time came_at_{}, looked_back_at_{};  ///< the last batch; the last look at what the log holds, behind it
+  std::uint64_t reading_ = 0;          ///< how often the log was begun to be read
+  std::uint64_t passed_over_ = 0;      ///< batches in a row
+  std::set<std::string> shown_;        ///< of one that only shows them: rooms of which lines were handed on
   std::optional<LogWriter> writer_;
   Writer former_;  ///< this host's epoch before, where its log had to begin anew
   std::optional<ShardText> text_;
@@ -142,17 +154,20 @@ class Node final : public Cluster {
       kept_;  ///< who waits for the batches below that number
   Time cut_at_{};
   bool is_told_not_durable_ = false;
+  bool was_cut_off_ = false;   ///< as told
   Time doubted_at_{};          ///< Time{}: the rooms are this host's, as far as is known
   bool has_differed_ = false;  ///< some tick, from the log: it takes nothing over
   std::string last_fault_;     ///< told already
 
+  std::uint64_t handed_epoch_ = 0;
   std::optional<Time> handed_over_;  ///< since when the rooms are to go on elsewhere, and do not yet
 
   std::atomic<bool> is_leaving_{false};
   std::atomic<bool> is_to_hand_over_{false};
   std::atomic<bool> is_drained_{false};                       ///< an operator wants no room here any more
   std::atomic<bool> is_log_cut_{false}, is_beat_cut_{false};  ///< from NATS
-  mutable std::mutex mutex_;                                  ///< of what follows
+  std::atomic<bool> is_log_closed_{false}, is_beat_closed_{false};  ///< for good: NATS has refused this host
+  mutable std::mutex mutex_;                                        ///< of what follows
   std::condition_variable_any beat_now_;
   bool is_beat_due_ = false;  ///< before its time
   Beat beat_;

@@ -28,6 +28,8 @@ bool Node::follow() {
   heard_ = Clock::now();
   Time looked = heard_;
   while (!inbox_->is_stopping()) {
+    if (renew_links()) view_.reset();
+    tell_line();
     if (!view_ && Clock::now() >= begin_at_ && !begin_following()) view_.reset();
     for (NodeEvent& event : inbox_->take(Clock::now() + 4 * kLook)) {
       const auto* message = std::get_if<LogMessage>(&event);
@@ -37,6 +39,7 @@ bool Node::follow() {
     // Who was away himself, or cut off, has heard nobody.
     if (now - std::exchange(looked, now) > settings_.silence / 2 || is_cut_off()) heard_ = now;
     if (view_ && is_log_empty_ && table_.owner(now)) view_.reset();  // somebody has begun it
+    if (view_ && has_log_gone_back(now)) view_.reset();
     if (handed_over_) watch_handing_over(now);
     tell_following(now);
     if (view_ && !viewers_ && !is_leaving_ && !is_drained_ && is_owner_gone(now)) {
@@ -51,6 +54,7 @@ bool Node::follow() {
 bool Node::begin_following() {
   begin_at_ = Clock::now() + kBeginEvery;
   view_.emplace(fresh_view());
+  passed_over_ = 0;
   going_.reset();
   has_lost_rooms_ = false;
   after_ = 0;
@@ -61,9 +65,22 @@ bool Node::begin_following() {
   is_log_empty_ = state->messages == 0;
   if (is_log_empty_) return true;
   if (const auto read = read_beginning(*state); !read) return complain(read.error());
+  came_at_ = Clock::now();
   show();
   last_fault_.clear();
   return true;
+}
+
+/// Nothing comes of a log that was made anew: what it holds is not what was read.
+bool Node::has_log_gone_back(Time now) {
+  constexpr Duration kAfter = std::chrono::seconds(2);
+  if (now - std::max(came_at_, looked_back_at_) < kAfter || is_cut_off()) return false;
+  looked_back_at_ = now;
+  const auto state = log_link_->stream_state();
+  if (!state || state->last >= view_->sequence()) return false;
+  return !complain(
+      {"the log", joined({"ends at batch ", std::to_string(state->last), ", before ",
+                          std::to_string(view_->sequence()), ", which was read: it is another one"})});
 }
 
 ShardView Node::fresh_view() {
@@ -77,6 +94,7 @@ ShardView Node::fresh_view() {
   };
   reader.closed = [this](const std::string& room) {
     show();
+    shown_.erase(room);
     viewers_->closed(room);
   };
   return ShardView(std::move(reader));
@@ -84,7 +102,10 @@ ShardView Node::fresh_view() {
 
 /// What has been read is handed on.
 void Node::show() {
-  for (auto& [room, lines] : std::exchange(to_show_, {})) viewers_->lines(room, std::move(lines));
+  for (auto& [room, lines] : std::exchange(to_show_, {})) {
+    shown_.insert(room);
+    viewers_->lines(room, std::move(lines));
+  }
 }
 
 /// Lines of the batch that begins there.
@@ -122,6 +143,12 @@ core::Expected<void> Node::read_beginning(const NatsLink::StreamState& state) {
     has_lost_rooms_ = has_lost_rooms_ || is_lost;
     return is_lost;
   });
+  std::erase_if(shown_, [&](const std::string& room) {
+    const bool is_there = std::any_of(head.rooms.begin(), head.rooms.end(),
+                                      [&room](const RoomPlace& place) { return place.room == room; });
+    if (!is_there) viewers_->closed(room);
+    return !is_there;
+  });
   const auto beginning = ShardView::beginning({at, head});
   for (const auto& [room, sequence] : beginning.headers) {
     const auto lines = read_whole(sequence);
@@ -132,16 +159,16 @@ core::Expected<void> Node::read_beginning(const NatsLink::StreamState& state) {
   say(LogEvent::kClusterFollows,
       joined({"follows the log of ", settings_.shard, ", which is that of ", to_text(batch->head.writer),
               ", from batch ", std::to_string(beginning.from), " on"}));
-  return log_link_->follow(beginning.from,
-                           [inbox = inbox_](const auto&, std::string bytes, std::uint64_t sequence) {
-                             inbox->put(LogMessage{sequence, std::move(bytes)});
-                           });
+  return log_link_->follow(beginning.from, [inbox = inbox_, reading = ++reading_](
+                                               const auto&, std::string bytes, std::uint64_t sequence) {
+    inbox->put(LogMessage{sequence, std::move(bytes), reading});
+  });
 }
 
 /// False: something is missing, or what was read is worth nothing any more: it is begun anew. What is no
 /// batch, or is nobody's who may write, is passed over.
 bool Node::take_message(const LogMessage& message) {
-  if (message.sequence <= view_->sequence()) return true;
+  if (message.reading != reading_ || message.sequence <= view_->sequence()) return true;
   if (view_->sequence() != 0 && message.sequence - view_->sequence() > kMostPassedOver)
     return complain({"the log", joined({"batch ", std::to_string(view_->sequence() + 1), " did not come"})});
   while (view_->sequence() != 0 && message.sequence != view_->sequence() + 1)
@@ -152,10 +179,11 @@ bool Node::take_message(const LogMessage& message) {
   if (!order) {
     complain(order.error());
     if (view_->sequence() != 0) view_->pass_over(message.sequence);
-    return true;
+    return ++passed_over_ < kMostPassedOver;  // or it is another log than was read
   }
+  passed_over_ = 0;
   if (const auto taken = view_->take(message.sequence, *batch); !taken) return complain(taken.error());
-  heard_ = Clock::now();
+  heard_ = came_at_ = Clock::now();
   show();
   if (!view_->difference().empty() && !std::exchange(has_differed_, true))
     say(LogEvent::kClusterDiffers,
@@ -181,12 +209,21 @@ bool Node::complain(const core::Error& error) {
   return false;
 }
 
+void Node::tell_line() {
+  const bool is_cut = is_cut_off();
+  if (std::exchange(was_cut_off_, is_cut) == is_cut) return;
+  if (is_cut)
+    say(LogEvent::kClusterFault, "NATS is not connected");
+  else
+    say(LogEvent::kClusterFollows, "NATS is connected again");
+}
+
 void Node::tell_following(Time now) {
   const std::lock_guard lock(mutex_);
   beat_.owns = false;
   beat_.leaves = is_leaving_ || is_drained_;
   beat_.ready = !is_drained_ && view_ && view_->head() && !has_differed_ && !has_lost_rooms_ &&
-                !view_->has_gap() && !is_cut_off();
+                !view_->has_gap() && !view_->lacks_rooms() && !is_cut_off();
   told_.follow(beat_.ready, has_differed_, view_ ? view_->sequence() : 0);
   beat_.silent_ms = static_cast<std::uint64_t>(
       std::chrono::duration_cast<std::chrono::milliseconds>(view_ ? silence(now) : Duration{}).count());
@@ -199,14 +236,12 @@ void Node::tell_following(Time now) {
 
 /// Until another host has them, or none does; then who is here is sent on.
 void Node::watch_handing_over(Time now) {
-  const bool is_taken = view_ && view_->head() && view_->head()->writer.host != settings_.host;
+  // It says so itself, and sooner than this one has read it in the log.
+  const auto owner = table_.owner(now);
+  const bool is_taken = owner && owner->writer.epoch > handed_epoch_;
   if (!is_taken && now - *handed_over_ < kTakenWithin) return;
   if (!is_taken) is_drained_ = false;  // or they would be nobody's
-  std::string address = is_taken ? std::string() : settings_.address;
-  if (is_taken)
-    for (const Beat& beat : table_.hosts(now))
-      if (beat.host == view_->head()->writer.host) address = beat.address;
-  if (!inbox_->is_stopping()) hooks_.step_down(address);
+  if (!inbox_->is_stopping()) hooks_.step_down(is_taken ? owner->address : settings_.address);
   handed_over_.reset();
   is_leaving_ = false;
   const std::lock_guard lock(mutex_);
@@ -231,7 +266,8 @@ bool Node::is_owner_gone(Time now) {
   const auto place = table_.place_in_line(settings_.silence, now);
   const Duration turn =
       kTurn * static_cast<int>(place.value_or(0)) +
-      (has_lost_rooms_ || view_->has_gap() || !view_->head() ? kUnlessOthersCan : Duration{});
+      (has_lost_rooms_ || view_->has_gap() || view_->lacks_rooms() || !view_->head() ? kUnlessOthersCan
+                                                                                     : Duration{});
   if (tried_ != Time{} && now - tried_ < settings_.silence) return false;
   // A new log is nobody's; one that was emptied may be that of a host which lives.
   if (!view_->head() || view_->head()->writer.epoch == 0)
@@ -246,95 +282,6 @@ bool Node::is_owner_gone(Time now) {
     return now - *(going_ = going_.value_or(now)) >= wait;
   }
   return place && silence(now) > settings_.silence + turn;
-}
-
-// ---- taking over ---------------------------------------------------------------------------------------
-
-bool Node::take_over() {
-  if (!view_->difference().empty() || !catch_up() || !take_log()) return false;
-  std::vector<RoomToGoOn> rooms = rooms_to_go_on();
-  say(LogEvent::kClusterOwns,
-      joined({"owns ", settings_.shard, " as ", to_text(writer_->writer()), " from batch ",
-              std::to_string(writer_->next_sequence() - 1), " on; ", std::to_string(rooms.size()),
-              rooms.size() == 1 ? " room goes on" : " rooms go on"}));
-  std::set<std::string> names;
-  for (const RoomToGoOn& room : rooms) names.insert(room.name);
-  text_->keep_places(names);
-  inbox_->settle();
-  log_link_->unfollow();
-  tell_owning();
-  beat_soon();
-  if (!inbox_->is_stopping() && !is_leaving_) hooks_.take_over(std::move(rooms));
-  return true;
-}
-
-/// All that is stored is read.
-bool Node::catch_up() {
-  constexpr Duration kWait = std::chrono::milliseconds(200);
-  if (!view_->head()) return true;
-  const auto last = log_link_->last();
-  if (!last) return complain(last.error());
-  const Time until = Clock::now() + kWait;
-  while (view_->sequence() < last->sequence && Clock::now() < until)
-    for (NodeEvent& event : inbox_->take(Clock::now() + kLook))
-      if (const auto* message = std::get_if<LogMessage>(&event);
-          message != nullptr && !take_message(*message))
-        return false;
-  // One by one, where nothing comes by itself.
-  while (view_->sequence() < last->sequence) {
-    const auto message = log_link_->read(view_->sequence() + 1);
-    if (!message) return complain(message.error());
-    if (message->bytes.empty() ? !pass_gap() : !take_message({message->sequence, message->bytes}))
-      return false;
-  }
-  return view_->difference().empty();
-}
-
-/// By the first batch of an epoch.
-bool Node::take_log() {
-  constexpr Duration kWait = std::chrono::seconds(5);
-  const std::uint64_t known = view_->head() ? view_->head()->writer.epoch : 0;
-  writer_.emplace(Writer{std::max(known, table_.highest_epoch()) + 1, settings_.host, make_resume_token()},
-                  view_->head() ? view_->sequence() : after_);
-  text_.emplace(settings_.keep);
-  if (view_->head()) text_->take_over(view_->head()->rooms);
-  cut(Clock::now());
-  const Time until = Clock::now() + kWait;
-  while (writer_->state() == LogWriter::State::kTaking && Clock::now() < until && !inbox_->is_stopping()) {
-    write(Clock::now());
-    hear(inbox_->take(Clock::now() + kLook));
-  }
-  if (writer_->state() == LogWriter::State::kWriting) return true;
-  if (writer_->state() == LogWriter::State::kLost)
-    say(LogEvent::kClusterFollows, joined({"another host was first: ", to_text(writer_->other())}));
-  else
-    complain({"the log", "did not take this host's first batch"});
-  writer_.reset();
-  return false;
-}
-
-std::vector<RoomToGoOn> Node::rooms_to_go_on() {
-  std::vector<RoomToGoOn> rooms;
-  for (const auto& [name, room] : view_->rooms()) {
-    const match::Match* match = room.follower->match();
-    if (match == nullptr) {
-      say(LogEvent::kClusterHole,
-          joined({"ROOM LOST: ", name, ": the log holds no keyframe of it any more"}));
-      continue;
-    }
-    if (room.stands_still)
-      say(LogEvent::kClusterHole, joined({"LOG HAS A HOLE: room ", name, " goes on at tick ",
-                                          std::to_string(match->tick()), ", before a batch that is gone"}));
-    RoomToGoOn& next = rooms.emplace_back();
-    next.name = name;
-    next.map = match->shared_map();
-    next.settings = match->settings();
-    next.state = match->state();
-    for (const auto& [louse, claim] : room.claims)
-      if (match->labels().contains(louse)) next.claims.push_back(claim);
-    next.from = joined({"the log of ", settings_.shard});
-  }
-  return rooms;
 }
 
 }  // namespace woodlouse::server

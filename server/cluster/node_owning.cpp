@@ -17,6 +17,7 @@ void Node::own() {
   assert(writer_ && text_);
   while (!inbox_->is_stopping() && !is_to_hand_over_) {
     hear(inbox_->take(next_look(Clock::now())));
+    if (renew_links()) writer_->failed();
     if (inbox_->is_in_doubt()) ask_the_log();
     const Time now = Clock::now();
     text_->renew(now);
@@ -33,14 +34,17 @@ void Node::own() {
     watch_durability(now);
   }
   store_the_rest();
-  if (is_to_hand_over_.exchange(false)) handed_over_ = Clock::now();
+  if (is_to_hand_over_.exchange(false)) {
+    handed_over_ = Clock::now();
+    handed_epoch_ = writer_->writer().epoch;
+  }
   writer_.reset();
 }
 
 /// What NATS answers and what is awaited wakes this thread; a batch has its time. A thread that looked more
 /// often would cost more than the small rooms that it serves.
 Time Node::next_look(Time now) const {
-  const Time unasked = now + LogWriter::kAskEvery;
+  const Time unasked = now + std::min(LogWriter::kAskEvery, settings_.batch);
   return cut_at_ > now ? std::min(cut_at_, unasked) : unasked;
 }
 
@@ -74,7 +78,8 @@ void Node::hear(std::deque<NodeEvent> events) {
     if (const auto* job = std::get_if<LogDesk::Job>(&event)) (*job)(*text_, now);
     if (const auto* stored = std::get_if<Acknowledged>(&event)) writer_->acknowledged(stored->sequence, now);
     if (const auto* no = std::get_if<Refused>(&event)) {
-      complain({"the log", no->why});
+      // That another batch stands there is told once it is known whose.
+      if (no->why.find("wrong last sequence") == std::string::npos) complain({"the log", no->why});
       writer_->failed();
     }
   }
@@ -85,8 +90,8 @@ void Node::cut(Time now) {
   text_->flush();
   const bool is_first = writer_->next_number() == 0;
   const bool is_late = now - cut_at_ > settings_.keep / 3;
-  if (text_->size() == 0 && !is_first && !is_late) {
-    for (const auto& kept : text_->take_awaiting()) kept();
+  if (text_->size() == 0 && !is_first && !is_late) {  // they wait for the batch before
+    if (text_->is_awaited()) kept_.emplace_back(writer_->next_number(), text_->take_awaiting());
     return;
   }
   const auto lose = [this](const std::string& why) {
@@ -181,11 +186,13 @@ void Node::watch_durability(Time now) {
   if (is_strict)
     text_->announce(is_late ? protocol::Notice{std::string(protocol::code::kPaused),
                                                "the game waits: nothing that is played can be stored"}
-                            : protocol::Notice{std::string(protocol::code::kResumed), "the game goes on"});
+                            : protocol::Notice{std::string(protocol::code::kResumed), "the game goes on"},
+                    is_late);
   else
     text_->announce(
         {std::string(is_late ? protocol::code::kNotDurable : protocol::code::kDurable),
-         is_late ? "what is played now would be lost with this server" : "what is played is safe again"});
+         is_late ? "what is played now would be lost with this server" : "what is played is safe again"},
+        is_late);
 }
 
 void Node::step_down() {

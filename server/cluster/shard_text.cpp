@@ -43,6 +43,7 @@ void ShardText::begin(TapNumber tap, const std::string& room, const replay::Head
   game.announce = std::move(announce);
   last_ = nullptr;
   places_[room].room = room;
+  if (standing_ && game.announce) game.announce(*standing_);
   tell(game, state, true, now);
 }
 
@@ -132,7 +133,8 @@ void ShardText::lose() {
   for (auto& [name, room] : rooms_) room.renew_at = Time{};
 }
 
-void ShardText::announce(const protocol::Notice& notice) const {
+void ShardText::announce(const protocol::Notice& notice, bool holds) {
+  standing_ = holds ? std::optional(notice) : std::nullopt;
   for (const auto& [name, room] : rooms_)
     if (room.announce) room.announce(notice);
 }

@@ -60,7 +60,8 @@ class ShardText {
   /// All lines so far are dropped, and who waits for them waits no more; each room is told of no more until a
   /// keyframe of it comes.
   void lose();
-  void announce(const protocol::Notice& notice) const;
+  /// To every room, and, where it holds from now on, to each that begins.
+  void announce(const protocol::Notice& notice, bool holds);
 
   /// What is held back of steps in which nothing happened is among the lines.
   void flush();
@@ -101,6 +102,7 @@ class ShardText {
   std::map<std::string, RoomPlace, std::less<>> places_;
   std::string lines_;
   std::vector<std::function<void()>> awaiting_;
+  std::optional<protocol::Notice> standing_;  ///< what holds now
   bool keeps_rooms_ = false;
   const Room* last_ = nullptr;  ///< whose the last line is
 };

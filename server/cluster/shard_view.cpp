@@ -101,6 +101,11 @@ bool ShardView::has_gap() const {
                      [](const auto& entry) { return entry.second.stands_still; });
 }
 
+bool ShardView::lacks_rooms() const {
+  return head_ && std::any_of(head_->rooms.begin(), head_->rooms.end(),
+                              [this](const RoomPlace& place) { return !rooms_.contains(place.room); });
+}
+
 core::Expected<void> ShardView::take_line(const BatchLine& line) {
   if (const auto* named = std::get_if<RoomLine>(&line)) {
     current_ = named->room;

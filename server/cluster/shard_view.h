@@ -67,6 +67,8 @@ class ShardView {
   void lose(std::uint64_t sequence);
   /// Whether a room waits for its keyframe behind a batch that is gone.
   [[nodiscard]] bool has_gap() const;
+  /// Whether the newest batch names a room that is not known here.
+  [[nodiscard]] bool lacks_rooms() const;
   /// Whether the batch may stand there. Errors: it follows nothing that was read.
   [[nodiscard]] core::Expected<void> check_order(std::uint64_t sequence, const BatchHead& head) const;
   /// Of the batch taken last; 0: none.

@@ -183,7 +183,14 @@ void Display::turn(Seat& seat, bool shows_part) {
   if (layouts_.release(former)) outlet_.close(former);
 }
 
+void Display::end_keeping(Seats& seats) {
+  keeps_ = false;
+  for (const SessionId session : std::exchange(later_, {}))
+    if (const Seat* seat = seats.find(session)) show_newest(std::get<SessionOccupant>(seat->occupant));
+}
+
 void Display::stand(Seats& seats) {
+  assert(!keeps_);
   stands_ = true;
   if (by_inputs_ != 0) outlet_.show_steps_left();
   answer_asked();

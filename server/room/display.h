@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -48,6 +49,7 @@ class Display {
   void go_on(const match::Match& game);
 
   void show_newest(const SessionOccupant& occupant) {
+    if (keeps_) return void(later_.insert(occupant.session));
     if (occupant.channel == kByInputs) return ask({occupant.subscriber, false});
     outlet_.show_newest(occupant.channel, occupant.subscriber, snapshot());
   }
@@ -56,6 +58,9 @@ class Display {
   void look(SessionId session, const protocol::View& view) { turning_[session] = shows_part(view); }
   /// The picture of every layout in use, where one is due.
   void send_frames(Seats& seats);
+  /// What the game is now is not to be seen before end_keeping(); who asks for it meanwhile is shown it then.
+  void begin_keeping() { keeps_ = true; }
+  void end_keeping(Seats& seats);
   /// No step follows for now: all are shown where the game stands, and who asks for a keyframe meanwhile gets
   /// it at once.
   void stand(Seats& seats);
@@ -98,6 +103,8 @@ class Display {
   Line header_;              ///< of the game's recording, once somebody watches by inputs
   std::vector<Asked> asked_;
   bool stands_ = false;                         ///< no step is on its way
+  bool keeps_ = false;                          ///< what was played is not to be seen yet
+  std::set<SessionId> later_;                   ///< who is to see it then
   std::size_t by_inputs_ = 0;                   ///< how many are subscribed
   std::optional<std::uint64_t> keyframe_tick_;  ///< of the one that the outlet keeps
 };

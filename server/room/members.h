@@ -91,9 +91,11 @@ class Members {
   /// No step follows for a while, as what was played is kept first: what waits for the next one is bounded.
   void await_keeping() {
     if (!may_wait_) may_wait_ = kMostPaused;
+    display_.begin_keeping();
   }
   void end_keeping() {
     if (!is_paused_) may_wait_.reset();
+    display_.end_keeping(seats_);
   }
   /// No step follows for now.
   void stand() { display_.stand(seats_); }

@@ -256,7 +256,7 @@ void Room::end_tick() {
   members_.end_keeping();
   ++working_.ticks;
   if (working_.ticks % game_->settings().tick_hz == 0) post_figures();
-  if (state_ != State::kRunning) return;
+  if (state_ != State::kRunning) return members_.stand();
   if (is_over) return await_tick();
   if (settings_.tick_limit && former_ticks_ + game_->tick() >= *settings_.tick_limit) {
     state_ = State::kStopped;

@@ -117,7 +117,7 @@ void Room::stand_still() {
   if (unshown_) unshown_->is_over = true;
   next_tick_.expect_none();
   alarm_->cancel();
-  members_.stand();
+  if (!unshown_) members_.stand();
   post_figures();
   end_steps(game_->tick());
 }
@@ -238,6 +238,7 @@ void Members::announce(const protocol::Notice& notice) {
     std::erase_if(notices_, [over](const protocol::Notice& told) { return told.code == over; });
   else
     notices_.push_back(notice);
+  if (is_paused_ && notice.code == protocol::code::kResumed) return;  // the operator's pause holds
   seats_.for_each<SessionOccupant>(
       [&](const Seat&, const SessionOccupant& occupant) { occupant.subscriber->answer(notice); });
 }
@@ -254,7 +255,10 @@ void Members::resume() {
   may_wait_.reset();
   std::erase_if(standing_,
                 [](const protocol::Notice& notice) { return notice.code == protocol::code::kPaused; });
-  say({std::string(protocol::code::kResumed), "the room goes on"});
+  const bool stands_still = std::any_of(notices_.begin(), notices_.end(), [](const protocol::Notice& told) {
+    return told.code == protocol::code::kPaused;
+  });
+  if (!stands_still) say({std::string(protocol::code::kResumed), "the room goes on"});
 }
 
 SessionId Members::put_out(const RosterEntry& whom) {

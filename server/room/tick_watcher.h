@@ -49,7 +49,7 @@ class TickWatcher {
   [[nodiscard]] virtual bool await_kept(const std::function<void()>& /*kept*/) { return false; }
   /// Whether this game is still the room's, as far as is known: what no longer is, is shown to nobody. Behind
   /// step() and, where that was asked for, its keeping.
-  [[nodiscard]] virtual bool may_show() const { return true; }
+  [[nodiscard]] virtual bool may_show() { return true; }
   /// After everything else of the tick is done: who is in the room was answered and shown it.
   virtual void rest(const match::Match& /*game*/) {}
   /// The room stands still, as nobody is there, or its operator has paused it. Nothing follows but chat(),

@@ -4,6 +4,7 @@ Usage: edge_test.py [TestCase.test ...]"""
 
 import json
 import os
+import shutil
 import signal
 import socket
 import subprocess
@@ -13,21 +14,7 @@ import unittest
 
 import stage
 from faults_test import Cluster
-from stage import Clients
-
-
-class EdgeHost(stage.Host):
-    """A woodlouse-server that plays nothing."""
-
-    def __init__(self, nats, name, *arguments):
-        self.name = name
-        self.log_file = os.path.join(nats.folder, f"{name}-{time.monotonic_ns()}.log")
-        self.process = subprocess.Popen(
-            [stage.PROGRAM, "--cluster", nats.file, "--cluster-edge", "--listen", "127.0.0.1:0", "--log-file", self.log_file, *arguments],
-            stdout=subprocess.PIPE, text=True)
-        first = self.process.stdout.readline()
-        assert first.startswith("listening "), first + self.log()
-        self.address = first.split()[1]
+from stage import Clients, EdgeHost
 
 
 class Watcher:
@@ -167,6 +154,33 @@ class Edge(Cluster):
         rooms = next(m for m in eve.messages if m["type"] == "rooms")["rooms"]
         self.assertEqual([(room["name"], room["spectators"]) for room in rooms], [("volcano", 1)])
         self.assertEqual(edge.end(), 0)
+
+    def test_a_game_whose_log_was_removed_is_shown_no_more_and_the_next_one_is(self):
+        first = self.host("a")
+        edge = self.edge()
+        with Clients(1, [first.address]) as clients:
+            clients.wait_here()
+            time.sleep(2)
+        self.watch(edge.address)
+        first.end()
+        self.nats.kill(0)
+        shutil.rmtree(self.nats.store(0))
+        self.nats.start(0)
+        while self.nats.command("init")[0] != 0:
+            time.sleep(0.2)
+        edge.wait_for("it is another one")
+        end = time.monotonic() + stage.PATIENCE
+        while self.hello(edge)["rooms"]:
+            self.assertLess(time.monotonic(), end, edge.log())
+            time.sleep(0.1)
+        second = self.host("b")
+        edge.wait_for("is shown here", count=2)
+        with Clients(1, [second.address]) as clients:
+            clients.wait_here()
+            eve = self.watch(edge.address)
+            time.sleep(2)
+            self.assertGreater(len(eve.frames), 10)
+            self.assertLess(eve.frames[-1][1], 1000)
 
     def test_it_shows_nothing_before_there_is_a_room_and_comes_late_to_one(self):
         edge = self.enterContext(EdgeHost(self.nats, "e"))

@@ -80,7 +80,7 @@ async def rounds(nats, hosts, player, options):
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
-    return outages, returns, gaps, lost, strangers
+    return outages, returns, gaps, lost, strangers, lice
 
 
 def stage_arguments(options):
@@ -108,7 +108,7 @@ def main():
         hosts["b"].wait_for("cluster_follows")
         try:
             with witness.Witness([host.address for host in hosts.values()]) as player:
-                outages, returns, gaps, lost, strangers = stage.play(rounds(nats, hosts, player, options))
+                outages, returns, gaps, lost, strangers, lice = stage.play(rounds(nats, hosts, player, options))
         finally:
             logs = {name: host.log() for name, host in hosts.items()}
             for host in hosts.values():
@@ -119,12 +119,15 @@ def main():
             print(f"  {what} [ms]: median {statistics.median(milliseconds):.0f}, "
                   f"p95 {percentile(milliseconds, 0.95):.0f}, all {' '.join(f'{value:.0f}' for value in sorted(milliseconds))}")
         print(f"  to the last bot that is back [ms]: at most {1000 * max(returns):.0f}")
+        told = {bye["code"] for bot in lice for bye in bot.byes} - {"moved"}
         print(f"  acknowledged ticks lost: {lost}; bots that are not back in their lice: {strangers}")
         code, said, proofs = nats.joined()
         print("  the joined log:", said.strip().splitlines()[-1])
         for name, (verified, text) in proofs.items():
             print(f"  {name}: {text.strip()}")
-        good = lost == 0 and strangers == 0 and code == 0 and all(verified == 0 for verified, _ in proofs.values())
+        if told:
+            print(f"  bots were told {', '.join(sorted(told))} in place of moved")
+        good = lost == 0 and strangers == 0 and not told and code == 0 and all(verified == 0 for verified, _ in proofs.values())
         if not good:
             print("\n".join(f"--- {name}\n{log}" for name, log in logs.items()))
         sys.exit(0 if good else 1)

@@ -187,6 +187,20 @@ class Host:
         self.end()
 
 
+class EdgeHost(Host):
+    """A woodlouse-server that plays nothing."""
+
+    def __init__(self, nats, name, *arguments):
+        self.name = name
+        self.log_file = os.path.join(nats.folder, f"{name}-{time.monotonic_ns()}.log")
+        self.process = subprocess.Popen(
+            [PROGRAM, "--cluster", nats.file, "--cluster-edge", "--listen", "127.0.0.1:0", "--log-file", self.log_file, *arguments],
+            stdout=subprocess.PIPE, text=True)
+        first = self.process.stdout.readline()
+        assert first.startswith("listening "), first + self.log()
+        self.address = first.split()[1]
+
+
 class Bot:
     """Steers a louse, and comes back to it wherever its room is. addresses: of all hosts."""
 

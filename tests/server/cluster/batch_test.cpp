@@ -212,7 +212,7 @@ TEST_CASE("hosts that could go on try one after the other, and none while one of
   CHECK(table.place_in_line(silence, begin) == 1u);  // who can't go on stands in nobody's way
   REQUIRE(table.successor(begin));
   CHECK(table.successor(begin)->address == "b:1");
-  CHECK_FALSE(table.successor(begin + std::chrono::milliseconds(300)));
+  CHECK_FALSE(table.successor(begin + std::chrono::milliseconds(600)));
   CHECK(table.successor(begin, "d")->host == "d");
   CHECK_FALSE(table.successor(begin, "a"));  // it could not go on
   CHECK_FALSE(table.successor(begin, "nobody"));
