@@ -103,3 +103,20 @@ TEST_CASE("a batch that is gone is a hole up to the next keyframe, and what is a
     CHECK(verdict->ticks == static_cast<std::uint64_t>(ticks));
   }
 }
+
+TEST_CASE("a room that begins anew, though its game went on, is told as a hole") {
+  Shard first;
+  first.open();
+  first.step(100);
+  first.cut();
+  Shard second(2);
+  second.open();
+  second.step(10);
+  second.cut();
+  std::ostringstream told;
+  JoinedLog joined({}, told);
+  REQUIRE(joined.take(1, first.batches[0]));
+  REQUIRE(joined.take(2, second.batches[0]));
+  CHECK(joined.holes() == 1);
+  CHECK(told.str().find("BEGINS ANEW at tick 0, though tick 100 was to come") != std::string::npos);
+}

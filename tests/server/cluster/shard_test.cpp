@@ -54,6 +54,23 @@ TEST_CASE("who comes late begins at the newest keyframe, by what the last batch 
   CHECK(view.difference().empty());
 }
 
+TEST_CASE("who has missed a room's beginning knows that he lacks the room") {
+  Shard shard;
+  shard.open();
+  shard.join("ann");
+  shard.step(30);
+  shard.cut();
+  shard.step(30);
+  shard.cut();
+  ShardView late;
+  REQUIRE(late.take(2, shard.batches[1]));
+  CHECK(late.rooms().empty());
+  CHECK(late.lacks_rooms());
+  ShardView view;
+  read_all(view, shard);
+  CHECK_FALSE(view.lacks_rooms());
+}
+
 TEST_CASE("a claim goes with its louse") {
   Shard shard;
   shard.open();

@@ -143,6 +143,25 @@ TEST_CASE("a step that is to be kept is shown once it is, and none is played mea
   CHECK(house.room->figures()->clock_moves == 0);
 }
 
+TEST_CASE("who joins, asks anew or is there when the operator pauses sees no step before it is kept") {
+  KeptHouse kept;
+  House& house = *kept.house;
+  house.tick();
+  const auto late = house.join(2);
+  REQUIRE(late->welcomes.size() == 1);
+  house.door->submit(1, protocol::Resync{}, Time{});
+  house.settle();
+  house.room->pause([](const auto& tick) { CHECK(tick); });
+  house.tick(3);
+  CHECK(late->frames.empty());
+  CHECK(kept.guest->frames.empty());
+  kept.keep();
+  CHECK_FALSE(late->frames.empty());
+  CHECK_FALSE(kept.guest->frames.empty());
+  house.room->stop({"shutdown", "the server stops", false}, "test", [] {});
+  house.settle();
+}
+
 TEST_CASE("a room that is paused, stepped or stopped while a step is kept plays as many as were asked for") {
   KeptHouse kept;
   House& house = *kept.house;
