@@ -5,6 +5,7 @@ Usage: strict_test.py [TestCase.test ...]"""
 import json
 import os
 import random
+import re
 import signal
 import tempfile
 import time
@@ -54,7 +55,8 @@ class Strict(Cluster):
             for bot in clients.bots:
                 self.assertEqual((bot.losses, bot.notices), ([], ["paused", "resumed"]))
             self.assertNotIn("cluster_owns", second.log())
-            self.assertNotIn("clock_moved", first.log())
+            late = [int(ms) for ms in re.findall(r"came (\d+) ms late", first.log())]  # of a busy machine, not of the wait
+            self.assertTrue(all(ms < 1000 for ms in late), first.log())
         self.check_log()
 
 
