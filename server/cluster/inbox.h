@@ -20,8 +20,7 @@ namespace woodlouse::server {
 struct LogMessage {
   std::uint64_t sequence = 0;
   std::string bytes;
-  std::uint64_t reading =
-      0;  ///< of which time that the log was read; what comes late of one before is nothing
+  std::uint64_t reading = 0;  ///< of that beginning to read; of one before it is nothing any more
 };
 struct Acknowledged {
   std::uint64_t sequence = 0;

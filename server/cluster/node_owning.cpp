@@ -41,8 +41,7 @@ void Node::own() {
   writer_.reset();
 }
 
-/// What NATS answers and what is awaited wakes this thread; a batch has its time. A thread that looked more
-/// often would cost more than the small rooms that it serves.
+/// What NATS answers and what is awaited wakes this thread; a batch has its time.
 Time Node::next_look(Time now) const {
   const Time unasked = now + std::min(LogWriter::kAskEvery, settings_.batch);
   return cut_at_ > now ? std::min(cut_at_, unasked) : unasked;
