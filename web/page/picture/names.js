@@ -21,6 +21,8 @@ export class Names {
     this.parent = parent;
     /** Written texts, by what makes them look as they do. @type {Map<string, HTMLCanvasElement>} */
     this.written = new Map();
+    /** Of texts [CSS pixels]. @type {Map<string, number>} */
+    this.widths = new Map();
     /** @type {Map<any, {x: number, y: number}>} */
     this.placed = new Map();
     /** @type {Set<HTMLCanvasElement>} */
@@ -45,13 +47,22 @@ export class Names {
     return canvas;
   }
 
+  /** How wide a name is [CSS pixels]. @param {Name} name */
+  widthOf({ text, badge }) {
+    let width = this.widths.get(text);
+    if (width === undefined) {
+      const measure = this.measure ??= /** @type {CanvasRenderingContext2D} */ (document.createElement('canvas').getContext('2d', WRITTEN));
+      measure.font = FONT;
+      this.widths.set(text, width = Math.ceil(measure.measureText(text).width) + 2 * PAD);
+    }
+    return badge ? width + 6 : width;
+  }
+
   /** @param {Name} name @param {import('./colours.js').ThemeName} theme @param {number} twin how many of the same text and colour are shown already */
-  write({ text, colour, badge }, theme, twin) {
-    const key = `${text}\n${colour}\n${badge}\n${theme}\n${twin}`, known = this.written.get(key);
+  write(name, theme, twin) {
+    const { text, colour, badge } = name, key = `${text}\n${colour}\n${badge}\n${theme}\n${twin}`, known = this.written.get(key);
     if (known) return known;
-    const look = THEMES[theme], measure = this.measure ??= /** @type {CanvasRenderingContext2D} */ (document.createElement('canvas').getContext('2d', WRITTEN));
-    measure.font = FONT;
-    const width = Math.ceil(measure.measureText(text).width) + 2 * PAD + (badge ? 6 : 0);
+    const look = THEMES[theme], width = this.widthOf(name);
     return this.keep(key, width, HEIGHT, context => {
       context.font = FONT;
       context.textAlign = 'center';
@@ -88,23 +99,17 @@ export class Names {
   /** @param {Name[]} names @param {import('./camera.js').Camera} camera @param {import('./colours.js').ThemeName} theme @param {Arrow[]} arrows */
   draw(names, camera, theme, arrows) {
     const ratio = Math.min(2, globalThis.devicePixelRatio || 1);
-    if (ratio !== this.ratio || this.written.size > KEPT) {
+    if (ratio !== this.ratio || this.written.size > KEPT || this.widths.size > 4 * KEPT) {
       this.ratio = ratio;
       this.written.clear();
+      this.widths.clear();
     }
-    /** @type {Map<any, HTMLCanvasElement>} */
-    const pictures = new Map();
     /** @type {Map<string, number>} */
     const twins = new Map();
     // who was named stays named: names do not flicker
-    const rankOf = name => name.rank * (this.placed.has(name.key) ? 1.5 : 1), most = names.length > MANY ? MOST_OF_MANY : MOST;
-    const wanted = names.sort((a, b) => rankOf(b) - rankOf(a)).slice(0, 3 * most).map(name => {
-      const like = name.text + name.colour, twin = twins.get(like) ?? 0;
-      twins.set(like, twin + 1);
-      const picture = this.write(name, theme, twin);
-      pictures.set(name.key, picture);
-      return { key: name.key, x: name.x, y: name.y, reach: name.reach, width: picture.width / ratio, height: HEIGHT - 2, rank: rankOf(name) };
-    });
+    const most = names.length > MANY ? MOST_OF_MANY : MOST, ranks = new Map(names.map(name => [name, name.rank * (this.placed.has(name.key) ? 1.5 : 1)]));
+    const rankOf = name => /** @type {number} */ (ranks.get(name)), best = names.sort((a, b) => rankOf(b) - rankOf(a)).slice(0, 3 * most);
+    const wanted = best.map(name => ({ key: name.key, x: name.x, y: name.y, reach: name.reach, width: this.widthOf(name), height: HEIGHT - 2, rank: rankOf(name) }));
     const { left, top, right, bottom } = camera.insets;
     this.placed = placeLabels(wanted, { left: left + 2, top: top + 2, right: camera.width - right - 2, bottom: camera.height - bottom - 2 }, most);
     const now = new Set();
@@ -113,7 +118,12 @@ export class Names {
       if (!this.shown.has(picture)) this.parent.append(picture);
       now.add(picture);
     };
-    for (const [key, at] of this.placed) show(pictures.get(key), `translate(${Math.round(at.x * ratio) / ratio}px,${Math.round(at.y * ratio) / ratio}px)`);
+    for (const name of best) {  // of the others nothing is written
+      const at = this.placed.get(name.key), like = name.text + name.colour, twin = twins.get(like) ?? 0;
+      if (!at) continue;
+      twins.set(like, twin + 1);
+      show(this.write(name, theme, twin), `translate(${Math.round(at.x * ratio) / ratio}px,${Math.round(at.y * ratio) / ratio}px)`);
+    }
     arrows.forEach((arrow, k) => show(this.arrow(arrow, theme, k), `translate(${arrow.x - 18}px,${arrow.y - 18}px) rotate(${arrow.angle}rad)`));
     for (const picture of this.shown) if (!now.has(picture)) picture.remove();
     this.shown = now;
