@@ -1,5 +1,5 @@
 // @ts-check
-// The picture as it stays: the ground with its contours, lice with all their legs, smooth outlines.
+// The picture as it stays: the ground with its contours, lice with all their legs, smooth outlines; and whether it is drawn again.
 import { INSTANCE } from './batch.js';
 import { makePrograms, use } from './gl.js';
 import { GroundDrawing } from './ground_drawing.js';
@@ -8,6 +8,9 @@ import { SHADERS } from './shaders.js';
 import { COLOURS, Surface } from './surface.js';
 
 const STANDING = 350;  // ms that the camera must have stood before the ground's outline is smoothed
+const STANDS = 1000;  // ms for which the same is drawn on: outlines become smooth meanwhile, names come to rest
+/** What a louse is drawn by. */
+const SEEN = /** @type {const} */ (['id', 'phase', 'x', 'y', 'z', 'zx', 'zy', 'vx', 'vy', 'heading_x', 'heading_y', 'flight_z', 'flight_vz', 'distance', 'name', 'colour', 'outline']);
 
 /** @typedef {import('./drawing.js').Look} Look */
 
@@ -20,6 +23,7 @@ export class FineDrawing {
     this.ground = new GroundDrawing(gl, programs, drawing.isSoftware);
     this.lice = new LiceDrawing(gl, programs);
     this.ghosts = new LiceDrawing(gl, programs);
+    this.stillness = new Stillness();
     /** Where a graphics card draws: the picture, with several samples a pixel. @type {Surface | null} */
     this.surface = null;
     /** Where a processor draws: the ground before a camera that stands; else the whole picture. @type {Surface | null} */
@@ -117,5 +121,39 @@ export class FineDrawing {
     use(gl, this.copy, { picture: COLOURS });
     gl.bindVertexArray(null);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+}
+
+/** Own rings pulse, and what the rules put on the ground glows and turns. @param {import('./staging.js').Scene} scene */
+const isMoving = ({ you, marks }) => !!you || Object.values(marks ?? {}).some((mark) => (Array.isArray(mark) ? mark.length > 0 : !!mark));
+
+/** @param {readonly any[]} some @param {readonly any[]} others */
+const isSame = (some, others) => some.length === others.length && some.every((one, k) => Object.is(one, others[k]));
+
+/** All but the scene that a picture depends on. @param {import('./picture.js').Picture} picture */
+function lookOf({ canvas, camera, drawing, palette, theme, relief, isBaked }) {
+  const { width, height, insets: { left, top, right, bottom } } = camera;
+  return [canvas.width, canvas.height, width, height, left, top, right, bottom, palette, theme, relief, isBaked, drawing.isFine, drawing.isPainted, drawing.version, ...camera.matrix];
+}
+
+/** Whether a picture would be the one that was drawn last: a recording that is held, lice that sleep. It is not drawn again then; where a
+ * processor draws, that leaves it to who re-runs. */
+export class Stillness {
+  /** @type {import('./staging.js').Louse[]} */ #lice = [];
+  /** @type {readonly any[]} */ #look = [];
+  #since = Infinity;
+
+  /** @param {import('./staging.js').Scene} scene @param {import('./picture.js').Picture} picture @param {number} now ms */
+  stands(scene, picture, now) {
+    const { lice, follow } = scene, look = [follow, ...lookOf(picture)];
+    const are = lice.length === this.#lice.length && lice.every((louse, k) => SEEN.every((name) => Object.is(louse[name], this.#lice[k][name])));
+    if (isMoving(scene) || !picture.drawing.isPainted || !are || !isSame(look, this.#look)) this.#since = now;
+    this.#lice = lice;
+    this.#look = look;
+    if (now - this.#since < STANDS) return false;
+    const { trails } = picture.staging;
+    if (trails.last > -Infinity) trails.last = now;  // nobody has moved until now: they stay, however long that is
+    picture.last = -Infinity;  // what is not drawn says nothing of how long a frame takes
+    return true;
   }
 }

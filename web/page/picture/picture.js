@@ -159,6 +159,7 @@ export class Picture {
     this.last = now;
     const { w, h, width, height } = this.fit(this.resolution.scale);
     camera.update(w, h, now, staging.find(scene, scene.follow || camera.follow), scene.marks?.arrow);
+    if (drawing.fine?.stillness.stands(scene, this, now)) return;
     staging.stage(scene, this, now, width, height);
     if (!drawing.draw(this, staging, width, height, now)) return;
     if (!this.isFirst && this.names) {

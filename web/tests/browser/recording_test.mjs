@@ -72,6 +72,27 @@ test('a recording that is dropped plays, each tick proven, and is verified whole
   await until(page, () => document.querySelector('#verdict').textContent.startsWith('ok ticks 0 to 1500'));
 });
 
+test('a recording that is held is drawn no more, until something of it changes; trails stay', async () => {
+  await page.keyboard.press('k');
+  await until(page, () => [...window.woodlouse.picture.staging.trails.trails.values()].some(({ count }) => count > 3));
+  await page.keyboard.press('k');
+  const held = await page.evaluate(async () => {
+    const { picture } = window.woodlouse;
+    for (let drawn = -1; drawn !== picture.peopled;) {
+      drawn = picture.peopled;
+      await new Promise((resolve) => setTimeout(resolve, 5000));  // longer than trails last without a picture
+    }
+    return [...picture.staging.trails.trails.values()].map(({ count }) => count);
+  });
+  assert.ok(held.length === 5 && held.some((count) => count > 3), `trails of ${held} points`);
+  await page.evaluate(() => { window.drawn = window.woodlouse.picture.peopled; window.woodlouse.picture.camera.turn(40, 0); });
+  await until(page, () => window.woodlouse.picture.peopled > window.drawn);
+  assert.deepEqual(await known(page, () => [...window.woodlouse.picture.staging.trails.trails.values()].map(({ count }) => count)), held);
+  await page.evaluate(() => { window.drawn = window.woodlouse.picture.peopled; });
+  await page.keyboard.press('k');
+  await until(page, () => window.woodlouse.player.isPlaying && window.woodlouse.picture.peopled > window.drawn + 5);
+});
+
 test('a recording that falls on the page before it is whole is opened', async () => {
   const other = await context.newPage();
   let pass = () => {};
