@@ -148,13 +148,9 @@ std::string pack(const BatchHead& head, std::string_view lines) {
       });
   if (head.parts > 1) line.integer("part", head.part).integer("parts", head.parts);
   line.end_line();
-  replay::FramePacker packer;
-  std::string packed;
-  packer.append(packed, text);
-  packer.append(packed, lines);
-  if (!is_whole) packer.append(packed, "\n");
-  packer.end_frame(packed);
-  return packed;
+  text += lines;
+  if (!is_whole) text += '\n';
+  return replay::FramePacker::whole_frame(text);
 }
 
 std::vector<std::string> pack_in_parts(const BatchHead& head, const std::vector<RoomPlace>& before,

@@ -19,6 +19,10 @@ class FramePacker {
   static constexpr int kLevel = 9;       ///< about a hundredth of a core for a hundred bots
   static constexpr int kWindowLog = 20;  ///< 1 MiB: more than five seconds of text
 
+  /// A frame of text that is all there: its tables are no larger than it needs, which for some thousand bytes
+  /// is most of the work.
+  [[nodiscard]] static std::string whole_frame(std::string_view text);
+
   FramePacker();
 
   /// All of these append the packed bytes that are ready to `out`.
@@ -34,9 +38,11 @@ class FramePacker {
   struct Release {
     void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
   };
+  using Context = std::unique_ptr<ZSTD_CCtx, Release>;
+  static Context make_context();
   void pack(std::string& out, std::string_view text, ZSTD_EndDirective directive);
 
-  std::unique_ptr<ZSTD_CCtx, Release> context_;
+  Context context_;
   std::vector<char> buffer_;
   std::vector<ZstdFrameSize> frames_;
   ZstdFrameSize frame_;  ///< so far

@@ -10,6 +10,7 @@
 #include "shared/replay/parallel_verify.h"
 #include "shared/replay/writer.h"
 #include "shared/replay/zstd_input.h"
+#include "shared/replay/zstd_packer.h"
 #include "tests/replay/recorded_match.h"
 
 namespace woodlouse::replay {
@@ -72,6 +73,26 @@ TEST_CASE("any byte of a packed recording is found by seeking, with the table an
     }
     in.seekg(0, std::ios::end);
     CHECK(in.tellg() == static_cast<std::streamoff>(text.size()));
+  }
+}
+
+TEST_CASE("text that is all there is one frame, of whatever size, proven by a checksum") {
+  core::Random random(3);
+  for (const std::size_t size : {0u, 1u, 1500u, 1u << 17, (1u << 20) + 1, 3u << 20}) {
+    INFO(size << " bytes");
+    std::string text;
+    while (text.size() < size) text += std::to_string(random.next() % 1000) + ",\n";
+    text.resize(size);
+    std::string frame = FramePacker::whole_frame(text);
+    CHECK(unpacked(frame) == text);
+    CHECK(ZSTD_findFrameCompressedSize(frame.data(), frame.size()) == frame.size());
+    CHECK(10 * frame.size() < 6 * text.size() + 320);
+    frame.back() ^= 1;  // of the checksum
+    ZstdInput buffer(std::make_unique<std::istringstream>(frame));
+    std::istream in(&buffer);
+    while (in.get() != std::istream::traits_type::eof()) {
+    }
+    CHECK_FALSE(buffer.fault().empty());
   }
 }
 
