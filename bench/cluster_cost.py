@@ -21,7 +21,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SETTLED_S = 5.0
 MEASURED_CORE, OTHER_CORE = "0", "1"
-MANY_ROOMS, SHARD_ROOMS = 250, 16  # a server has at most 256 of its own, a shard 16
+SHARD_ROOMS, MANY_ROOMS = 16, 1000  # a server has at most 1,024, and so has a shard
 HOUSE = ("--bots", "8", "--bots-alone", "play")
 LATENESS, WORK = "woodlouse_room_tick_lateness_seconds", "woodlouse_room_tick_work_seconds"
 
@@ -181,49 +181,6 @@ def in_turns(what, setting, rounds):
             print(f"{what}, {way} / alone: {figure.split()[0]} median {statistics.median(ratios):.3f} of {' '.join(f'{ratio:.2f}' for ratio in sorted(ratios))}", flush=True)
 
 
-def many_rooms(scratch, rounds, seconds):
-    """In one server, and in as many as make a thousand, all on one core."""
-    runs = {1: [], 4: []}
-    for _ in range(rounds):
-        for count, its in runs.items():
-            with contextlib.ExitStack() as all_of_them:
-                servers = [all_of_them.enter_context(Server(scratch, "alone", *HOUSE, rooms=MANY_ROOMS)) for _ in range(count)]
-                time.sleep(SETTLED_S)
-                others = {f"{number}.": server.process for number, server in enumerate(servers[1:], 2)}
-                found = measured(servers[0], seconds, others)
-                shares = [value for name, value in found.items() if name.endswith("core %")]
-                memory = [value for name, value in found.items() if name.endswith(" MB")]
-                its.append({name: found[name] for name in ("work us", "ticks/s", "late p50 ms", "late p99 ms")} |
-                           {"all core %": sum(shares), "all MB": sum(memory)})
-    for count, its in runs.items():
-        tell(f"{count * MANY_ROOMS} rooms in {count} server{'s' if count > 1 else ''}", medians(its))
-
-
-def many_shards(scratch, rounds, seconds):
-    """As many servers as make a thousand rooms, each of whose shards is logged, on all cores; only where it is asked for: it wants four."""
-    count = 1008 // SHARD_ROOMS
-    runs = []
-    for _ in range(rounds):
-        with stage.Nats(1) as nats, contextlib.ExitStack() as all_of_them:
-            servers = []
-            cores = f"0-{os.cpu_count() - 1}"
-            for number in range(count):
-                file = os.path.join(nats.folder, f"shard{number}.json")
-                pathlib.Path(file).write_text(json.dumps({"nats": [f"nats://127.0.0.1:{nats.ports[0]}"], "shard": f"s{number}"}))
-                subprocess.run([stage.PROGRAM, "cluster", "init", file], check=True, stdout=subprocess.DEVNULL)
-                servers.append(all_of_them.enter_context(Server(scratch, f"a{number}", *HOUSE, rooms=SHARD_ROOMS, cluster=file, core=cores)))
-            for server in servers:
-                server.wait_for("room_opened")
-            time.sleep(SETTLED_S)
-            others = {f"{number}.": server.process for number, server in enumerate(servers[1:], 2)}
-            found = measured(servers[0], seconds, {"nats": nats.processes[0], **others})
-            of_servers = [value for name, value in found.items() if name.endswith("core %") and not name.startswith("nats")]
-            memory = [value for name, value in found.items() if name.endswith(" MB") and not name.startswith("nats")]
-            runs.append({name: found[name] for name in ("work us", "ticks/s", "late p50 ms", "late p99 ms", "nats core %", "nats MB")} |
-                        {"servers core %": sum(of_servers), "servers MB": sum(memory)})
-    tell(f"{count * SHARD_ROOMS} rooms in {count} servers, logged", medians(runs))
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("programs", type=pathlib.Path, metavar="BIN")
@@ -232,8 +189,8 @@ def main():
     parser.add_argument("--only", default="tick,shard,rooms")
     arguments = parser.parse_args()
     wanted = set(arguments.only.split(","))
-    if wanted - {"tick", "shard", "rooms", "shards"}:
-        parser.error("--only takes tick, shard, rooms, shards")
+    if wanted - {"tick", "shard", "rooms"}:
+        parser.error("--only takes tick, shard, rooms")
     os.environ["WOODLOUSE_SERVER"] = str(arguments.programs.resolve() / "woodlouse-server")
     os.environ["WOODLOUSE_MAPS"] = str(ROOT / "maps")
     sys.path.insert(0, str(ROOT / "tests" / "cluster"))
@@ -248,9 +205,7 @@ def main():
         if "shard" in wanted:
             in_turns(f"{SHARD_ROOMS} rooms of 8", Setting(scratch, arguments.seconds, SHARD_ROOMS, 0), arguments.rounds)
         if "rooms" in wanted:
-            many_rooms(scratch, arguments.rounds, arguments.seconds)
-        if "shards" in wanted:
-            many_shards(scratch, arguments.rounds, arguments.seconds)
+            in_turns(f"{MANY_ROOMS:,} rooms of 8", Setting(scratch, arguments.seconds, MANY_ROOMS, 0), arguments.rounds)
 
 
 if __name__ == "__main__":

@@ -31,7 +31,7 @@
 namespace woodlouse::server {
 
 /// Each steps all the time; a longer list is a slip.
-inline constexpr std::size_t kMaxRooms = 256;
+inline constexpr std::size_t kMaxRooms = 1024;
 
 struct ServeConfig {
   std::vector<std::filesystem::path> maps;  ///< a room each and mode; 1 to kMaxRooms, none for a fork

@@ -33,8 +33,8 @@ class LinkListener {
 /// Held by shared_ptr: its pending operations keep it alive. Single thread.
 class Link : public std::enable_shared_from_this<Link> {
  public:
-  static constexpr std::size_t kMaxLineBytes = 160u << 20;  ///< the largest map fits
-  static constexpr std::size_t kMaxHelloBytes = 64u << 10;  ///< of the line before any: many times a hello
+  static constexpr std::size_t kMaxLineBytes = 160u << 20;   ///< the largest map fits
+  static constexpr std::size_t kMaxHelloBytes = 256u << 10;  ///< of the line before any: many times a hello
   static constexpr std::size_t kMaxUnsentBytes =
       256u << 10;  ///< beyond it the link ends: the server takes nothing
   static constexpr std::chrono::seconds kReachPatience{3};  ///< until somebody takes the connection

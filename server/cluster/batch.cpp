@@ -97,7 +97,7 @@ core::Expected<BatchHead> read_head(std::string_view line, const std::string& pl
                        head.behavior = static_cast<int>(fields.integer("behavior", 0, 1'000'000));
                        const auto rooms = fields.demand("rooms");
                        if (rooms && (!rooms->is(json::Kind::kArray) || rooms->size() > kMostRoomsOfShard))
-                         problems.add(*rooms, "is to be a list of at most 16 rooms");
+                         problems.add(*rooms, "is to be a list of no more rooms than a shard has");
                        else if (rooms)
                          rooms->for_each([&](const json::Value& value) {
                            head.rooms.push_back(read_place(value, problems));

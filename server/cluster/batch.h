@@ -74,7 +74,7 @@ struct Batch {
 /// What a message of NATS may be, 1 MB by default, less its own head.
 inline constexpr std::size_t kMostMessageBytes = 1'000'000;
 /// Of lines, packed or not: the packed ones, with a head, are no longer than a message may be.
-inline constexpr std::size_t kPartBytes = 900'000;
+inline constexpr std::size_t kPartBytes = 800'000;
 inline constexpr std::uint32_t kMostParts = 80;
 
 inline constexpr std::size_t kMostHostBytes = 64;

@@ -12,8 +12,8 @@
 
 namespace woodlouse::server {
 
-/// They live and move together: one log, one owner.
-inline constexpr std::size_t kMostRoomsOfShard = 16;
+/// They live and move together: one log, one owner. As many as a server opens.
+inline constexpr std::size_t kMostRoomsOfShard = 1024;
 
 struct ClusterSettings {
   // The file's, the same on every host:

@@ -14,7 +14,7 @@ namespace woodlouse::server {
 namespace {
 
 constexpr json::Limits kBeatLimits{4, 32 + 8 * kMostRoomsOfShard};
-constexpr std::size_t kMostBeatBytes = 16384;
+constexpr std::size_t kMostBeatBytes = 4096 + 512 * kMostRoomsOfShard;
 constexpr std::size_t kMostAddressBytes = 261;
 
 protocol::RoomEntry read_room(const json::Value& value, json::Problems& problems) {
@@ -56,14 +56,15 @@ std::string to_text(const Beat& beat) {
       .hash("nonce2", beat.writer.nonce[1])
       .integer("sequence", beat.sequence)
       .integer("silent_ms", beat.silent_ms)
-      .text("to", beat.to)
-      .objects("rooms", beat.rooms, [](json::ObjectText& object, const protocol::RoomEntry& room) {
-        object.text("name", room.name)
-            .text("map", room.map)
-            .integer("players", room.players)
-            .integer("bots", room.bots)
-            .integer("spectators", room.spectators);
-      });
+      .text("to", beat.to);
+  if (beat.rooms)
+    line.objects("rooms", *beat.rooms, [](json::ObjectText& object, const protocol::RoomEntry& room) {
+      object.text("name", room.name)
+          .text("map", room.map)
+          .integer("players", room.players)
+          .integer("bots", room.bots)
+          .integer("spectators", room.spectators);
+    });
   line.end();
   return text;
 }
@@ -92,12 +93,13 @@ core::Expected<Beat> beat_from(std::string_view text) {
   beat.sequence = fields.integer("sequence", 0, kMostCount);
   beat.silent_ms = fields.integer("silent_ms", 0, kMostCount);
   beat.to = fields.text("to", kMostHostBytes);
-  const auto rooms = fields.demand("rooms");
+  const auto rooms = fields.find("rooms");
+  if (rooms) beat.rooms.emplace();
   if (rooms && (!rooms->is(json::Kind::kArray) || rooms->size() > kMostRoomsOfShard))
-    problems.add(*rooms, "is to be a list of at most 16 rooms");
+    problems.add(*rooms, "is to be a list of no more rooms than a shard has");
   else if (rooms)
     rooms->for_each([&](const json::Value& value) {
-      beat.rooms.push_back(read_room(value, problems));
+      beat.rooms->push_back(read_room(value, problems));
       return true;
     });
   if (problems.count() != 0) return tl::unexpected(problems.errors().front());
@@ -131,6 +133,10 @@ void HostTable::take(Beat beat, Time now) {
   if (beat.host == own_) return;
   auto& hosts = beat.shard == shard_ ? hosts_ : strangers_;
   if (hosts.size() >= kMostHosts && !hosts.contains(beat.host)) return;
+  const auto former = hosts.find(beat.host);
+  const bool is_told = beat.rooms || !beat.owns;
+  if (!is_told && former != hosts.end() && former->second.beat.process == beat.process)
+    beat.rooms = std::move(former->second.beat.rooms);
   const std::string host = beat.host;
   hosts.insert_or_assign(host, Known{std::move(beat), now});
 }
@@ -227,7 +233,7 @@ std::vector<HostedRoom> HostTable::rooms(Time now) const {
     }
   std::vector<HostedRoom> rooms;
   for (const auto& [shard, owner] : owners)
-    for (const protocol::RoomEntry& room : owner->rooms) {
+    for (const protocol::RoomEntry& room : owner->rooms.value_or(std::vector<protocol::RoomEntry>())) {
       rooms.push_back({owner->shard, room});
       rooms.back().room.address = owner->address;
     }

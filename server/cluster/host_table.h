@@ -23,14 +23,15 @@ struct Beat {
   std::string address;  ///< for clients
   std::string shard;
   bool owns = false;
-  bool leaves = false;                     ///< it goes, and hands its rooms over
-  std::string to{};                        ///< to which host; empty: whoever is next
-  bool ready = false;                      ///< of a follower: it has all of the log and could go on with it
-  std::uint64_t process = 0;               ///< made by chance: tells two that have one name
-  Writer writer;                           ///< where it owns: as whom; else the one it follows
-  std::uint64_t sequence = 0;              ///< of the log: acknowledged to an owner, read by a follower
-  std::uint64_t silent_ms = 0;             ///< of a follower: for how long it has heard nothing of the owner
-  std::vector<protocol::RoomEntry> rooms;  ///< an owner's
+  bool leaves = false;          ///< it goes, and hands its rooms over
+  std::string to{};             ///< to which host; empty: whoever is next
+  bool ready = false;           ///< of a follower: it has all of the log and could go on with it
+  std::uint64_t process = 0;    ///< made by chance: tells two that have one name
+  Writer writer;                ///< where it owns: as whom; else the one it follows
+  std::uint64_t sequence = 0;   ///< of the log: acknowledged to an owner, read by a follower
+  std::uint64_t silent_ms = 0;  ///< of a follower: for how long it has heard nothing of the owner
+  /// An owner's; nothing: those that it told last.
+  std::optional<std::vector<protocol::RoomEntry>> rooms{};
   friend bool operator==(const Beat&, const Beat&) = default;
 };
 

@@ -12,6 +12,7 @@
 #include <utility>
 #include <variant>
 
+#include "server/cluster/cluster_settings.h"
 #include "server/cluster/log_tap.h"
 #include "server/timing/clock.h"
 
@@ -35,8 +36,8 @@ using NodeEvent = std::variant<LogDesk::Job, LogMessage, Acknowledged, Refused, 
 /// Any thread.
 class Inbox final : public LogDesk {
  public:
-  /// Of what rooms tell: 20 s of 16 rooms at 60 Hz.
-  static constexpr std::size_t kMostJobs = 16 * 1200;
+  /// Of what rooms tell: 5 s of as many as there may be at 60 Hz.
+  static constexpr std::size_t kMostJobs = kMostRoomsOfShard * 300;
 
   [[nodiscard]] bool post(Job job) override {
     const std::lock_guard lock(mutex_);

@@ -13,6 +13,7 @@ LogWriter::LogWriter(Writer writer, std::uint64_t after) : writer_(std::move(wri
 void LogWriter::add(std::string packed) {
   assert(!packed.empty());
   if (waiting() == 0) silent_since_ = Time{};
+  bytes_ += packed.size();
   batches_.push_back(std::make_shared<const std::string>(std::move(packed)));
 }
 
@@ -43,7 +44,8 @@ void LogWriter::acknowledged(std::uint64_t sequence, Time now) {
   sent_ = std::max(sent_, acked_);
   state_ = State::kWriting;
   sent_at_ = silent_since_ = now;
-  while (acked_ - first_ > kMostKept) {
+  while (acked_ - first_ > kMostKept || (bytes_ > kMostBytes && acked_ > first_)) {
+    bytes_ -= batches_.front()->size();
     batches_.pop_front();
     ++first_;
   }

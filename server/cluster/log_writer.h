@@ -38,6 +38,8 @@ class LogWriter {
  public:
   /// Acknowledged ones, for a stream that has gone back after a loss of power: two minutes of them.
   static constexpr std::size_t kMostKept = 1200;
+  /// Of all batches; of acknowledged ones fewer are kept then.
+  static constexpr std::size_t kMostBytes = std::size_t{128} << 20;
   static constexpr Duration kAnswerWithin = std::chrono::milliseconds(500);
   /// So many reads in a row that show nothing of this epoch.
   static constexpr int kBelievedAfter = 20;
@@ -86,6 +88,8 @@ class LogWriter {
   [[nodiscard]] const Writer& other() const { return other_; }
   /// Batches that are not acknowledged.
   [[nodiscard]] std::size_t waiting() const { return batches_.size() - (acked_ - first_); }
+  /// Of all that are kept; more than kMostBytes: of those that are not acknowledged.
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
   /// Batches that are stored: those of lower numbers.
   [[nodiscard]] std::uint64_t acked() const { return acked_; }
   /// For how long none was acknowledged while some waited.
@@ -103,6 +107,7 @@ class LogWriter {
   State state_ = State::kTaking;
   Writer other_;
   std::deque<std::shared_ptr<const std::string>> batches_;  ///< from first_ on
+  std::size_t bytes_ = 0;                                   ///< of batches_
   std::uint64_t first_ = 0;                                 ///< number of batches_.front()
   std::uint64_t acked_ = 0;                                 ///< numbers below are stored
   std::uint64_t sent_ = 0;                                  ///< numbers below are published

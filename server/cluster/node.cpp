@@ -142,9 +142,10 @@ std::optional<std::string> Node::elsewhere(std::string_view room) const {
   constexpr Duration kHeardWithin = 6 * kBeatEvery;
   const auto owner = table_.owner(Clock::now(), kHeardWithin);
   if (!owner) return std::nullopt;
-  const bool is_there = std::any_of(owner->rooms.begin(), owner->rooms.end(),
+  const auto rooms = owner->rooms.value_or(std::vector<protocol::RoomEntry>());
+  const bool is_there = std::any_of(rooms.begin(), rooms.end(),
                                     [room](const protocol::RoomEntry& entry) { return entry.name == room; });
-  return is_there || (room.empty() && !owner->rooms.empty()) ? std::optional(owner->address) : std::nullopt;
+  return is_there || (room.empty() && !rooms.empty()) ? std::optional(owner->address) : std::nullopt;
 }
 
 bool Node::is_on_its_way(std::string_view room) const {
@@ -190,14 +191,23 @@ void Node::beat_soon() {
 // ---- signs of life -------------------------------------------------------------------------------------
 
 void Node::beat(const std::stop_token& stop) {
-  const auto tell = [this] {
+  constexpr Duration kRoomsEvery = std::chrono::seconds(1);
+  constexpr Duration kRoomsOpen = std::chrono::seconds(3);  // of an owner that begins
+  std::optional<Time> owns_since;
+  Time rooms_at{};
+  const auto tell = [&] {
     Beat beat;
     {
       const std::lock_guard lock(mutex_);
       beat = beat_;
     }
-    if (beat.owns) beat.rooms = hooks_.census();
-    if (beat.rooms.size() > kMostRoomsOfShard) beat.rooms.resize(kMostRoomsOfShard);
+    const Time now = Clock::now();
+    owns_since = beat.owns ? owns_since.value_or(now) : std::optional<Time>();
+    if (beat.owns && (now >= rooms_at || now - *owns_since < kRoomsOpen)) {
+      rooms_at = now + kRoomsEvery;
+      beat.rooms = hooks_.census();
+      if (beat.rooms->size() > kMostRoomsOfShard) beat.rooms->resize(kMostRoomsOfShard);
+    }
     // What is lost of it is told again.
     static_cast<void>(beat_link_->publish(settings_.beat_subject(settings_.host), to_text(beat)));
   };

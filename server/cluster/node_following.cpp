@@ -150,11 +150,11 @@ core::Expected<void> Node::read_beginning(const NatsLink::StreamState& state) {
     return !is_there;
   });
   const auto beginning = ShardView::beginning({at, head});
-  for (const auto& [room, sequence] : beginning.headers) {
+  for (const auto& [sequence, rooms] : beginning.headers) {
     const auto lines = read_whole(sequence);
     if (!lines) return tl::unexpected(lines.error());
     const std::string place = joined({"batch ", std::to_string(sequence)});
-    if (auto taken = view_->take_header(room, *lines, place); !taken) return taken;
+    if (auto taken = view_->take_headers(rooms, *lines, place); !taken) return taken;
   }
   say(LogEvent::kClusterFollows,
       joined({"follows the log of ", settings_.shard, ", which is that of ", to_text(batch->head.writer),

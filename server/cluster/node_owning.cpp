@@ -98,7 +98,7 @@ void Node::cut(Time now) {
     inbox_->begin_anew();
     say(LogEvent::kClusterHole, joined({"LOG HAS A HOLE: ", why, "; its rooms are told anew"}));
   };
-  if (writer_->waiting() >= kMostWaiting) {
+  if (writer_->waiting() >= kMostWaiting || writer_->bytes() > LogWriter::kMostBytes) {
     if (text_->size() < kCutBytes) return;  // some may be taken yet
     return lose("nothing is stored");
   }

@@ -22,7 +22,7 @@ namespace woodlouse::server {
 class RoomGuide final : public Directory {
  public:
   /// Of other hosts that it tells of; a host that told of more would be a broken one.
-  static constexpr std::size_t kMostElsewhere = 512;
+  static constexpr std::size_t kMostElsewhere = 1024;
 
   /// What a cluster knows; any thread.
   struct Cluster {

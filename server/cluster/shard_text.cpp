@@ -12,18 +12,16 @@
 namespace woodlouse::server {
 
 ShardText::Room* ShardText::find(TapNumber tap) {
-  const auto found = std::find_if(rooms_.begin(), rooms_.end(),
-                                  [tap](const auto& entry) { return entry.second.tap == tap; });
-  return found == rooms_.end() ? nullptr : &found->second;
+  const auto found = by_tap_.find(tap);
+  assert(found == by_tap_.end() || found->second->tap == tap);
+  return found == by_tap_.end() ? nullptr : found->second;
 }
 
 /// Where its next line goes, behind one that says whose it is.
 std::string& ShardText::lines_of(const Room& room) {
   if (std::exchange(last_, &room) == &room) return lines_;
-  const auto named = std::find_if(rooms_.begin(), rooms_.end(),
-                                  [&room](const auto& entry) { return &entry.second == &room; });
-  assert(named != rooms_.end());
-  append_room(lines_, named->first);
+  assert(!room.name.empty());
+  append_room(lines_, room.name);
   return lines_;
 }
 
@@ -37,8 +35,11 @@ void ShardText::begin(TapNumber tap, const std::string& room, const replay::Head
     return;
   }
   Room& game = rooms_[room];
+  by_tap_.erase(game.tap);
   game = Room();
   game.tap = tap;
+  game.name = room;
+  by_tap_[tap] = &game;
   game.header = header;
   game.announce = std::move(announce);
   last_ = nullptr;
@@ -111,13 +112,14 @@ void ShardText::rest(TapNumber tap, match::MatchState state) {
 }
 
 void ShardText::close(TapNumber tap) {
-  const auto found = std::find_if(rooms_.begin(), rooms_.end(),
-                                  [tap](const auto& entry) { return entry.second.tap == tap; });
-  if (found == rooms_.end() || keeps_rooms_) return;
+  const Room* const room = find(tap);
+  if (room == nullptr || keeps_rooms_) return;
   last_ = nullptr;
-  append_closed(lines_, found->first);
-  places_.erase(found->first);
-  rooms_.erase(found);
+  const std::string name = room->name;
+  append_closed(lines_, name);
+  places_.erase(name);
+  by_tap_.erase(tap);
+  rooms_.erase(name);
 }
 
 void ShardText::renew(Time now) {

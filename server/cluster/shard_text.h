@@ -82,6 +82,7 @@ class ShardText {
  private:
   struct Room {
     TapNumber tap = 0;
+    std::string name;
     replay::Header header;
     replay::ReplayWriter lines;
     std::map<match::PlayerId, Claim> claims;
@@ -99,6 +100,7 @@ class ShardText {
 
   const Duration renew_every_;
   std::map<std::string, Room, std::less<>> rooms_;
+  std::map<TapNumber, Room*> by_tap_;  ///< those whose game is the room's
   std::map<std::string, RoomPlace, std::less<>> places_;
   std::string lines_;
   std::vector<std::function<void()>> awaiting_;

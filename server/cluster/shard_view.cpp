@@ -27,27 +27,28 @@ ShardView::Beginning ShardView::beginning(const LastBatch& last) {
   for (const RoomPlace& place : last.head.rooms)
     if (place.keyframe != 0) beginning.from = std::min(beginning.from, place.keyframe);
   for (const RoomPlace& place : last.head.rooms)
-    if (place.header != 0 && place.header < beginning.from) beginning.headers[place.room] = place.header;
+    if (place.header != 0 && place.header < beginning.from)
+      beginning.headers[place.header].insert(place.room);
   return beginning;
 }
 
-core::Expected<void> ShardView::take_header(std::string_view room, std::string_view lines,
-                                            const std::string& place) {
+core::Expected<void> ShardView::take_headers(const RoomNames& rooms, std::string_view lines,
+                                             const std::string& place) {
   std::string current;
-  bool is_found = false;
-  auto read = for_each_line(lines, [&](std::string_view text) -> core::Expected<void> {
+  RoomNames missing = rooms;
+  const auto visit = [&](std::string_view text) -> core::Expected<void> {
     const auto line = read_batch_line(text, place);
     if (!line) return tl::unexpected(line.error());
     if (const auto* named = std::get_if<RoomLine>(&*line)) current = named->room;
     const auto* recorded = std::get_if<RecordedLine>(&*line);
-    if (recorded == nullptr || current != room || !is_header(recorded->text)) return {};
-    const std::string name(room);
-    record(name, rooms_[name], recorded->text);
-    is_found = true;
+    if (recorded == nullptr || !rooms.contains(current) || !is_header(recorded->text)) return {};
+    record(current, rooms_[current], recorded->text);
+    missing.erase(current);
     return {};
-  });
-  if (read && !is_found) return core::fail(place, joined({"has no header of room ", room}));
-  return read;
+  };
+  if (auto read = for_each_line(lines, visit); !read) return read;
+  if (!missing.empty()) return core::fail(place, joined({"has no header of room ", *missing.begin()}));
+  return {};
 }
 
 core::Expected<void> ShardView::check_order(std::uint64_t sequence, const BatchHead& head) const {
@@ -110,7 +111,8 @@ core::Expected<void> ShardView::take_line(const BatchLine& line) {
   if (const auto* named = std::get_if<RoomLine>(&line)) {
     current_ = named->room;
     if (rooms_.contains(current_) || rooms_.size() < kMostRoomsOfShard) return {};
-    return core::fail(place_of(sequence_), "a shard has at most 16 rooms");
+    return core::fail(place_of(sequence_),
+                      joined({"a shard has at most ", std::to_string(kMostRoomsOfShard), " rooms"}));
   }
   if (const auto* closed = std::get_if<ClosedLine>(&line)) {
     if (rooms_.erase(closed->room) != 0 && reader_) reader_->closed(closed->room);

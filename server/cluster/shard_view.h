@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -44,14 +45,15 @@ class ShardView {
   explicit ShardView(Reader reader) : reader_(std::move(reader)) { assert(reader_->line && reader_->closed); }
 
   /// Where one who knows nothing begins to read, by the last batch: every room's header and keyframe are in
-  /// what follows. `headers`: batches before it, of which a header is wanted first, by room.
+  /// what follows. `headers`: of batches before it rooms whose headers are wanted first.
+  using RoomNames = std::set<std::string, std::less<>>;
   struct Beginning {
     std::uint64_t from = 0;
-    std::map<std::string, std::uint64_t, std::less<>> headers;
+    std::map<std::uint64_t, RoomNames> headers;
   };
   static Beginning beginning(const LastBatch& last);
-  /// The header of that room in a whole batch; nothing more of it is looked at.
-  core::Expected<void> take_header(std::string_view room, std::string_view lines, const std::string& place);
+  /// The headers of those rooms in a whole batch; nothing more of it is looked at. Errors: one is missing.
+  core::Expected<void> take_headers(const RoomNames& rooms, std::string_view lines, const std::string& place);
 
   /// The stream's next batch. Errors: it can't follow what was read so far, or its lines are none of a log:
   /// what is known is worth nothing any more.

@@ -6,21 +6,21 @@
 
 namespace woodlouse::replay {
 
-FramePacker::Context FramePacker::make_context() {
+FramePacker::Context FramePacker::make_context(int level) {
   Context context(ZSTD_createCCtx());
   if (!context) core::out_of_memory();
-  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kLevel);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, level);
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_windowLog, kWindowLog);
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
   return context;
 }
 
-FramePacker::FramePacker() : context_(make_context()), buffer_(ZSTD_CStreamOutSize()) {}
+FramePacker::FramePacker() : context_(make_context(kLevel)), buffer_(ZSTD_CStreamOutSize()) {}
 
 std::string FramePacker::whole_frame(std::string_view text) {
   std::string packed(ZSTD_compressBound(text.size()), '\0');
   const std::size_t size =
-      ZSTD_compress2(make_context().get(), packed.data(), packed.size(), text.data(), text.size());
+      ZSTD_compress2(make_context(kWholeLevel).get(), packed.data(), packed.size(), text.data(), text.size());
   assert(ZSTD_isError(size) == 0);  // as below
   packed.resize(size);
   return packed;

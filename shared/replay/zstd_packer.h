@@ -17,6 +17,7 @@ namespace woodlouse::replay {
 class FramePacker {
  public:
   static constexpr int kLevel = 9;       ///< about a hundredth of a core for a hundred bots
+  static constexpr int kWholeLevel = 3;  ///< of whole_frame()
   static constexpr int kWindowLog = 20;  ///< 1 MiB: more than five seconds of text
 
   /// A frame of text that is all there: its tables are no larger than it needs, which for some thousand bytes
@@ -39,7 +40,7 @@ class FramePacker {
     void operator()(ZSTD_CCtx* context) const { ZSTD_freeCCtx(context); }
   };
   using Context = std::unique_ptr<ZSTD_CCtx, Release>;
-  static Context make_context();
+  static Context make_context(int level);
   void pack(std::string& out, std::string_view text, ZSTD_EndDirective directive);
 
   Context context_;

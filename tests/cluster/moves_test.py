@@ -66,6 +66,22 @@ class Moves(Cluster):
             self.assertEqual(self.owner(), "b")
         self.check_log()
 
+    def test_a_hundred_rooms_are_in_one_log_and_move_together(self):
+        maps = ["volcano"] * 100
+        first = self.host("a", maps=maps)
+        first.wait_for("cluster_owns")
+        second = self.host("b", maps=maps)
+        second.wait_for("cluster_follows")
+        with Clients(4, [first.address, second.address], room="volcano-100") as clients:
+            clients.wait_here()
+            self.assertEqual(self.nats.command("status")[1].count("\nroom volcano"), 100)
+            louse = {bot.name: bot.welcomes[-1][1]["id"] for bot in clients.bots}
+            code, said = self.nats.command("move", "--to", "b")
+            self.assertEqual(code, 0, said)
+            self.check_all_are_back(clients, louse, 1)
+            self.assertIn("100 rooms go on", second.log())
+        self.assertIn(" 0 holes", self.nats.command("fsck")[1])
+
     def test_a_room_that_nobody_takes_goes_on_where_it_was(self):
         """The host that is to take it stands still in the same moment."""
         first, second = self.two_hosts()

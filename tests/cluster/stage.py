@@ -204,8 +204,8 @@ class EdgeHost(Host):
 class Bot:
     """Steers a louse, and comes back to it wherever its room is. addresses: of all hosts."""
 
-    def __init__(self, name, addresses, push=True, state_hz=2):
-        self.name, self.addresses, self.push, self.state_hz = name, list(addresses), push, state_hz
+    def __init__(self, name, addresses, push=True, state_hz=2, room=""):
+        self.name, self.addresses, self.push, self.state_hz, self.room = name, list(addresses), push, state_hz, room
         self.token, self.louse, self.seq = "", None, 0
         self.welcomes = []   # (time, message)
         self.losses = []     # times at which the line was cut
@@ -242,7 +242,7 @@ class Bot:
                     break
                 kind = line[9:line.index(b'"', 9)]
                 if kind == b"hello":
-                    say(type="join", protocol=1, role="bot", name=self.name, resume=self.token or True, state_hz=self.state_hz,
+                    say(type="join", protocol=1, role="bot", name=self.name, room=self.room, resume=self.token or True, state_hz=self.state_hz,
                         fields=["id", "x", "y"])
                 elif kind in (b"key", b"delta"):
                     self.frames.append((time.monotonic(), address))
@@ -282,8 +282,8 @@ class Bot:
 class Clients:
     """Bots that run beside a test, on a thread of their own."""
 
-    def __init__(self, count, addresses):
-        self.bots = [Bot(f"bot {k}", addresses) for k in range(count)]
+    def __init__(self, count, addresses, room=""):
+        self.bots = [Bot(f"bot {k}", addresses, room=room) for k in range(count)]
         self.loop = asyncio.new_event_loop()
         self.thread = threading.Thread(target=self.work)
         self.thread.start()

@@ -194,7 +194,7 @@ TEST_CASE("a server opens as many rooms as it says, and no more") {
   arguments.insert(arguments.end(), {"--map", "a"});
   const auto config = parse(arguments);
   REQUIRE_FALSE(config);
-  CHECK_THAT(config.error().text(), Catch::Contains("257 maps") && Catch::Contains("at most 256"));
+  CHECK_THAT(config.error().text(), Catch::Contains("1025 maps") && Catch::Contains("at most 1024"));
 }
 
 TEST_CASE("a frame rate that divides no tick rate is answered with those nearest that do") {

@@ -21,7 +21,8 @@ Beat owner(const std::string& host, const std::string& shard, std::uint64_t epoc
   beat.shard = shard;
   beat.owns = true;
   beat.writer = {epoch, host, {1, 2}};
-  for (std::string& room : rooms) beat.rooms.push_back({std::move(room), "hills", 1, 2, 3});
+  beat.rooms.emplace();
+  for (std::string& room : rooms) beat.rooms->push_back({std::move(room), "hills", 1, 2, 3});
   return beat;
 }
 
@@ -66,6 +67,45 @@ TEST_CASE(
   follower.owns = false;
   table.take(follower, kNow);
   CHECK(told(table, kNow).empty());
+}
+
+TEST_CASE("a beat without rooms leaves them as they were told, of the same process, while it owns them") {
+  HostTable table("me", "main", 7);
+  table.take(owner("b", "main", 3, {"volcano"}), kNow);
+  Beat brief = owner("b", "main", 3, {});
+  brief.rooms.reset();
+  const Time later = kNow + HostTable::kForgottenAfter;
+  table.take(brief, later);
+  CHECK(told(table, later + std::chrono::seconds(4)) == Lines{"main volcano b:7777"});
+  table.take(owner("b", "main", 3, {"hills"}), later);
+  table.take(brief, later);
+  CHECK(told(table, later) == Lines{"main hills b:7777"});
+  Beat of_another = brief;
+  of_another.process = brief.process + 1;
+  table.take(of_another, later);
+  CHECK(told(table, later).empty());
+  table.take(owner("b", "main", 3, {"hills"}), later);
+  brief.owns = false;
+  table.take(brief, later);
+  brief.owns = true;
+  table.take(brief, later);
+  CHECK(told(table, later).empty());
+}
+
+TEST_CASE("a beat is read as it was told, with rooms, with none, and without a word of them") {
+  for (const auto& rooms : {std::vector<std::string>{}, std::vector<std::string>{"volcano", "hills"}}) {
+    const Beat beat = owner("b", "main", 3, rooms);
+    CHECK(beat_from(to_text(beat)) == beat);
+  }
+  Beat brief = owner("b", "main", 3, {});
+  brief.rooms.reset();
+  CHECK(beat_from(to_text(brief)) == brief);
+  Beat full = owner("b", "main", 3, {});
+  for (std::size_t k = 0; k < kMostRoomsOfShard; ++k)
+    full.rooms->push_back({std::string(80, 'r'), std::string(80, 'm'), 1000, 1000, 1000});
+  CHECK(beat_from(to_text(full)) == full);
+  full.rooms->push_back({"one", "too many", 0, 0, 0});
+  CHECK_FALSE(beat_from(to_text(full)));
 }
 
 TEST_CASE("hosts of other shards are bounded, and forgotten") {

@@ -215,6 +215,24 @@ TEST_CASE("an old writer's batch that comes long after owns nothing, but the lin
   CHECK(b.log.state() == LogWriter::State::kGone);
 }
 
+TEST_CASE("of stored batches no more is kept than fits, and of others all") {
+  constexpr std::size_t kBytes = LogWriter::kMostBytes / 4;
+  LogWriter log(writer_of("a", 1, 7), 1);
+  std::uint64_t stored = 1;
+  for (int k = 0; k < 6; ++k) {
+    log.add(std::string(kBytes, 'b'));
+    REQUIRE(log.next(Time{}));
+    log.acknowledged(++stored, Time{});
+  }
+  CHECK(log.bytes() == LogWriter::kMostBytes);
+  for (int k = 0; k < 5; ++k) log.add(std::string(kBytes, 'c'));
+  CHECK(log.bytes() == LogWriter::kMostBytes + 5 * kBytes);  // until one is acknowledged
+  REQUIRE(log.next(Time{}));
+  log.acknowledged(++stored, Time{});
+  CHECK(log.waiting() == 4);
+  CHECK(log.bytes() == 4 * kBytes);
+}
+
 TEST_CASE("where more is missing than is kept, and where the epoch itself is, only another epoch can go on") {
   Stream stream;
   Host a(writer_of("a", 1, 7), stream);

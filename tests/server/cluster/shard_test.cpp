@@ -43,10 +43,10 @@ TEST_CASE("who comes late begins at the newest keyframe, by what the last batch 
   }
   const auto beginning = ShardView::beginning({shard.batches.size(), shard.batches.back().head});
   CHECK(beginning.from == 18);  // ticks 850 to 900
-  REQUIRE(beginning.headers.at("volcano") == 1);
+  REQUIRE(beginning.headers.at(1) == ShardView::RoomNames{"volcano"});
   ShardView view;
-  REQUIRE(view.take_header("volcano", shard.batches[0].lines, "x"));
-  CHECK_FALSE(view.take_header("hills", shard.batches[0].lines, "x"));
+  REQUIRE(view.take_headers({"volcano"}, shard.batches[0].lines, "x"));
+  CHECK_FALSE(view.take_headers({"volcano", "hills"}, shard.batches[0].lines, "x"));
   read_all(view, shard, beginning.from - 1);
   CHECK(followed(view).hash() == shard.game->hash());
   CHECK(followed(view).tick() == 1000);
