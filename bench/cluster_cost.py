@@ -60,8 +60,7 @@ class Server:
 
     def __exit__(self, *_):
         self.process.terminate()
-        self.process.wait()
-        self.process.stdout.close()
+        self.process.communicate()  # a line of each room
 
 
 def processor_seconds(process):
