@@ -233,8 +233,8 @@ std::vector<HostedRoom> HostTable::rooms(Time now) const {
     }
   std::vector<HostedRoom> rooms;
   for (const auto& [shard, owner] : owners)
-    for (const protocol::RoomEntry& room : owner->rooms.value_or(std::vector<protocol::RoomEntry>())) {
-      rooms.push_back({owner->shard, room});
+    for (std::size_t k = 0; owner->rooms && k < owner->rooms->size(); ++k) {
+      rooms.push_back({owner->shard, (*owner->rooms)[k]});
       rooms.back().room.address = owner->address;
     }
   return rooms;

@@ -141,8 +141,8 @@ std::optional<std::string> Node::elsewhere(std::string_view room) const {
   // One that is silent may be gone: who asks is better told to ask again.
   constexpr Duration kHeardWithin = 6 * kBeatEvery;
   const auto owner = table_.owner(Clock::now(), kHeardWithin);
-  if (!owner) return std::nullopt;
-  const auto rooms = owner->rooms.value_or(std::vector<protocol::RoomEntry>());
+  if (!owner || !owner->rooms) return std::nullopt;
+  const auto& rooms = *owner->rooms;
   const bool is_there = std::any_of(rooms.begin(), rooms.end(),
                                     [room](const protocol::RoomEntry& entry) { return entry.name == room; });
   return is_there || (room.empty() && !rooms.empty()) ? std::optional(owner->address) : std::nullopt;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <iterator>
+#include <set>
 
 #include "shared/core/joined.h"
 #include "shared/core/stable_hash.h"
@@ -74,8 +75,9 @@ std::optional<std::string> RoomGuide::elsewhere(std::string_view name) const {
 std::vector<std::string> RoomGuide::names() const {
   std::vector<std::string> names = here_->names();
   if (!cluster_.rooms) return names;
+  std::set<std::string> told(names.begin(), names.end());
   for (const HostedRoom& one : rooms())
-    if (std::find(names.begin(), names.end(), one.room.name) == names.end()) names.push_back(one.room.name);
+    if (told.insert(one.room.name).second) names.push_back(one.room.name);
   return names;
 }
 
