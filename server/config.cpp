@@ -79,7 +79,8 @@ struct Typed {
 void add_game_options(CLI::App& app, TypedServe& typed) {
   ServeConfig& serve = typed.serve;
   app.add_option("--map", serve.maps,
-                 "Map file, or the name of one that came with this; several make as many rooms, at most 256")
+                 "Map file, or the name of one that came with this; several make as many rooms, at most " +
+                     std::to_string(kMaxRooms))
       ->envname("WOODLOUSE_MAP");
   app.add_option("--tick-hz", serve.tick_hz, "Steps a second")
       ->envname("WOODLOUSE_TICK_HZ")

@@ -25,6 +25,7 @@ using core::joined;
 
 constexpr json::Limits kLineLimits{4, 8 + 8 * kMostRoomsOfShard};
 constexpr std::size_t kMostUnpacked = std::size_t{33} << 20;  // a line of a recording, and some more
+static_assert(kMostUnpacked > 2 * kMostWholeBytes);
 
 std::string text_of(const json::Fields& fields, std::string_view key, std::size_t most,
                     json::Problems& problems) {
@@ -156,9 +157,12 @@ std::string pack(const BatchHead& head, std::string_view lines) {
 std::vector<std::string> pack_in_parts(const BatchHead& head, const std::vector<RoomPlace>& before,
                                        std::string_view lines) {
   assert(head.parts == 1);
-  std::vector<std::string> packed{pack(head, lines)};
-  if (packed.front().size() <= kMostMessageBytes) return packed;
-  packed.clear();
+  std::vector<std::string> packed;
+  if (lines.size() <= kMostWholeBytes) {
+    packed.push_back(pack(head, lines));
+    if (packed.front().size() <= kMostMessageBytes) return packed;
+    packed.clear();
+  }
   if (lines.size() > kMostParts * kPartBytes) return packed;
   BatchHead part = head;
   part.parts = static_cast<std::uint32_t>((lines.size() + kPartBytes - 1) / kPartBytes);

@@ -84,6 +84,8 @@ inline constexpr std::size_t kMostRoomBytes = 128;
 
 /// Of head and lines. REQUIRES whole lines, or a part of some.
 std::string pack(const BatchHead& head, std::string_view lines);
+/// Of lines in one message, however short they pack: who unpacks them takes no more than twice that.
+inline constexpr std::size_t kMostWholeBytes = std::size_t{16} << 20;
 /// The messages that a batch goes in, numbered from head.number on: one, or its parts. before: the rooms'
 /// places as of the batch before. Empty: it is too long. REQUIRES whole lines.
 std::vector<std::string> pack_in_parts(const BatchHead& head, const std::vector<RoomPlace>& before,

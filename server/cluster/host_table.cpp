@@ -134,6 +134,11 @@ void HostTable::take(Beat beat, Time now) {
   auto& hosts = beat.shard == shard_ ? hosts_ : strangers_;
   if (hosts.size() >= kMostHosts && !hosts.contains(beat.host)) return;
   const auto former = hosts.find(beat.host);
+  // Of two of one name the owner is believed, till it is silent.
+  constexpr Duration kBelieved = std::chrono::seconds(1);
+  if (former != hosts.end() && former->second.beat.process != beat.process && former->second.beat.owns &&
+      !beat.owns && now - former->second.at < kBelieved)
+    return;
   const bool is_told = beat.rooms || !beat.owns;
   if (!is_told && former != hosts.end() && former->second.beat.process == beat.process)
     beat.rooms = std::move(former->second.beat.rooms);

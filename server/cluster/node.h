@@ -153,6 +153,7 @@ class Node final : public Cluster {
   std::deque<std::pair<std::uint64_t, std::vector<std::function<void()>>>>
       kept_;  ///< who waits for the batches below that number
   Time cut_at_{};
+  bool is_full_ = false;  ///< nothing more may wait: what is told is dropped
   bool is_told_not_durable_ = false;
   bool was_cut_off_ = false;   ///< as told
   Time doubted_at_{};          ///< Time{}: the rooms are this host's, as far as is known

@@ -20,7 +20,7 @@ void Node::own() {
     if (renew_links()) writer_->failed();
     if (inbox_->is_in_doubt()) ask_the_log();
     const Time now = Clock::now();
-    text_->renew(now);
+    text_->renew(now, kCutBytes);
     const bool is_awaited = text_->is_awaited() && writer_->waiting() == 0;
     if (now >= cut_at_ || text_->size() >= kCutBytes || is_awaited) cut(now);
     write(now);
@@ -74,7 +74,10 @@ void Node::hear(std::deque<NodeEvent> events) {
   const Time now = Clock::now();
   if (is_leaving_) text_->keep_rooms();
   for (NodeEvent& event : events) {
-    if (const auto* job = std::get_if<LogDesk::Job>(&event)) (*job)(*text_, now);
+    if (const auto* job = std::get_if<LogDesk::Job>(&event)) {
+      (*job)(*text_, now);
+      if (text_->size() >= kCutBytes && writer_->is_open()) cut(now);  // many rooms begin at once
+    }
     if (const auto* stored = std::get_if<Acknowledged>(&event)) writer_->acknowledged(stored->sequence, now);
     if (const auto* no = std::get_if<Refused>(&event)) {
       // That another batch stands there is told once it is known whose.
@@ -93,22 +96,27 @@ void Node::cut(Time now) {
     if (text_->is_awaited()) kept_.emplace_back(writer_->next_number(), text_->take_awaiting());
     return;
   }
-  const auto lose = [this](const std::string& why) {
-    text_->lose();
-    inbox_->begin_anew();
-    say(LogEvent::kClusterHole, joined({"LOG HAS A HOLE: ", why, "; its rooms are told anew"}));
-  };
   if (writer_->waiting() >= kMostWaiting || writer_->bytes() > LogWriter::kMostBytes) {
-    if (text_->size() < kCutBytes) return;  // some may be taken yet
-    return lose("nothing is stored");
+    if (!is_full_ && text_->size() < kCutBytes) return;  // some may be taken yet
+    text_->lose();
+    if (!std::exchange(is_full_, true))
+      say(LogEvent::kClusterHole,
+          "LOG HAS A HOLE: nothing is stored; its rooms are told anew, once something is");
+    return;
   }
+  if (std::exchange(is_full_, false)) inbox_->begin_anew();
   std::vector<RoomPlace> before = text_->places();
   std::erase_if(before, [](const RoomPlace& place) { return place.header == 0; });
   const std::string lines = text_->cut(writer_->next_sequence());
   std::vector<std::string> parts = pack_in_parts(
       {writer_->writer(), writer_->next_number(), match::kBehavior, text_->places()}, before, lines);
   cut_at_ = now + settings_.batch;
-  if (parts.empty()) return lose("a batch is longer than it may be");
+  if (parts.empty()) {
+    text_->lose();
+    inbox_->begin_anew();
+    return say(LogEvent::kClusterHole,
+               "LOG HAS A HOLE: a batch is longer than it may be; its rooms are told anew");
+  }
   for (std::string& part : parts) writer_->add(std::move(part));
   if (auto awaiting = text_->take_awaiting(); !awaiting.empty())
     kept_.emplace_back(writer_->next_number(), std::move(awaiting));

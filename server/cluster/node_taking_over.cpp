@@ -61,6 +61,7 @@ bool Node::take_log() {
   writer_.emplace(Writer{std::max(known, table_.highest_epoch()) + 1, settings_.host, make_resume_token()},
                   view_->head() ? view_->sequence() : after_);
   text_.emplace(settings_.keep);
+  is_full_ = false;
   if (view_->head()) text_->take_over(view_->head()->rooms);
   cut(Clock::now());
   const Time until = Clock::now() + kWait;

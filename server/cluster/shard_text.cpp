@@ -122,9 +122,10 @@ void ShardText::close(TapNumber tap) {
   rooms_.erase(name);
 }
 
-void ShardText::renew(Time now) {
-  for (auto& [name, room] : rooms_)
-    if (room.resting && now >= room.renew_at) tell(room, *room.resting, true, now);
+void ShardText::renew(Time now, std::size_t most) {
+  for (auto room = rooms_.begin(); room != rooms_.end() && lines_.size() < most; ++room)
+    if (room->second.resting && now >= room->second.renew_at)
+      tell(room->second, *room->second.resting, true, now);
 }
 
 void ShardText::lose() {

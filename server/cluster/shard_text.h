@@ -55,8 +55,9 @@ class ShardText {
   void rest(TapNumber tap, match::MatchState state);
   void close(TapNumber tap);
 
-  /// Rooms that stand still are told anew when it is time; then there is something to cut.
-  void renew(Time now);
+  /// Rooms that stand still are told anew when it is time, till there are `most` bytes of lines: the others
+  /// the next time.
+  void renew(Time now, std::size_t most);
   /// All lines so far are dropped, and who waits for them waits no more; each room is told of no more until a
   /// keyframe of it comes.
   void lose();

@@ -86,6 +86,25 @@ TEST_CASE("a batch that no message has room for goes in parts, and is the same o
   CHECK(pack_in_parts(head, before, endless).empty());
 }
 
+TEST_CASE("lines that pack to almost nothing are in no batch that nobody may unpack") {
+  std::string lines;
+  while (lines.size() < 3 * kMostWholeBytes) lines += std::string(1'000'000, 'r') + "\n";
+  const auto packed = pack_in_parts(some_head(), {}, lines);
+  REQUIRE(packed.size() > 1);
+  WholeBatches whole;
+  std::optional<std::string_view> read;
+  for (const std::string& message : packed) {
+    CHECK(message.size() < 10'000);
+    const auto part = unpack(message, "here");
+    REQUIRE(part);
+    read = whole.take(*part);
+  }
+  REQUIRE(read);
+  CHECK((*read == lines));
+  lines.resize(kMostWholeBytes - 1);
+  CHECK(unpack(pack_in_parts(some_head(), {}, lines + "\n").front(), "here"));
+}
+
 TEST_CASE("what is no batch says where and what") {
   CHECK_FALSE(unpack("", "x"));
   CHECK_FALSE(unpack("nonsense", "x"));

@@ -92,6 +92,21 @@ TEST_CASE("a beat without rooms leaves them as they were told, of the same proce
   CHECK(told(table, later).empty());
 }
 
+TEST_CASE("of two hosts of one name the owner is believed till it is silent") {
+  HostTable table("me", "main", 7);
+  table.take(owner("b", "main", 3, {"volcano"}), kNow);
+  Beat twin;
+  twin.host = "b";
+  twin.shard = "main";
+  twin.process = 99;
+  const Time soon = kNow + std::chrono::milliseconds(900);
+  table.take(twin, soon);
+  CHECK(told(table, soon) == Lines{"main volcano b:7777"});
+  CHECK(table.owner(soon));
+  table.take(twin, kNow + std::chrono::seconds(1));
+  CHECK(told(table, kNow + std::chrono::seconds(1)).empty());
+}
+
 TEST_CASE("a beat is read as it was told, with rooms, with none, and without a word of them") {
   for (const auto& rooms : {std::vector<std::string>{}, std::vector<std::string>{"volcano", "hills"}}) {
     const Beat beat = owner("b", "main", 3, rooms);

@@ -140,9 +140,11 @@ TEST_CASE("lines that are dropped are told anew, and rooms that stand still when
   shard.step(280);  // tick 600
   shard.cut();
   shard.tap->fall_asleep(*shard.game);
-  shard.text.renew(shard.desk->now + std::chrono::minutes(19));
+  shard.text.renew(shard.desk->now + std::chrono::minutes(19), 1 << 20);
   CHECK(shard.text.size() == 0);
-  shard.text.renew(shard.desk->now + std::chrono::minutes(21));
+  shard.text.renew(shard.desk->now + std::chrono::minutes(21), 0);  // there is no room for more lines
+  CHECK(shard.text.size() == 0);
+  shard.text.renew(shard.desk->now + std::chrono::minutes(21), 1 << 20);
   shard.cut();
   CHECK(shard.batches.back().head.rooms.at(0) == RoomPlace{"volcano", 3, 3, 600});
   ShardView view;

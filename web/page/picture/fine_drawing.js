@@ -7,8 +7,10 @@ import { LiceDrawing } from './lice_drawing.js';
 import { SHADERS } from './shaders.js';
 import { COLOURS, Surface } from './surface.js';
 
+const SMOOTH = 2;  // of what is kept of a ground that stands
 const STANDING = 350;  // ms that the camera must have stood before the ground's outline is smoothed
-const STANDS = 1000;  // ms for which the same is drawn on: outlines become smooth meanwhile, names come to rest
+const STANDS = 1000, FEW = 5;  // ms for which the same is drawn on, and pictures: names come to rest meanwhile
+const SEEN_AS_SAME = 1e-9;  // of a number
 /** What a louse is drawn by. */
 const SEEN = /** @type {const} */ (['id', 'phase', 'x', 'y', 'z', 'zx', 'zy', 'vx', 'vy', 'heading_x', 'heading_y', 'flight_z', 'flight_vz', 'distance', 'name', 'colour', 'outline']);
 
@@ -101,7 +103,7 @@ export class FineDrawing {
       this.drawGround(look, smooth.frame, width, height, false);
       smooth.copyTo(still, true);
       smooth.free();
-      this.kept = 2;
+      this.kept = SMOOTH;
     }
     this.showStill(still, width, height);
     return true;
@@ -127,33 +129,57 @@ export class FineDrawing {
 /** Own rings pulse, and what the rules put on the ground glows and turns. @param {import('./staging.js').Scene} scene */
 const isMoving = ({ you, marks }) => !!you || Object.values(marks ?? {}).some((mark) => (Array.isArray(mark) ? mark.length > 0 : !!mark));
 
-/** @param {readonly any[]} some @param {readonly any[]} others */
-const isSame = (some, others) => some.length === others.length && some.every((one, k) => Object.is(one, others[k]));
+/** @param {any} a @param {any} b */
+const isLike = (a, b) => Object.is(a, b) || Math.abs(a - b) <= SEEN_AS_SAME * Math.max(1, Math.abs(a));
 
-/** All but the scene that a picture depends on. @param {import('./picture.js').Picture} picture */
-function lookOf({ canvas, camera, drawing, palette, theme, relief, isBaked }) {
-  const { width, height, insets: { left, top, right, bottom } } = camera;
-  return [canvas.width, canvas.height, width, height, left, top, right, bottom, palette, theme, relief, isBaked, drawing.isFine, drawing.isPainted, drawing.version, ...camera.matrix];
+/** @param {readonly any[]} some @param {readonly any[]} others */
+const areLike = (some, others) => some.length === others.length && some.every((one, k) => isLike(one, others[k]));
+
+/** All but the lice that a picture depends on, and its resolution. @param {import('./staging.js').Scene} scene @param {import('./picture.js').Picture} picture */
+function lookOf({ follow }, { camera, drawing, palette, theme, relief, isBaked, staging }) {
+  const { width, height, view, insets: { left, top, right, bottom } } = camera;
+  return [follow, globalThis.devicePixelRatio, width, height, view, left, top, right, bottom, palette, theme, relief, isBaked, drawing.isFine, drawing.isPainted, drawing.version,
+    staging.trails.trails.size, ...camera.matrix];
 }
 
 /** Whether a picture would be the one that was drawn last: a recording that is held, lice that sleep. It is not drawn again then; where a
- * processor draws, that leaves it to who re-runs. */
+ * processor draws, that leaves it to who re-runs. Before, it is drawn as finely as it gets, however slow that is. */
 export class Stillness {
-  /** @type {import('./staging.js').Louse[]} */ #lice = [];
+  /** As of the last change. @type {import('./staging.js').Louse[]} */ #lice = [];
   /** @type {readonly any[]} */ #look = [];
-  #since = Infinity;
+  #since = 0; #drawn = 0;
+  /** Of the resolution, from before it was made the finest; null: it was not. @type {number | null} */ #coarse = null;
 
   /** @param {import('./staging.js').Scene} scene @param {import('./picture.js').Picture} picture @param {number} now ms */
   stands(scene, picture, now) {
-    const { lice, follow } = scene, look = [follow, ...lookOf(picture)];
-    const are = lice.length === this.#lice.length && lice.every((louse, k) => SEEN.every((name) => Object.is(louse[name], this.#lice[k][name])));
-    if (isMoving(scene) || !picture.drawing.isPainted || !are || !isSame(look, this.#look)) this.#since = now;
-    this.#lice = lice;
-    this.#look = look;
-    if (now - this.#since < STANDS) return false;
-    const { trails } = picture.staging;
+    const { resolution, drawing, staging: { trails } } = picture, { lice } = scene, look = lookOf(scene, picture);
+    const are = lice.length === this.#lice.length && lice.every((louse, k) => SEEN.every((name) => isLike(louse[name], this.#lice[k][name])));
+    if (isMoving(scene) || !drawing.isPainted || !are || !areLike(look, this.#look)) {
+      this.#lice = lice;
+      this.#look = look;
+      this.#rest(now);
+      if (this.#coarse === null) return false;
+      resolution.at = this.#coarse;
+      resolution.restart(now);
+      this.#coarse = null;
+      return false;
+    }
+    if (this.#coarse !== null) picture.last = -Infinity;  // what is drawn so finely, or not at all, says nothing of how long a frame takes
+    if (now - this.#since < STANDS || ++this.#drawn < FEW) return false;
+    if (this.#coarse === null) {
+      this.#coarse = resolution.at;
+      resolution.at = 0;
+      if (this.#coarse > 0) this.#rest(now);
+      return false;
+    }
+    if (drawing.isSoftware && drawing.fine?.kept !== SMOOTH) return false;
     if (trails.last > -Infinity) trails.last = now;  // nobody has moved until now: they stay, however long that is
-    picture.last = -Infinity;  // what is not drawn says nothing of how long a frame takes
     return true;
+  }
+
+  /** @param {number} now ms */
+  #rest(now) {
+    this.#since = now;
+    this.#drawn = 0;
   }
 }
