@@ -84,6 +84,16 @@ test('it stands as finely drawn as it gets, and moves as before', () => {
   assert.equal(shown.resolution.since, now + 100);
 });
 
+test('how long its finest pictures take leaves the resolution as it is', () => {
+  const shown = picture({ resolution: new Resolution(2) }), stillness = new Stillness();
+  for (let now = 0; now < 9000; now += 300) {  // as Picture.draw() does, on a machine that is slow
+    shown.resolution.frame(now, now - shown.last);
+    shown.last = now;
+    stillness.stands(scene(), shown, now);
+  }
+  assert.equal(shown.resolution.at, 0);
+});
+
 test('it does not stand before its ground is smooth, where a processor draws', () => {
   const { drawing } = picture();
   assert.equal(stood(scene(), picture({ drawing: { ...drawing, fine: { kept: 1 } } })).stands, false);

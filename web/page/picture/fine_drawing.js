@@ -169,6 +169,7 @@ export class Stillness {
     if (this.#coarse === null) {
       this.#coarse = resolution.at;
       resolution.at = 0;
+      picture.last = -Infinity;
       if (this.#coarse > 0) this.#rest(now);
       return false;
     }
