@@ -9,7 +9,6 @@ run on either. Shares are of a core, by the scheduler's own nanoseconds. A tick'
 """
 import argparse
 import contextlib
-import json
 import os
 import pathlib
 import statistics
