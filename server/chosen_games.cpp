@@ -2,6 +2,7 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <cassert>
 #include <map>
 #include <set>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "shared/map/map_file.h"
 #include "shared/map/map_search_file.h"
+#include "shared/map/modes_reader.h"
 
 namespace woodlouse::server {
 namespace {
@@ -56,6 +58,18 @@ core::Expected<std::vector<ChosenGame>> choose_games(const ServeConfig& config) 
     return core::fail("--rotate", "there is one game alone, and nothing to take turns with",
                       "several maps (--map A --map B), or one of several modes");
   return games;
+}
+
+void share_maps(std::vector<ChosenGame>& games, MapShelf& shelf) {
+  for (ChosenGame& game : games) {
+    if (std::holds_alternative<terrain::TiledGround>(game.map->terrain->surface())) continue;
+    std::string text = game.map->canonical;
+    for (const state::Mode mode : state::kModes)
+      if (game.map->definition.modes.has(mode)) text += map::mode_text(game.map->definition.modes, mode);
+    const auto kept = shelf.find_or(text, [&game] { return core::Expected<replay::MapPointer>(game.map); });
+    assert(kept && (*kept)->hash == game.map->hash);
+    game.map = *kept;
+  }
 }
 
 Start start_of(const ChosenGame& game, const ServeConfig& config, std::uint64_t seed) {

@@ -8,6 +8,7 @@
 
 #include "server/config.h"
 #include "server/room/start.h"
+#include "server/stream/map_shelf.h"
 #include "shared/core/error.h"
 #include "shared/map/map_definition.h"
 #include "shared/match/match.h"
@@ -28,6 +29,10 @@ std::string room_name(const std::string& map, state::Mode mode);
 /// In the order of --map, and of each its modes. Games of one file share its map, which stays in the caches;
 /// of a big one's tiles each has its own. Errors: where = the map's file, or the option.
 core::Expected<std::vector<ChosenGame>> choose_games(const ServeConfig& config);
+
+/// Each has the map that is on the shelf where it is the same, down to what is no part of its hash; of a big
+/// one's tiles each has its own.
+void share_maps(std::vector<ChosenGame>& games, MapShelf& shelf);
 
 /// With the house's bots, where they play by rules: of a long course that takes seconds.
 Start start_of(const ChosenGame& game, const ServeConfig& config, std::uint64_t seed);

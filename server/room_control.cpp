@@ -114,9 +114,10 @@ void RoomControl::make_rooms(const ServeConfig& config, std::uint64_t seed, cons
   const auto fail = [&answered](const core::Error& error) {
     answered(refused(admin_code::kFailed, error.text()));
   };
-  const auto games = choose_games(config);
+  auto games = choose_games(config);
   if (!games) return fail(games.error());
   Made rooms;
+  share_maps(*games, maps_);
   for (const ChosenGame& game : *games) {
     const std::string room = name.empty() ? game.room : room_name(name, game.mode);
     if (room.size() > protocol::kMaxRoomBytes || protocol::clean_text(room, room.size()) != room)

@@ -21,6 +21,7 @@
 #include "server/config.h"
 #include "server/room/lobby.h"
 #include "server/room_opener.h"
+#include "server/stream/map_shelf.h"
 #include "server/timing/live_limits.h"
 
 namespace woodlouse::server {
@@ -76,6 +77,7 @@ class RoomControl {
   std::uint64_t opened_ = 0;  ///< makes their seeds differ
   /// Made and not yet opened; kept here, that a server which ends meanwhile ends them in time.
   std::list<Made> made_;
+  MapShelf maps_;  ///< of rooms that were opened
   std::mutex made_mutex_;
   std::optional<boost::asio::thread_pool> slow_;
 };

@@ -1,7 +1,14 @@
 #include "server/cluster/joined_log.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cassert>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+#include <utility>
 #include <variant>
 
 #include "server/cluster/shard_view.h"
@@ -26,6 +33,12 @@ std::uint64_t steps_of(std::string_view line) {
   const auto document = json::parse(line, {8, 1'000'000});
   const auto steps = document ? document->root().find("steps") : std::nullopt;
   return steps ? steps->unsigned_integer().value_or(1) : 1;
+}
+
+/// By errno.
+core::Expected<void> cant_write(const std::filesystem::path& path) {
+  return core::fail(path.string(), joined({"can't be written: ", std::generic_category().message(errno)}),
+                    "does its folder exist, and has it room?");
 }
 
 std::string file_part(std::string room) {
@@ -61,9 +74,7 @@ core::Expected<void> JoinedLog::record(const std::string& name, Room& room, std:
   if (const auto tick = number_behind(line, R"({"keyframe":)")) {
     room.has_lost = false;
     if (room.due && *tick == *room.due) {
-      if (!room.has_keyframe) put(room, line);
-      room.has_keyframe = true;
-      return {};
+      return std::exchange(room.has_keyframe, true) ? core::Expected<void>() : put(room, line);
     }
     if (room.due && *tick > *room.due) {
       ++holes_;
@@ -78,33 +89,50 @@ core::Expected<void> JoinedLog::record(const std::string& name, Room& room, std:
     room.due = *tick;
     room.has_keyframe = true;
     if (auto begun = begin_file(name, room); !begun) return begun;
-    put(room, room.header);
-    put(room, line);
-    return {};
+    auto told = put(room, room.header);
+    return told ? put(room, line) : told;
   }
   if (!room.due || room.has_lost) return {};
   if (const auto tick = number_behind(line, R"({"step":)")) {
     room.due = *tick + steps_of(line);
     room.has_keyframe = false;
   }
-  put(room, line);
-  return {};
+  return put(room, line);
 }
 
 core::Expected<void> JoinedLog::begin_file(const std::string& name, Room& room) {
-  ++room.files;
   if (folder_.empty()) return {};
-  room.file = std::ofstream();
-  const std::string number = room.files == 1 ? std::string() : joined({".", std::to_string(room.files)});
-  room.path = folder_ / joined({file_part(name), number, ".ndjson"});
-  room.file.open(room.path, std::ios::binary | std::ios::trunc);
-  if (!room.file) return core::fail(room.path.string(), "can't be written", "does its folder exist?");
+  if (auto written = write_pending(room); !written) return written;
+  // Two rooms may have names of which the same becomes.
+  do {
+    ++room.files;
+    const std::string number = room.files == 1 ? std::string() : joined({".", std::to_string(room.files)});
+    room.path = folder_ / joined({file_part(name), number, ".ndjson"});
+  } while (!written_.insert(room.path).second);
+  const int made = ::open(room.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (made < 0 && errno == EEXIST)
+    return core::fail(room.path.string(), "is there already",
+                      "another run's files are not written over: name an empty folder");
+  if (made < 0) return cant_write(room.path);
+  ::close(made);
   out_ << "room " << name << ": " << room.path.string() << ", from tick " << *room.due << " on\n";
   return {};
 }
 
-void JoinedLog::put(Room& room, std::string_view line) {
-  if (room.file.is_open()) room.file << line << '\n';
+core::Expected<void> JoinedLog::write_pending(Room& room) {
+  if (room.pending.empty()) return {};
+  assert(!room.path.empty());
+  std::ofstream file(room.path, std::ios::binary | std::ios::app);
+  file << std::exchange(room.pending, {});
+  file.close();
+  return file.fail() ? cant_write(room.path) : core::Expected<void>();
+}
+
+core::Expected<void> JoinedLog::put(Room& room, std::string_view line) {
+  constexpr std::size_t kMost = std::size_t{64} << 10;
+  if (room.path.empty()) return {};
+  room.pending.append(line).push_back('\n');
+  return room.pending.size() < kMost ? core::Expected<void>() : write_pending(room);
 }
 
 core::Expected<void> JoinedLog::close() {
@@ -113,9 +141,7 @@ core::Expected<void> JoinedLog::close() {
       ++holes_;
       out_ << "room " << name << ": HOLE: from tick " << *room.due << " on nothing is known\n";
     }
-    if (!room.file.is_open()) continue;
-    room.file.close();
-    if (room.file.fail()) return core::fail(room.path.string(), "can't be written");
+    if (auto written = write_pending(room); !written) return written;
   }
   return {};
 }

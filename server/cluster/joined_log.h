@@ -5,10 +5,10 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <ostream>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -19,7 +19,8 @@ namespace woodlouse::server {
 
 class JoinedLog {
  public:
-  /// folder: empty: nothing is written. out: where holes are named.
+  /// folder: empty: nothing is written; a file that is there already is left as it is, and an error. out:
+  /// where holes are named.
   JoinedLog(std::filesystem::path folder, std::ostream& out) : folder_(std::move(folder)), out_(out) {}
 
   /// The stream's next batch, whose lines have been read by a ShardView before.
@@ -40,16 +41,18 @@ class JoinedLog {
     bool has_keyframe = false;         ///< of that tick
     bool has_lost = false;             ///< steps up to the next keyframe
     std::uint64_t files = 0;
-    std::filesystem::path path;
-    std::ofstream file;
+    std::filesystem::path path;  ///< of the file; empty: none is written
+    std::string pending;         ///< that is not in it yet: of a thousand rooms no file is held open
   };
   core::Expected<void> record(const std::string& name, Room& room, std::string_view line);
   core::Expected<void> begin_file(const std::string& name, Room& room);
-  void put(Room& room, std::string_view line);
+  static core::Expected<void> write_pending(Room& room);
+  static core::Expected<void> put(Room& room, std::string_view line);
 
   const std::filesystem::path folder_;
   std::ostream& out_;
   std::map<std::string, Room, std::less<>> rooms_;
+  std::set<std::filesystem::path> written_;
   WholeBatches whole_;
   std::size_t holes_ = 0;
 };

@@ -147,7 +147,7 @@ void ShardView::record(const std::string& name, Room& room, std::string_view lin
     // Told again for who comes now.
     if (room.header == line && room.follower->match() != nullptr) return;
     room.header = line;
-    room.follower = std::make_unique<follow::Follower>("the log");
+    room.follower = std::make_unique<follow::Follower>("the log", nullptr, maps_.get());
     room.claims.clear();
   }
   room.stands_still = room.stands_still && !is_header(line) && !is_keyframe(line);

@@ -18,6 +18,7 @@
 #include "server/access/claim.h"
 #include "server/cluster/batch.h"
 #include "server/cluster/log_writer.h"
+#include "server/stream/map_shelf.h"
 #include "shared/core/error.h"
 #include "shared/follow/follower.h"
 #include "shared/replay/format.h"
@@ -88,6 +89,7 @@ class ShardView {
   void pass_on(const std::string& name, Room& room, std::string_view line);
 
   std::optional<Reader> reader_;
+  std::unique_ptr<MapShelf> maps_ = std::make_unique<MapShelf>();  ///< outlives the rooms
   Rooms rooms_;
   std::optional<BatchHead> head_;
   std::uint64_t sequence_ = 0;

@@ -45,7 +45,7 @@ std::shared_ptr<RelayRoom> Relay::make(const std::string& name) {
     found->second.is_ready = false;
     ++changes_;
   };
-  return std::make_shared<RelayRoom>(ticks_, lanes_, std::move(settings), limits_, delay_, timekeeper_,
+  return std::make_shared<RelayRoom>(ticks_, lanes_, std::move(settings), limits_, delay_, timekeeper_, maps_,
                                      std::move(hooks));
 }
 

@@ -19,6 +19,7 @@
 #include "server/room/directory.h"
 #include "server/room/lanes.h"
 #include "server/room/room_settings.h"
+#include "server/stream/map_shelf.h"
 #include "server/timing/live_limits.h"
 #include "server/timing/timekeeper.h"
 
@@ -59,6 +60,7 @@ class Relay final : public Directory {
   const Duration delay_;
   Timekeeper& timekeeper_;
   const std::shared_ptr<spdlog::logger> log_;
+  MapShelf maps_;
   mutable std::mutex mutex_;
   std::map<std::string, Shown, std::less<>> rooms_;
   std::atomic<std::uint64_t> changes_{0};

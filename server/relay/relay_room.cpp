@@ -17,8 +17,7 @@ namespace {
 namespace asio = boost::asio;
 namespace code = protocol::code;
 
-/// The number behind that beginning of a line; nothing: it begins otherwise. What else the line says, who
-/// re-runs it checks.
+/// The number behind that beginning of a line, whose rest is read by who re-runs it; nothing: another one.
 std::optional<std::uint64_t> number_behind(std::string_view line, std::string_view beginning) {
   if (!line.starts_with(beginning)) return std::nullopt;
   line.remove_prefix(beginning.size());
@@ -83,7 +82,8 @@ class RelayRoom::RelayDoor final : public Door {
 std::shared_ptr<Door> RelayRoom::door() { return std::make_shared<RelayDoor>(shared_from_this()); }
 
 RelayRoom::RelayRoom(asio::io_context& ticks, const Lanes& lanes, RoomSettings settings,
-                     const LiveLimits& limits, Duration delay, Timekeeper& timekeeper, Hooks hooks)
+                     const LiveLimits& limits, Duration delay, Timekeeper& timekeeper, replay::Maps& maps,
+                     Hooks hooks)
     : settings_(std::move(settings)),
       limits_(limits),
       delay_(delay),
@@ -91,7 +91,7 @@ RelayRoom::RelayRoom(asio::io_context& ticks, const Lanes& lanes, RoomSettings s
       timekeeper_(timekeeper),
       hooks_(std::move(hooks)),
       alarm_(timekeeper.make_alarm(strand_)),
-      follower_("the log", this),
+      follower_("the log", this, &maps),
       outlet_(std::make_shared<Outlet>(lanes)) {
   assert(!settings_.name.empty() && settings_.state_hz >= 1 && hooks_.ready && hooks_.lost);
 }

@@ -50,9 +50,11 @@ class RelayRoom final : private follow::Witness, public std::enable_shared_from_
         lost;  ///< it shows nothing any more, once; who was here is gone
   };
 
-  /// ticks: where its strand lives; delay: Playout's; hooks: called on the room's strand. All outlive it.
+  /// ticks: where its strand lives; delay: Playout's; hooks: called on the room's strand; maps: those of the
+  /// rooms beside it. All outlive it.
   RelayRoom(boost::asio::io_context& ticks, const Lanes& lanes, RoomSettings settings,
-            const LiveLimits& limits, Duration delay, Timekeeper& timekeeper, Hooks hooks);
+            const LiveLimits& limits, Duration delay, Timekeeper& timekeeper, replay::Maps& maps,
+            Hooks hooks);
 
   // Any thread; calls of one thread take effect in their order:
 

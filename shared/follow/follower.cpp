@@ -51,7 +51,7 @@ core::Expected<void> Follower::begin(std::string_view line) {
   replay::ReplayReader reader(one, source_, lines_ - 1);
   const auto header = reader.read_header();
   if (!header) return tl::unexpected(header.error());
-  auto map = replay::recorded_map(*header, {source_, nullptr, nullptr});
+  auto map = replay::recorded_map(*header, {source_, nullptr, nullptr}, maps_);
   if (!map) return tl::unexpected(map.error());
   map_ = std::move(*map);
   settings_ = replay::settings_of(*header);

@@ -16,6 +16,7 @@
 #include "shared/core/error.h"
 #include "shared/replay/format.h"
 #include "shared/replay/rerun.h"
+#include "shared/replay/source.h"
 
 namespace woodlouse::follow {
 
@@ -36,10 +37,10 @@ class Witness {
 
 class Follower {
  public:
-  /// source: names the lines in errors, as "the server's stream". witness: null: nobody; else it outlives
-  /// this.
-  explicit Follower(std::string source, Witness* witness = nullptr)
-      : source_(std::move(source)), witness_(witness) {}
+  /// source: names the lines in errors, as "the server's stream". witness: null: nobody. maps: those of what
+  /// is followed beside this; null: none. Both outlive this.
+  explicit Follower(std::string source, Witness* witness = nullptr, replay::Maps* maps = nullptr)
+      : source_(std::move(source)), witness_(witness), maps_(maps) {}
 
   /// Whether a line from the wire is one of a recording: it has no `type`.
   [[nodiscard]] static bool is_recorded(std::string_view line) { return !line.starts_with(R"({"type":)"); }
@@ -67,6 +68,7 @@ class Follower {
 
   std::string source_;
   Witness* witness_;
+  replay::Maps* maps_;
   std::size_t lines_ = 0;
   std::optional<match::MatchSettings> settings_;
   std::shared_ptr<const map::Map> map_;

@@ -27,13 +27,16 @@ bool is_compressed(InputStream& in) {
   return is_frame || is_skippable;
 }
 
-core::Expected<MapPointer> map_of(const Header& header, const ReplaySource& source) {
+core::Expected<MapPointer> map_of(const Header& header, const ReplaySource& source, Maps* maps) {
   if (!header.map_definition.empty()) {
     const std::string where = joined({source.name, ":1: map.definition"});
     if (header.map_definition.size() > kMaxInlineMapBytes)
       return core::fail(where, joined({"longer than ", std::to_string(kMaxInlineMapBytes >> 20), " MiB"}),
                         "a server names a larger map by its file");
-    return map::parse_canonical_map(header.map_definition, where);
+    const auto parse = [&]() -> core::Expected<MapPointer> {
+      return map::parse_canonical_map(header.map_definition, where);
+    };
+    return maps == nullptr ? parse() : maps->find_or(header.map_definition, parse);
   }
   if (source.find_map) return source.find_map(header);
   return core::fail(joined({source.name, ":1: map.file"}),
@@ -55,8 +58,8 @@ ReplaySource ReplaySource::of_bytes(std::string bytes, std::string name) {
           {}};
 }
 
-core::Expected<MapPointer> recorded_map(const Header& header, const ReplaySource& source) {
-  core::Expected<MapPointer> map = map_of(header, source);
+core::Expected<MapPointer> recorded_map(const Header& header, const ReplaySource& source, Maps* maps) {
+  core::Expected<MapPointer> map = map_of(header, source, maps);
   if (map && (*map)->hash != header.map_hash) {
     return core::fail(joined({source.name, ":1: map.hash"}),
                       joined({"the map's hash is ", core::to_hex((*map)->hash), ", recorded is ",

@@ -81,6 +81,7 @@ class Disk(Altered):
             first.signal(signal.SIGKILL)
             first.process.wait()
             self.alter(4)
+            self.nats.wait_there(0)
             second = self.host("b")
             for bot in clients.bots:
                 bot.addresses = [second.address]

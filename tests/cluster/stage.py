@@ -89,6 +89,16 @@ class Nats:
     def start(self, number):
         self.processes[number] = subprocess.Popen(self.commands[number], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
+    def wait_there(self, number):
+        """Until it takes connections; a host that finds none at its start ends."""
+        end = time.monotonic() + PATIENCE
+        while True:
+            try:
+                return socket.create_connection(("127.0.0.1", self.ports[number]), 1).close()
+            except OSError:
+                assert time.monotonic() < end, "NATS does not come back"
+                time.sleep(0.05)
+
     def kill(self, number, by=signal.SIGKILL):
         self.processes[number].send_signal(by)
         if by != signal.SIGSTOP:

@@ -104,6 +104,34 @@ TEST_CASE("a batch that is gone is a hole up to the next keyframe, and what is a
   }
 }
 
+TEST_CASE("no file that is there already is written over, and no other room's") {
+  const RecordingsFolder folder;
+  // Both of these names, and the second file of the first, would be one file's.
+  Shard shard;
+  shard.open("a/b");
+  shard.step(5);
+  shard.cut();
+  Shard other;
+  other.open("a-b");
+  other.step(7);
+  other.cut();
+  std::ostringstream told;
+  JoinedLog joined(folder.path, told);
+  REQUIRE(joined.take(1, shard.batches[0]));
+  REQUIRE(joined.take(2, other.batches[0]));
+  REQUIRE(joined.close());
+  for (const auto& [file, ticks] : {std::pair{"a-b.ndjson", 5}, std::pair{"a-b.2.ndjson", 7}}) {
+    const auto verdict = replay::verify(replay::source_of_file(folder.path / file, {}));
+    REQUIRE(verdict);
+    CHECK(verdict->ticks == static_cast<std::uint64_t>(ticks));
+  }
+  JoinedLog again(folder.path, told);
+  const auto taken = again.take(1, shard.batches[0]);
+  REQUIRE_FALSE(taken);
+  CHECK(taken.error().where == (folder.path / "a-b.ndjson").string());
+  CHECK(replay::verify(replay::source_of_file(folder.path / "a-b.ndjson", {}))->ticks == 5);
+}
+
 TEST_CASE("a room that begins anew, though its game went on, is told as a hole") {
   Shard first;
   first.open();

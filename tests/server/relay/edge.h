@@ -92,10 +92,11 @@ struct Edge : Contexts {
   std::optional<ShardView> view;
   std::vector<std::string> lines;
   std::map<std::uint64_t, std::string> hashes;
+  MapShelf maps;
   int times_ready = 0;
   std::string lost;
   std::shared_ptr<RelayRoom> room = std::make_shared<RelayRoom>(
-      ticks, lanes, settings(), limits, kDelay, timekeeper,
+      ticks, lanes, settings(), limits, kDelay, timekeeper, maps,
       RelayRoom::Hooks{[this] { ++times_ready; }, [this](const std::string& why) { lost = why; }});
 };
 
