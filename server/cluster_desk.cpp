@@ -6,6 +6,7 @@
 #include <cassert>
 #include <utility>
 
+#include "server/access/bans.h"
 #include "server/chosen_games.h"
 #include "server/net/listen_address.h"
 #include "server/net/session.h"
@@ -24,6 +25,28 @@ protocol::Bye moved(const std::string& address) {
   return {std::string(protocol::code::kMoved), text, true, address};
 }
 
+/// Where clients of others are sent; empty: it listens at every address, and was told none.
+core::Expected<std::string> address_of(const ServeConfig& config, const std::string& lines,
+                                       const std::string& web_url) {
+  if (!config.cluster->address.empty()) return config.cluster->address;
+  std::string address = lines;
+  if (config.web && !config.web->tls) {
+    const auto web =
+        parse_listen_address(web_url.substr(0, web_url.rfind('/')).substr(web_url.rfind("//") + 2), "--web");
+    if (!web) return tl::unexpected(web.error());
+    address = to_text(ListenAddress{config.web->listen.host, web->port});
+  }
+  return address.starts_with("0.0.0.0:") || address.starts_with("[::]:") ? std::string() : address;
+}
+
+/// Of a moment by the calendar [Unix s]; long ago: as if it had never been, far off: for good.
+Time time_of(std::uint64_t moment) {
+  constexpr std::uint64_t kFarOff = 1'000'000'000;
+  const auto now = static_cast<std::uint64_t>(wall_now().time_since_epoch().count());
+  if (moment <= now) return Time{};
+  return moment - now > kFarOff ? Time::max() : Clock::now() + std::chrono::seconds(moment - now);
+}
+
 }  // namespace
 
 core::Expected<void> ClusterDesk::open(const ServeConfig& config, const std::string& lines,
@@ -31,25 +54,20 @@ core::Expected<void> ClusterDesk::open(const ServeConfig& config, const std::str
   assert(!cluster_ && config.cluster);
   name_ = config.cluster->cluster;
   shard_ = config.cluster->shard;
-  if (config.cluster->is_edge) return open_edge(config);
+  auto address = address_of(config, lines, web_url);
+  if (!address) return tl::unexpected(address.error());
+  ClusterSettings settings = *config.cluster;
+  settings.address = std::move(*address);
+  if (settings.is_edge) return open_edge(config, std::move(settings));
   const auto games = choose_games(config);
   if (!games) return tl::unexpected(games.error());
   if (games->size() > kMostRoomsOfShard)
     return core::fail("--map", joined({std::to_string(games->size()), " rooms are more than the ",
                                        std::to_string(kMostRoomsOfShard), " of a cluster"}));
-  ClusterSettings settings = *config.cluster;
-  if (settings.address.empty()) {
-    settings.address = lines;
-    if (config.web && !config.web->tls) {
-      const auto web = parse_listen_address(
-          web_url.substr(0, web_url.rfind('/')).substr(web_url.rfind("//") + 2), "--web");
-      if (!web) return tl::unexpected(web.error());
-      settings.address = to_text(ListenAddress{config.web->listen.host, web->port});
-    }
-    if (settings.address.starts_with("0.0.0.0:") || settings.address.starts_with("[::]:"))
-      return core::fail("--cluster-address", "this host listens at every address: clients of others need one",
-                        "as  --cluster-address 192.0.2.7:7777");
-  }
+  if (settings.address.empty())
+    return core::fail("--cluster-address", "this host listens at every address: clients of others need one",
+                      "as  --cluster-address 192.0.2.7:7777");
+  for (const ChosenGame& game : *games) own_rooms_.insert(game.room);
   auto cluster = Cluster::open(std::move(settings), hooks(), log_);
   if (!cluster) return tl::unexpected(cluster.error());
   cluster_ = std::move(*cluster);
@@ -57,18 +75,17 @@ core::Expected<void> ClusterDesk::open(const ServeConfig& config, const std::str
 }
 
 /// Parts come each `batch`, on ways that differ by less than half of one.
-core::Expected<void> ClusterDesk::open_edge(const ServeConfig& config) {
-  RoomSettings settings;
-  settings.build = kServerName;
-  settings.state_hz = config.state_hz;
-  relay_.emplace(stage_.ticks, stage_.lanes, settings, limits_, config.cluster->batch * 3 / 2,
-                 stage_.timekeeper, log_);
+core::Expected<void> ClusterDesk::open_edge(const ServeConfig& config, ClusterSettings settings) {
+  RoomSettings rooms;
+  rooms.build = kServerName;
+  rooms.state_hz = config.state_hz;
+  relay_.emplace(stage_.ticks, stage_.lanes, rooms, limits_, settings.batch * 3 / 2, stage_.timekeeper, log_);
   Cluster::Viewers viewers;
   viewers.lines = [this](const std::string& room, std::vector<std::string> lines) {
     relay_->take(room, std::move(lines));
   };
   viewers.closed = [this](const std::string& room) { relay_->close(room); };
-  auto cluster = Cluster::open(*config.cluster, std::move(viewers), log_);
+  auto cluster = Cluster::open(std::move(settings), std::move(viewers), log_);
   if (!cluster) return tl::unexpected(cluster.error());
   cluster_ = std::move(*cluster);
   return {};
@@ -81,6 +98,9 @@ Cluster::Hooks ClusterDesk::hooks() {
   };
   hooks.step_down = [this](const std::string& elsewhere) {
     boost::asio::post(strand_, [this, elsewhere] { step_down(elsewhere); });
+  };
+  hooks.stands_by = [this](const std::vector<std::string>& rooms) {
+    boost::asio::post(strand_, [this, rooms] { stand_by(rooms); });
   };
   hooks.move = [this](const std::string& to) {
     boost::asio::post(strand_, [this, to] {
@@ -102,7 +122,11 @@ void ClusterDesk::guide(RoomGuide& guide, SessionEnvironment& sessions) const {
 
 protocol::Bye ClusterDesk::begin_leaving(const protocol::Bye& otherwise) {
   cluster_->begin_leaving({});
-  if (relay_) return otherwise;
+  if (relay_) {
+    if (cluster_->hosts().empty()) return otherwise;
+    // No address: all would go to that one. Each tries those that he was told, and a browser its own again.
+    return {std::string(protocol::code::kMoved), "this server stops: the room is shown elsewhere", true, {}};
+  }
   // Who has taken them over by now is no successor any more.
   if (!went_to_.empty()) return moved(went_to_);
   if (const auto owner = cluster_->elsewhere({})) return moved(*owner);
@@ -131,6 +155,22 @@ bool ClusterDesk::move(const std::string& to) {
   };
   for (const auto& room : rooms) room->hold([this, one_stands] { boost::asio::post(strand_, one_stands); });
   return true;
+}
+
+/// What the cluster plays goes before what this host was to play: who expects that is told.
+void ClusterDesk::stand_by(const std::vector<std::string>& rooms) {
+  std::string others;
+  std::size_t count = 0;
+  for (const std::string& own : own_rooms_)
+    if (std::find(rooms.begin(), rooms.end(), own) == rooms.end() && ++count <= 5)
+      others += others.empty() ? own : joined({", ", own});
+  if (count > 5) others += joined({" and ", std::to_string(count - 5), " more"});
+  if (others == others_told_) return;
+  others_told_ = others;
+  if (others.empty()) return;
+  log_event(*log_, LogEvent::kClusterFollows,
+            joined({"cluster: the cluster does not play ", others,
+                    ", which this host would: opened once its rooms are here"}));
 }
 
 void ClusterDesk::take_over(std::vector<RoomToGoOn> rooms) {
@@ -174,6 +214,8 @@ Start ClusterDesk::start_of(RoomToGoOn room) const {
     if (claim == room.claims.end()) continue;
     seat.claim = claim->token;
     seat.occupant = Vacant{until};
+    seat.mute_ends = claim->muted_until;
+    seat.muted_until = time_of(claim->muted_until);
   }
   return start;
 }

@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -84,8 +85,9 @@ class ClusterDesk {
   [[nodiscard]] Cluster& cluster() { return *cluster_; }
 
  private:
-  core::Expected<void> open_edge(const ServeConfig& config);
+  core::Expected<void> open_edge(const ServeConfig& config, ClusterSettings settings);
   [[nodiscard]] Cluster::Hooks hooks();
+  void stand_by(const std::vector<std::string>& rooms);
   void take_over(std::vector<RoomToGoOn> rooms);
   void step_down(const std::string& address);
   bool move(const std::string& to);
@@ -99,7 +101,9 @@ class ClusterDesk {
   const std::shared_ptr<spdlog::logger> log_;
   std::optional<Relay> relay_;  ///< of an edge
   std::unique_ptr<Cluster> cluster_;
-  std::string name_, shard_;  ///< of the cluster
+  std::string name_, shard_;         ///< of the cluster
+  std::set<std::string> own_rooms_;  ///< of the command line
+  std::string others_told_;          ///< of those, which the cluster does not play
   std::atomic<bool> owns_{false};
   std::size_t rooms_left_ = 0;  ///< that are to stand before the log is handed over
   std::string went_to_;         ///< where the rooms went from here; empty: nowhere, or it is not known

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "server/config.h"
+#include "shared/protocol/whereabouts.h"
 
 namespace woodlouse::server {
 namespace {
@@ -83,6 +84,9 @@ core::Expected<std::optional<ClusterSettings>> checked_cluster(const TypedCluste
     auto address = parse_listen_address(*typed.address, "--cluster-address");
     if (!address) return tl::unexpected(address.error());
     settings->address = to_text(*address);
+    if (!protocol::parse_host_address(settings->address))
+      return core::fail("--cluster-address " + *typed.address,
+                        "is no HOST:PORT at which clients find this host", "for example 192.0.2.7:7777");
   }
   return std::optional(std::move(*settings));
 }

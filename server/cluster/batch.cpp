@@ -67,7 +67,8 @@ auto read_object(std::string_view line, const std::string& place,
   if (!document) return tl::unexpected(document.error());
   if (!document->root().is(json::Kind::kObject)) return core::fail(place, "a line is no object");
   json::Problems problems(place);
-  const json::Fields fields(document->root(), known, problems);
+  const json::Fields fields = known.size() == 0 ? json::Fields(document->root(), problems)
+                                                : json::Fields(document->root(), known, problems);
   auto value = read(fields, problems);
   if (problems.count() != 0) return tl::unexpected(problems.errors().front());
   return value;
@@ -220,6 +221,7 @@ void append_claim(std::string& out, const Claim& claim) {
       .text("name", claim.name)
       .text("role", protocol::to_text(claim.role))
       .text("token", hex_of(claim.token));
+  if (claim.muted_until != 0) line.integer("muted_until", claim.muted_until);
   line.end_line();
 }
 
@@ -239,7 +241,7 @@ core::Expected<BatchLine> read_batch_line(std::string_view line, const std::stri
       return BatchLine(ClosedLine{text_of(fields, "closed", kMostRoomBytes, problems)});
     });
   if (!line.starts_with(R"({"claim":)")) return RecordedLine{line};
-  return read_object(line, place, {"claim", "name", "role", "token"},
+  return read_object(line, place, {},  // of which a newer build may say more
                      [](const json::Fields& fields, json::Problems& problems) {
                        Claim claim;
                        claim.louse = static_cast<match::PlayerId>(fields.integer("claim", 0, UINT32_MAX));
@@ -251,6 +253,8 @@ core::Expected<BatchLine> read_batch_line(std::string_view line, const std::stri
                          problems.add(*role, "is to be player or bot");
                        claim.role = known.value_or(protocol::Role::kPlayer);
                        claim.token = words_of<4>(fields, "token", problems);
+                       if (fields.find("muted_until"))
+                         claim.muted_until = fields.integer("muted_until", 1, kMutedForGood);
                        return BatchLine(std::move(claim));
                      });
 }

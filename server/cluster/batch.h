@@ -5,7 +5,8 @@
 //     {"room":"hill"}                                      whose the lines below are
 //     {"step":..}                                          a recording's own lines (docs/determinism.md),
 //     byte for byte
-//     {"claim":3,"name":"ann","role":"player","token":".."}   who may come back to which louse
+//     {"claim":3,"name":"ann","role":"player","token":".."}   who may come back to which louse, and,
+//     "muted_until", is muted
 //     {"closed":"hill"}                                    that room is no more
 //
 // One that is longer than a message of NATS may be goes in parts, each with a head of its own, "part" and

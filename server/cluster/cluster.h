@@ -46,6 +46,8 @@ class Cluster {
     /// Somebody asks that they go on at another host, by its name; empty: at any. Whoever is asked holds
     /// them, says hand_over(), and ends them at step_down().
     std::function<void(std::string to)> move;
+    /// The log of these rooms is another host's, and is followed.
+    std::function<void(std::vector<std::string> rooms)> stands_by;
     /// The rooms that are here.
     std::function<std::vector<protocol::RoomEntry>()> census;
   };

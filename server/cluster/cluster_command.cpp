@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "server/cluster/batch.h"
+#include "server/cluster/heartbeat.h"
 #include "server/cluster/host_table.h"
 #include "server/cluster/joined_log.h"
 #include "server/cluster/nats_link.h"
@@ -44,15 +45,30 @@ int init(NatsLink& link, const ClusterSettings& settings, std::ostream& out, std
   return kFine;
 }
 
-core::Expected<std::shared_ptr<HostTable>> hear_hosts(NatsLink& link, const ClusterSettings& settings) {
+core::Expected<std::shared_ptr<HostTable>> hear_hosts(NatsLink& link, const ClusterSettings& settings,
+                                                      Duration lasts = 6 * Heartbeat::kEvery) {
   const auto table = std::make_shared<HostTable>(settings.host, settings.shard, 0);
-  const auto heard =
-      link.subscribe(settings.beat_subject("*"), [table](const auto&, const std::string& bytes, auto) {
-        if (auto beat = beat_from(bytes)) table->take(std::move(*beat), Clock::now());
-      });
+  auto heard = link.subscribe(settings.beat_subject("*"), [table](const auto&, const auto& bytes, auto) {
+    if (auto beat = beat_from(bytes)) table->take(std::move(*beat), Clock::now());
+  });
   if (!heard) return tl::unexpected(heard.error());
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  heard = link.subscribe(settings.edge_subject("*"), [table](const auto&, const auto& bytes, auto) {
+    if (auto beat = beat_from(bytes)) table->take_edge(std::move(*beat), Clock::now());
+  });
+  if (!heard) return tl::unexpected(heard.error());
+  std::this_thread::sleep_for(lasts);
   return table;
+}
+
+std::string_view doing(const Beat& host) {
+  if (host.owns) return host.leaves ? "owns the rooms and goes" : "owns the rooms";
+  if (host.leaves) return "takes no rooms any more";
+  return host.ready ? "stands by" : "CAN'T TAKE OVER (its log says why)";
+}
+
+std::string_view mode_of(const Beat& host) {
+  if (!host.strict) return "";
+  return *host.strict ? "mode strict, " : "mode play, ";
 }
 
 /// Waits until another host owns the rooms.
@@ -95,7 +111,7 @@ int move(NatsLink& link, const ClusterErrand& errand, std::ostream& out, std::os
 }
 
 int status(NatsLink& link, const ClusterSettings& settings, std::ostream& out, std::ostream& err) {
-  const auto table = hear_hosts(link, settings);
+  const auto table = hear_hosts(link, settings, Heartbeat::kEdgeEvery + 2 * Heartbeat::kEvery);
   if (!table) return report(table.error(), err);
   const auto state = link.stream_state();
   if (!state) return report(state.error(), err);
@@ -112,13 +128,12 @@ int status(NatsLink& link, const ClusterSettings& settings, std::ostream& out, s
   }
   const auto hosts = (*table)->hosts(Clock::now());
   for (const Beat& beat : hosts)
-    out << fmt::format("host {} at {}: {}, {} batch {}{}\n", beat.host, beat.address,
-                       beat.owns     ? "owns the rooms"
-                       : beat.leaves ? "takes no rooms any more"
-                       : beat.ready  ? "stands by"
-                                     : "CAN'T TAKE OVER (its log says why)",
-                       beat.owns ? "stored up to" : "has read up to", beat.sequence,
-                       beat.owns && beat.leaves ? ", goes" : "");
+    out << fmt::format("host {} at {}: {}, {}{} batch {}\n", beat.host, beat.address, doing(beat),
+                       mode_of(beat), beat.owns ? "stored up to" : "has read up to", beat.sequence);
+  for (const Beat& beat : (*table)->edges(Clock::now()))
+    out << fmt::format("edge {}{}: {}, has read up to batch {}\n", beat.host,
+                       beat.address.empty() ? "" : core::joined({" at ", beat.address}),
+                       beat.ready ? "shows the rooms" : "SHOWS NOTHING (its log says why)", beat.sequence);
   if (hosts.empty()) out << "no host is heard\n";
   return code;
 }

@@ -40,6 +40,9 @@ struct ClusterSettings {
   [[nodiscard]] std::string beat_subject(const std::string& of) const {
     return "wl." + cluster + ".beat." + of;
   }
+  [[nodiscard]] std::string edge_subject(const std::string& of) const {
+    return "wl." + cluster + ".edge." + of;
+  }
 };
 
 /// Errors: FILE:LINE: field: what. The host's own part is left as it is.

@@ -5,17 +5,18 @@
 #include <utility>
 
 #include "shared/core/joined.h"
+#include "shared/core/random.h"
 #include "shared/core/stable_hash.h"
 #include "shared/json/document.h"
 #include "shared/json/fields.h"
 #include "shared/json/object_text.h"
+#include "shared/protocol/whereabouts.h"
 
 namespace woodlouse::server {
 namespace {
 
 constexpr json::Limits kBeatLimits{4, 32 + 8 * kMostRoomsOfShard};
 constexpr std::size_t kMostBeatBytes = 4096 + 512 * kMostRoomsOfShard;
-constexpr std::size_t kMostAddressBytes = 261;
 
 protocol::RoomEntry read_room(const json::Value& value, json::Problems& problems) {
   protocol::RoomEntry room;
@@ -23,7 +24,7 @@ protocol::RoomEntry read_room(const json::Value& value, json::Problems& problems
     problems.add(value, "is to be an object");
     return room;
   }
-  const json::Fields fields(value, {"name", "map", "players", "bots", "spectators"}, problems);
+  const json::Fields fields(value, problems);
   room.name = fields.text("name", kMostRoomBytes);
   room.map = fields.text("map", kMostRoomBytes);
   room.players = static_cast<std::uint32_t>(fields.integer("players", 0, UINT32_MAX));
@@ -57,6 +58,7 @@ std::string to_text(const Beat& beat) {
       .integer("sequence", beat.sequence)
       .integer("silent_ms", beat.silent_ms)
       .text("to", beat.to);
+  if (beat.strict) line.boolean("strict", *beat.strict);
   if (beat.rooms)
     line.objects("rooms", *beat.rooms, [](json::ObjectText& object, const protocol::RoomEntry& room) {
       object.text("name", room.name)
@@ -75,13 +77,11 @@ core::Expected<Beat> beat_from(std::string_view text) {
   if (!document) return tl::unexpected(document.error());
   json::Problems problems("a beat");
   if (!document->root().is(json::Kind::kObject)) return core::fail("a beat", "is no object");
-  const json::Fields fields(document->root(),
-                            {"host", "address", "shard", "owns", "leaves", "ready", "process", "writer",
-                             "epoch", "nonce", "nonce2", "sequence", "silent_ms", "rooms", "to"},
-                            problems);
+  const json::Fields fields(document->root(), problems);
   Beat beat;
   beat.host = fields.text("host", kMostHostBytes);
-  beat.address = fields.text("address", kMostAddressBytes);
+  beat.address = fields.text("address", protocol::kMaxAddressBytes);
+  if (!protocol::parse_host_address(beat.address)) beat.address.clear();  // nobody is sent there
   beat.shard = fields.text("shard", kMostHostBytes);
   beat.owns = flag_of(fields, "owns", problems);
   beat.leaves = flag_of(fields, "leaves", problems);
@@ -93,6 +93,7 @@ core::Expected<Beat> beat_from(std::string_view text) {
   beat.sequence = fields.integer("sequence", 0, kMostCount);
   beat.silent_ms = fields.integer("silent_ms", 0, kMostCount);
   beat.to = fields.text("to", kMostHostBytes);
+  if (fields.find("strict")) beat.strict = flag_of(fields, "strict", problems);
   const auto rooms = fields.find("rooms");
   if (rooms) beat.rooms.emplace();
   if (rooms && (!rooms->is(json::Kind::kArray) || rooms->size() > kMostRoomsOfShard))
@@ -126,30 +127,44 @@ core::Expected<MoveOrder> move_order_from(std::string_view text) {
   return order;
 }
 
-void HostTable::take(Beat beat, Time now) {
+bool HostTable::take(Beat beat, Time now) {
   const std::lock_guard lock(mutex_);
   forget(now);
   if (beat.host == own_ && beat.process != process_) twin_at_ = now;
-  if (beat.host == own_) return;
+  if (beat.host == own_) return false;
   auto& hosts = beat.shard == shard_ ? hosts_ : strangers_;
-  if (hosts.size() >= kMostHosts && !hosts.contains(beat.host)) return;
+  if (hosts.size() >= kMostHosts && !hosts.contains(beat.host)) return false;
   const auto former = hosts.find(beat.host);
   // Of two of one name the owner is believed, till it is silent.
   constexpr Duration kBelieved = std::chrono::seconds(1);
   if (former != hosts.end() && former->second.beat.process != beat.process && former->second.beat.owns &&
       !beat.owns && now - former->second.at < kBelieved)
-    return;
+    return false;
   const bool is_told = beat.rooms || !beat.owns;
   if (!is_told && former != hosts.end() && former->second.beat.process == beat.process)
     beat.rooms = std::move(former->second.beat.rooms);
+  const bool is_new = former == hosts.end() || former->second.beat.process != beat.process;
   const std::string host = beat.host;
   hosts.insert_or_assign(host, Known{std::move(beat), now});
+  return is_new;
+}
+
+bool HostTable::take_edge(Beat beat, Time now) {
+  const std::lock_guard lock(mutex_);
+  forget(now);
+  const std::uint64_t process = beat.process;
+  if (process == process_) return false;
+  if (edges_.size() >= kMostEdges && !edges_.contains(process)) return false;
+  beat.owns = false;  // whatever it says
+  beat.rooms.reset();
+  return edges_.insert_or_assign(process, Known{std::move(beat), now}).second;
 }
 
 void HostTable::forget(Time now) {
   const auto is_old = [now](const auto& entry) { return now - entry.second.at > kForgottenAfter; };
   std::erase_if(hosts_, is_old);
   std::erase_if(strangers_, is_old);
+  std::erase_if(edges_, is_old);
 }
 
 Time HostTable::heard(const Writer& writer) const {
@@ -157,6 +172,14 @@ Time HostTable::heard(const Writer& writer) const {
   const auto known = hosts_.find(writer.host);
   if (known == hosts_.end() || !known->second.beat.owns || known->second.beat.writer != writer) return Time{};
   return known->second.at;
+}
+
+std::optional<bool> HostTable::is_strict(const Writer& writer) const {
+  const std::lock_guard lock(mutex_);
+  const auto known = hosts_.find(writer.host);
+  if (known == hosts_.end() || !known->second.beat.owns || known->second.beat.writer != writer)
+    return std::nullopt;
+  return known->second.beat.strict;
 }
 
 std::optional<std::string> HostTable::leaves(const Writer& writer) const {
@@ -216,6 +239,33 @@ std::vector<std::string> HostTable::addresses(Time now, std::size_t most) const 
   for (const auto& [host, known] : hosts_)
     if (now - known.at <= kForgottenAfter && !known.beat.address.empty() && found.size() < most)
       found.push_back(known.beat.address);
+  return found;
+}
+
+std::vector<std::string> HostTable::edge_addresses(Time now, std::size_t most) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> found;
+  for (const auto& [process, known] : edges_)
+    if (now - known.at <= kForgottenAfter && known.beat.shard == shard_ && known.beat.ready &&
+        !known.beat.leaves && !known.beat.address.empty())
+      found.push_back(known.beat.address);
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  // By chance: what goes round would keep step with others who only ask.
+  if (!found.empty()) {
+    const std::uint64_t chance = core::Random(++turn_).next();
+    std::rotate(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(chance % found.size()),
+                found.end());
+  }
+  found.resize(std::min(found.size(), most));
+  return found;
+}
+
+std::vector<Beat> HostTable::edges(Time now) const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Beat> found;
+  for (const auto& [process, known] : edges_)
+    if (now - known.at <= kForgottenAfter && known.beat.shard == shard_) found.push_back(known.beat);
   return found;
 }
 

@@ -1,6 +1,6 @@
 // What the hosts of a cluster say of themselves, many times a second: who owns the shard, where its clients
-// are to go, whether he goes. Nothing here decides who may write the log: that the log does; a beat only
-// spares the waiting. Pure: times are arguments. Any thread, under its lock.
+// are to go, whether he goes; and which edges show it. Nothing here decides who may write the log: that the
+// log does; a beat only spares the waiting. Pure: times are arguments. Any thread, under its lock.
 #pragma once
 
 #include <cstdint>
@@ -18,18 +18,20 @@
 
 namespace woodlouse::server {
 
+/// An edge's is one, too, of a host that owns nothing.
 struct Beat {
   std::string host;
-  std::string address;  ///< for clients
+  std::string address;  ///< for clients; empty, an edge's alone: nobody is sent there
   std::string shard;
   bool owns = false;
   bool leaves = false;          ///< it goes, and hands its rooms over
   std::string to{};             ///< to which host; empty: whoever is next
-  bool ready = false;           ///< of a follower: it has all of the log and could go on with it
+  bool ready = false;           ///< of a follower: it has all of the log and could go on with it, or shows it
   std::uint64_t process = 0;    ///< made by chance: tells two that have one name
   Writer writer;                ///< where it owns: as whom; else the one it follows
   std::uint64_t sequence = 0;   ///< of the log: acknowledged to an owner, read by a follower
   std::uint64_t silent_ms = 0;  ///< of a follower: for how long it has heard nothing of the owner
+  std::optional<bool> strict{};  ///< its mode is strict; nothing: an older build's, which does not say
   /// An owner's; nothing: those that it told last.
   std::optional<std::vector<protocol::RoomEntry>> rooms{};
   friend bool operator==(const Beat&, const Beat&) = default;
@@ -45,6 +47,7 @@ std::string to_text(const MoveOrder& order);
 core::Expected<MoveOrder> move_order_from(std::string_view text);
 
 std::string to_text(const Beat& beat);
+/// Members that this build does not know are passed over: hosts of a cluster have newer builds one by one.
 /// Errors: it is none; what NATS brings came from outside.
 core::Expected<Beat> beat_from(std::string_view text);
 
@@ -59,15 +62,22 @@ class HostTable {
   /// Of which nothing is known that is older.
   static constexpr Duration kForgottenAfter = std::chrono::seconds(5);
   static constexpr std::size_t kMostHosts = 256;
+  static constexpr std::size_t kMostEdges = 1024;
 
   HostTable(std::string own_host, std::string shard, std::uint64_t process)
       : own_(std::move(own_host)), shard_(std::move(shard)), process_(process) {}
 
-  /// Another host's; of other shards only where their rooms are is asked for.
-  void take(Beat beat, Time now);
+  /// Another host's; of other shards only where their rooms are is asked for. True: it is the first of its
+  /// process.
+  bool take(Beat beat, Time now);
+  /// Another edge's; two may have one name. True: likewise.
+  bool take_edge(Beat beat, Time now);
+  [[nodiscard]] std::uint64_t process() const { return process_; }
 
   /// When that writer was heard last.
   [[nodiscard]] Time heard(const Writer& writer) const;
+  /// Whether that owner's mode is strict; nothing: it does not say, or is not heard.
+  [[nodiscard]] std::optional<bool> is_strict(const Writer& writer) const;
   /// To which host it has said that its rooms go; empty: whoever is next. Nothing: it stays.
   [[nodiscard]] std::optional<std::string> leaves(const Writer& writer) const;
   /// How many are to try before this host: those that could go on, by name. None: one of them has heard of
@@ -83,7 +93,11 @@ class HostTable {
   [[nodiscard]] std::optional<Beat> successor(Time now, std::string_view wanted = {}) const;
   /// Addresses of the others, at most `most`.
   [[nodiscard]] std::vector<std::string> addresses(Time now, std::size_t most) const;
+  /// The same of edges that show the shard, at most `most`, from another one on each time: who is sent on
+  /// from one that ends is not sent to the same one as all others.
+  [[nodiscard]] std::vector<std::string> edge_addresses(Time now, std::size_t most) const;
   [[nodiscard]] std::vector<Beat> hosts(Time now) const;
+  [[nodiscard]] std::vector<Beat> edges(Time now) const;
   /// Of all shards, as their owners have told of them; of one that is silent or goes, too, till another one
   /// is heard or it is forgotten.
   [[nodiscard]] std::vector<HostedRoom> rooms(Time now) const;
@@ -101,6 +115,8 @@ class HostTable {
   mutable std::mutex mutex_;
   std::map<std::string, Known, std::less<>> hosts_;
   std::map<std::string, Known, std::less<>> strangers_;  ///< of other shards
+  std::map<std::uint64_t, Known> edges_;                 ///< of all shards, by process
+  mutable std::uint64_t turn_ = 0;                       ///< of who asked for edges last
 };
 
 }  // namespace woodlouse::server

@@ -1,13 +1,11 @@
-// A host of a cluster: one thread that follows the shard's log and stands by, or owns it and writes. A second
-// one tells the others that it lives and hears them, by a connection of its own: a log that does not answer
-// must not make its owner look dead.
+// A host of a cluster: one thread that follows the shard's log and stands by, or owns it and writes. That it
+// lives is told by another one (heartbeat.h).
 //
 //   following --the owner is silent, or goes; the log takes this host's first batch--> owning
 //       ^---------------another host's batch stands in the log-------------------------'
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -18,8 +16,8 @@
 #include <thread>
 #include <vector>
 
-#include "server/access/resume_token.h"
 #include "server/cluster/cluster.h"
+#include "server/cluster/heartbeat.h"
 #include "server/cluster/host_table.h"
 #include "server/cluster/inbox.h"
 #include "server/cluster/log_writer.h"
@@ -33,7 +31,6 @@ namespace woodlouse::server {
 
 class Node final : public Cluster {
  public:
-  static constexpr Duration kBeatEvery = std::chrono::milliseconds(50);
   /// Between two looks at what has come.
   static constexpr Duration kLook = std::chrono::milliseconds(5);
   /// Between two attempts to read the log from a beginning.
@@ -66,7 +63,7 @@ class Node final : public Cluster {
   void begin_leaving(const std::string& to) override;
   void hand_over() override;
   [[nodiscard]] std::optional<std::string> successor(const std::string& wanted) const override {
-    const auto next = table_.successor(Clock::now(), wanted);
+    const auto next = table().successor(Clock::now(), wanted);
     return next ? std::optional(next->address) : std::nullopt;
   }
 
@@ -84,8 +81,12 @@ class Node final : public Cluster {
   [[nodiscard]] bool has_log_gone_back(Time now);
   void tell_line();
   void tell_following(Time now);
+  void tell_mode();
   [[nodiscard]] bool is_owner_gone(Time now);
-  [[nodiscard]] bool is_cut_off() const { return is_log_cut_ || is_beat_cut_; }
+  [[nodiscard]] const HostTable& table() const { return heartbeat_.hosts(); }
+  [[nodiscard]] Heartbeat::Hooks heard();
+  void asked(const MoveOrder& order);
+  [[nodiscard]] bool is_cut_off() const { return is_log_cut_ || heartbeat_.is_cut(); }
   [[nodiscard]] Duration silence(Time now) const;
   [[nodiscard]] bool take_over();
   [[nodiscard]] bool catch_up();
@@ -104,18 +105,11 @@ class Node final : public Cluster {
   void step_down();
   void store_the_rest();
   void watch_handing_over(Time now);
-  void beat_soon();
-  [[nodiscard]] core::Expected<void> hear_beats();
-  [[nodiscard]] core::Expected<void> hear_operators();
   [[nodiscard]] std::optional<LastBatch> read_last();
   bool complain(const core::Error& error);
 
   [[nodiscard]] core::Expected<void> open_log_link();
-  [[nodiscard]] core::Expected<void> open_beat_link();
-  bool renew_links();
-
-  // The beating thread:
-  void beat(const std::stop_token& stop);
+  bool renew_log_link();
 
   void say(LogEvent event, const std::string& text) {
     told_.count(event);
@@ -127,10 +121,9 @@ class Node final : public Cluster {
   const std::optional<Viewers> viewers_;  ///< of one that only shows
   const std::shared_ptr<spdlog::logger> log_;
   const std::shared_ptr<Inbox> inbox_ = std::make_shared<Inbox>();
-  const std::uint64_t process_ = make_resume_token()[0];
-  HostTable table_;
+  Heartbeat heartbeat_;
   NodeFigures told_;
-  std::unique_ptr<NatsLink> log_link_, beat_link_;
+  std::unique_ptr<NatsLink> log_link_;
 
   // The node's thread's:
   std::optional<ShardView> view_;
@@ -155,26 +148,25 @@ class Node final : public Cluster {
   Time cut_at_{};
   bool is_full_ = false;  ///< nothing more may wait: what is told is dropped
   bool is_told_not_durable_ = false;
-  bool was_cut_off_ = false;   ///< as told
-  Time doubted_at_{};          ///< Time{}: the rooms are this host's, as far as is known
-  bool has_differed_ = false;  ///< some tick, from the log: it takes nothing over
-  std::string last_fault_;     ///< told already
+  bool was_cut_off_ = false;  ///< as told
+  bool is_other_mode_told_ = false;
+  std::optional<Time> rooms_changed_;  ///< of the log that is followed; none: they are told
+  Time doubted_at_{};                  ///< Time{}: the rooms are this host's, as far as is known
+  bool has_differed_ = false;          ///< some tick, from the log: it takes nothing over
+  std::string last_fault_;             ///< told already
 
   std::uint64_t handed_epoch_ = 0;
   std::optional<Time> handed_over_;  ///< since when the rooms are to go on elsewhere, and do not yet
 
   std::atomic<bool> is_leaving_{false};
   std::atomic<bool> is_to_hand_over_{false};
-  std::atomic<bool> is_drained_{false};                       ///< an operator wants no room here any more
-  std::atomic<bool> is_log_cut_{false}, is_beat_cut_{false};  ///< from NATS
-  std::atomic<bool> is_log_closed_{false}, is_beat_closed_{false};  ///< for good: NATS has refused this host
-  mutable std::mutex mutex_;                                        ///< of what follows
-  std::condition_variable_any beat_now_;
-  bool is_beat_due_ = false;  ///< before its time
-  Beat beat_;
-  std::vector<std::string> known_rooms_;  ///< of the shard, as the log has them
+  std::atomic<bool> is_drained_{false};     ///< an operator wants no room here any more
+  std::atomic<bool> is_log_cut_{false};     ///< from NATS
+  std::atomic<bool> is_log_closed_{false};  ///< for good: NATS has refused this host
+  mutable std::mutex mutex_;                ///< of what follows
+  std::vector<std::string> known_rooms_;    ///< of the shard, as the log has them
 
-  std::jthread beating_, running_;
+  std::jthread running_;
 };
 
 }  // namespace woodlouse::server

@@ -28,7 +28,7 @@ bool Node::follow() {
   heard_ = Clock::now();
   Time looked = heard_;
   while (!inbox_->is_stopping()) {
-    if (renew_links()) view_.reset();
+    if (renew_log_link()) view_.reset();
     tell_line();
     if (!view_ && Clock::now() >= begin_at_ && !begin_following()) view_.reset();
     for (NodeEvent& event : inbox_->take(Clock::now() + 4 * kLook)) {
@@ -38,10 +38,11 @@ bool Node::follow() {
     const Time now = Clock::now();
     // Who was away himself, or cut off, has heard nobody.
     if (now - std::exchange(looked, now) > settings_.silence / 2 || is_cut_off()) heard_ = now;
-    if (view_ && is_log_empty_ && table_.owner(now)) view_.reset();  // somebody has begun it
+    if (view_ && is_log_empty_ && table().owner(now)) view_.reset();  // somebody has begun it
     if (view_ && has_log_gone_back(now)) view_.reset();
     if (handed_over_) watch_handing_over(now);
     tell_following(now);
+    tell_mode();
     if (view_ && !viewers_ && !is_leaving_ && !is_drained_ && is_owner_gone(now)) {
       if (take_over()) return true;
       view_.reset();  // what came meanwhile was not kept
@@ -219,37 +220,61 @@ void Node::tell_line() {
 }
 
 void Node::tell_following(Time now) {
-  const std::lock_guard lock(mutex_);
-  beat_.owns = false;
-  beat_.leaves = is_leaving_ || is_drained_;
-  beat_.ready = !is_drained_ && view_ && view_->head() && !has_differed_ && !has_lost_rooms_ &&
-                !view_->has_gap() && !view_->lacks_rooms() && !is_cut_off();
-  told_.follow(beat_.ready, has_differed_, view_ ? view_->sequence() : 0);
-  beat_.silent_ms = static_cast<std::uint64_t>(
-      std::chrono::duration_cast<std::chrono::milliseconds>(view_ ? silence(now) : Duration{}).count());
+  const bool is_ready = !is_drained_ && view_ && view_->head() && !has_differed_ && !has_lost_rooms_ &&
+                        !view_->has_gap() && !view_->lacks_rooms() && !is_cut_off() &&
+                        (!viewers_ || !shown_.empty());
+  told_.follow(is_ready, has_differed_, view_ ? view_->sequence() : 0);
+  heartbeat_.tell([&](Beat& beat) {
+    beat.owns = false;
+    beat.leaves = is_leaving_ || is_drained_;
+    beat.ready = is_ready;
+    beat.silent_ms = static_cast<std::uint64_t>(
+        std::chrono::duration_cast<std::chrono::milliseconds>(view_ ? silence(now) : Duration{}).count());
+    if (!view_) return;
+    beat.writer = view_->head() ? view_->head()->writer : Writer{};
+    beat.sequence = view_->sequence();
+  });
   if (!view_) return;
-  known_rooms_.clear();
-  for (const auto& [name, room] : view_->rooms()) known_rooms_.push_back(name);
-  beat_.writer = view_->head() ? view_->head()->writer : Writer{};
-  beat_.sequence = view_->sequence();
+  std::vector<std::string> rooms;
+  for (const auto& [name, room] : view_->rooms()) rooms.push_back(name);
+  // An owner opens its rooms one after the other.
+  constexpr Duration kComplete = std::chrono::seconds(2);
+  const std::lock_guard lock(mutex_);
+  if (rooms != known_rooms_) rooms_changed_ = now;
+  known_rooms_ = std::move(rooms);
+  if (viewers_ || !is_ready || !rooms_changed_ || now - *rooms_changed_ < kComplete) return;
+  rooms_changed_.reset();
+  hooks_.stands_by(known_rooms_);
+}
+
+/// Of two modes of the hosts of a shard the owner's holds; another one's from the next takeover on.
+void Node::tell_mode() {
+  if (viewers_ || !view_ || !view_->head()) return;
+  const auto is_strict = table().is_strict(view_->head()->writer);
+  const bool differs = is_strict && *is_strict != settings_.is_strict;
+  if (differs && !is_other_mode_told_)
+    say(LogEvent::kClusterFault,
+        joined({view_->head()->writer.host, " plays in mode ", *is_strict ? "strict" : "play",
+                ", this host in mode ", settings_.is_strict ? "strict" : "play",
+                ": \"mode\" is to be the same in the file of each"}));
+  if (is_strict) is_other_mode_told_ = differs;
 }
 
 /// Until another host has them, or none does; then who is here is sent on.
 void Node::watch_handing_over(Time now) {
   // It says so itself, and sooner than this one has read it in the log.
-  const auto owner = table_.owner(now);
+  const auto owner = table().owner(now);
   const bool is_taken = owner && owner->writer.epoch > handed_epoch_;
   if (!is_taken && now - *handed_over_ < kTakenWithin) return;
   if (!is_taken) is_drained_ = false;  // or they would be nobody's
   if (!inbox_->is_stopping()) hooks_.step_down(is_taken ? owner->address : settings_.address);
   handed_over_.reset();
   is_leaving_ = false;
-  const std::lock_guard lock(mutex_);
-  beat_.to.clear();
+  heartbeat_.tell([](Beat& beat) { beat.to.clear(); });
 }
 
 Duration Node::silence(Time now) const {
-  const Time heard = view_->head() ? std::max(heard_, table_.heard(view_->head()->writer)) : heard_;
+  const Time heard = view_->head() ? std::max(heard_, table().heard(view_->head()->writer)) : heard_;
   return std::max(Duration{}, now - heard);
 }
 
@@ -258,12 +283,12 @@ bool Node::is_owner_gone(Time now) {
   constexpr Duration kTurn = std::chrono::milliseconds(100);
   constexpr Duration kUnlessOthersCan = std::chrono::seconds(2);
   if (has_differed_) return false;  // though it might go on from a later keyframe: which of the two errs?
-  if (is_cut_off() || table_.has_twin(now)) {
-    if (table_.has_twin(now))
+  if (is_cut_off() || table().has_twin(now)) {
+    if (table().has_twin(now))
       complain({"the cluster", "another host has this one's name: give each its own by --cluster-host"});
     return false;
   }
-  const auto place = table_.place_in_line(settings_.silence, now);
+  const auto place = table().place_in_line(settings_.silence, now);
   const Duration turn =
       kTurn * static_cast<int>(place.value_or(0)) +
       (has_lost_rooms_ || view_->has_gap() || view_->lacks_rooms() || !view_->head() ? kUnlessOthersCan
@@ -271,12 +296,12 @@ bool Node::is_owner_gone(Time now) {
   if (tried_ != Time{} && now - tried_ < settings_.silence) return false;
   // A new log is nobody's; one that was emptied may be that of a host which lives.
   if (!view_->head() || view_->head()->writer.epoch == 0)
-    return !table_.owner(now) && (view_->head() || after_ != 0) &&
-           silence(now) >
-               (view_->head() ? std::min<Duration>(settings_.silence, 5 * kBeatEvery) : settings_.silence) +
-                   turn;
+    return !table().owner(now) && (view_->head() || after_ != 0) &&
+           silence(now) > (view_->head() ? std::min<Duration>(settings_.silence, 5 * Heartbeat::kEvery)
+                                         : settings_.silence) +
+                              turn;
   constexpr Duration kUnlessWanted = std::chrono::seconds(1);
-  if (const auto to = table_.leaves(view_->head()->writer)) {
+  if (const auto to = table().leaves(view_->head()->writer)) {
     const bool is_wanted = *to == settings_.host;
     const Duration wait = is_wanted ? Duration{} : turn + (to->empty() ? Duration{} : kUnlessWanted);
     return now - *(going_ = going_.value_or(now)) >= wait;

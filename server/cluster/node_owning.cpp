@@ -17,7 +17,7 @@ void Node::own() {
   assert(writer_ && text_);
   while (!inbox_->is_stopping() && !is_to_hand_over_) {
     hear(inbox_->take(next_look(Clock::now())));
-    if (renew_links()) writer_->failed();
+    if (renew_log_link()) writer_->failed();
     if (inbox_->is_in_doubt()) ask_the_log();
     const Time now = Clock::now();
     text_->renew(now, kCutBytes);
@@ -60,14 +60,16 @@ void Node::ask_the_log() {
 
 void Node::tell_owning() {
   told_.own(*writer_, Clock::now());
+  heartbeat_.tell([this](Beat& beat) {
+    beat.owns = true;
+    beat.writer = writer_->writer();
+    beat.sequence = writer_->next_sequence() - 1 - writer_->waiting();
+    beat.silent_ms = 0;
+    beat.ready = false;
+  });
   const std::lock_guard lock(mutex_);
   known_rooms_.clear();
   for (const RoomPlace& place : text_->places()) known_rooms_.push_back(place.room);
-  beat_.owns = true;
-  beat_.writer = writer_->writer();
-  beat_.sequence = writer_->next_sequence() - 1 - writer_->waiting();
-  beat_.silent_ms = 0;
-  beat_.ready = false;
 }
 
 void Node::hear(std::deque<NodeEvent> events) {
@@ -203,14 +205,11 @@ void Node::watch_durability(Time now) {
 }
 
 void Node::step_down() {
-  const auto owner = table_.owner(Clock::now());
+  const auto owner = table().owner(Clock::now());
   say(LogEvent::kClusterFenced,
       joined({"FENCED: the log is that of ", to_text(writer_->other()),
               owner ? " at " + owner->address : std::string(), "; the rooms end here"}));
-  {
-    const std::lock_guard lock(mutex_);
-    beat_.owns = false;
-  }
+  heartbeat_.tell([](Beat& beat) { beat.owns = false; });
   kept_.clear();  // nobody is shown what another host's log has not
   hooks_.step_down(owner ? owner->address : std::string());
   writer_.reset();
@@ -230,11 +229,8 @@ void Node::store_the_rest() {
   tell_kept();
   kept_.clear();
   tell_owning();
-  {
-    const std::lock_guard lock(mutex_);
-    beat_.leaves = true;
-  }
-  beat_soon();
+  heartbeat_.tell([](Beat& beat) { beat.leaves = true; });
+  heartbeat_.soon();
 }
 
 }  // namespace woodlouse::server

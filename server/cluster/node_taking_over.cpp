@@ -27,7 +27,7 @@ bool Node::take_over() {
   inbox_->settle();
   log_link_->unfollow();
   tell_owning();
-  beat_soon();
+  heartbeat_.soon();
   if (!inbox_->is_stopping() && !is_leaving_) hooks_.take_over(std::move(rooms));
   return true;
 }
@@ -58,7 +58,7 @@ bool Node::catch_up() {
 bool Node::take_log() {
   constexpr Duration kWait = std::chrono::seconds(5);
   const std::uint64_t known = view_->head() ? view_->head()->writer.epoch : 0;
-  writer_.emplace(Writer{std::max(known, table_.highest_epoch()) + 1, settings_.host, make_resume_token()},
+  writer_.emplace(Writer{std::max(known, table().highest_epoch()) + 1, settings_.host, make_resume_token()},
                   view_->head() ? view_->sequence() : after_);
   text_.emplace(settings_.keep);
   is_full_ = false;

@@ -70,6 +70,7 @@ void Members::give_louse(Seat& seat) {
     seat.louse = taken->louse;
     seat.next_seq = taken->next_seq;
     seat.muted_until = std::max(seat.muted_until, taken->muted_until);
+    seat.mute_ends = std::max(seat.mute_ends, taken->mute_ends);
     if (is_session)
       log_event(*log_, LogEvent::kLouseTakenOver,
                 fmt::format("room {}: \"{}\" takes over louse {} of the recording", settings_.name, seat.name,

@@ -56,7 +56,7 @@ class Members {
   /// Who may come back to which louse; behind the watcher's begin().
   void tell_claims(TickWatcher& watcher) {
     const auto tell = [&watcher](const Seat& seat, const auto&) {
-      if (seat.claim && seat.louse != 0) watcher.claimed({seat.louse, seat.name, seat.role, *seat.claim});
+      if (seat.claim && seat.louse != 0) watcher.claimed(claim_of(seat));
     };
     seats_.for_each<SessionOccupant>(tell);
     seats_.for_each<Vacant>(tell);
@@ -107,8 +107,13 @@ class Members {
   /// 0: nobody.
   [[nodiscard]] SessionId put_out(const RosterEntry& whom);
   /// His chat is refused until then, also when he has gone and comes back to his louse; Time{}: no more.
-  void mute(const RosterEntry& whom, Time until) {
-    if (Seat* seat = seats_.find(whom)) seat->muted_until = until;
+  /// ends: the same by the calendar, as a Claim has it.
+  void mute(const RosterEntry& whom, Time until, std::uint64_t ends) {
+    Seat* seat = seats_.find(whom);
+    if (seat == nullptr) return;
+    seat->muted_until = until;
+    seat->mute_ends = ends;
+    if (seat->claim && seat->louse != 0) tell_claim(*seat);
   }
   [[nodiscard]] std::vector<RosterEntry> roster(Time now) const { return seats_.roster(now); }
   /// Says bye to every session; they are members no more.
@@ -154,7 +159,10 @@ class Members {
     assert(seat.louse != 0);
     seat.token = make_resume_token();
     seat.claim = digest_of(*seat.token);
-    for (const auto& watcher : watchers_) watcher->claimed({seat.louse, seat.name, seat.role, *seat.claim});
+    tell_claim(seat);
+  }
+  void tell_claim(const Seat& seat) {
+    for (const auto& watcher : watchers_) watcher->claimed(claim_of(seat));
   }
   void hold(Seat seat);
   void end(const Seat& seat);

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <utility>
 
+#include "server/access/bans.h"
 #include "server/room/room.h"
 #include "shared/protocol/codes.h"
 #include "shared/replay/line_writer.h"
@@ -55,12 +56,14 @@ void Room::put_out(std::vector<RosterEntry> entries, std::function<void(std::vec
 
 void Room::mute(const RosterEntry& whom, std::optional<Duration> lasts) {
   asio::post(strand_, [self = shared_from_this(), this, whom, lasts] {
-    members_.mute(whom, lasts ? timekeeper_.now() + *lasts : Time::max());
+    const auto seconds = lasts ? std::chrono::ceil<std::chrono::seconds>(*lasts).count() : 0;
+    const auto ends = static_cast<std::uint64_t>(wall_now().time_since_epoch().count() + seconds);
+    members_.mute(whom, lasts ? timekeeper_.now() + *lasts : Time::max(), lasts ? ends : kMutedForGood);
   });
 }
 
 void Room::unmute(const RosterEntry& whom) {
-  asio::post(strand_, [self = shared_from_this(), this, whom] { members_.mute(whom, Time{}); });
+  asio::post(strand_, [self = shared_from_this(), this, whom] { members_.mute(whom, Time{}, 0); });
 }
 
 void Room::pause(Ordered answered) {

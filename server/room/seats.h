@@ -2,6 +2,7 @@
 // goes on from, and those whose player may come back. Each has a seat. Pure. The room's strand owns it.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -77,7 +78,14 @@ struct Seat {
   std::optional<std::uint32_t> last_seq{};  ///< of its session's own count
   std::uint32_t dropped_below = 0;  ///< inputs that were filed under less, and not taken, never will be
   Time muted_until{};               ///< by an operator; also when its player comes back
+  std::uint64_t mute_ends = 0;      ///< the same by the calendar, as a Claim has it
 };
+
+/// REQUIRES that it has one.
+[[nodiscard]] inline Claim claim_of(const Seat& seat) {
+  assert(seat.claim && seat.louse != 0);
+  return {seat.louse, seat.name, seat.role, *seat.claim, seat.mute_ends};
+}
 
 class Seats {
  public:

@@ -172,12 +172,13 @@ std::string did_you_mean(std::string_view text, std::initializer_list<std::strin
   return best.empty() ? std::string() : core::joined({"did you mean \"", best, "\"?"});
 }
 
+Fields::Fields(const Value& object, Problems& problems) : object_(object), problems_(problems) {
+  if (!object.is(Kind::kObject)) problems.add(object, expected("an object", object));
+}
+
 Fields::Fields(const Value& object, std::initializer_list<std::string_view> known, Problems& problems)
-    : object_(object), problems_(problems) {
-  if (!object.is(Kind::kObject)) {
-    problems.add(object, expected("an object", object));
-    return;
-  }
+    : Fields(object, problems) {
+  if (!object.is(Kind::kObject)) return;
   for (const Value& member : object.children()) {
     if (std::find(known.begin(), known.end(), member.key()) != known.end()) continue;
     if (problems.is_full()) {  // a suggestion costs more than its key

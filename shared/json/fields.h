@@ -94,6 +94,8 @@ std::string any_text(const Value& value, std::size_t max, Problems& problems);
 class Fields {
  public:
   Fields(const Value& object, std::initializer_list<std::string_view> known, Problems& problems);
+  /// Of what a newer build may say more in: unknown ones are passed over.
+  Fields(const Value& object, Problems& problems);
 
   /// The member, or nothing when it is left out.
   [[nodiscard]] std::optional<Value> find(std::string_view key) const { return object_.find(key); }

@@ -194,7 +194,7 @@ class Accounts(unittest.TestCase):
     def test_an_edge_reads_and_writes_nothing(self):
         first, second = self.two_hosts()
         with Wire(self.nats, "edge") as edge:
-            for subject in ("wl.woodlouse.log.main", "wl.woodlouse.beat.a", "wl.woodlouse.beat.new", "$JS.API.STREAM.DELETE.WL_woodlouse_main",
+            for subject in ("wl.woodlouse.log.main", "wl.woodlouse.beat.a", "wl.woodlouse.beat.new", "wl.woodlouse.move.main", "$JS.API.STREAM.DELETE.WL_woodlouse_main",
                             "$JS.API.STREAM.PURGE.WL_woodlouse_main", "$JS.API.STREAM.UPDATE.WL_woodlouse_main", "$JS.API.STREAM.CREATE.other",
                             "$JS.API.STREAM.MSG.DELETE.WL_woodlouse_main", "$JS.API.STREAM.SNAPSHOT.WL_woodlouse_main",
                             "$JS.API.CONSUMER.DURABLE.CREATE.WL_woodlouse_main.d", "_INBOX.anybody"):

@@ -16,6 +16,7 @@ import unittest
 
 import stage
 from faults_test import Cluster
+from nats_wire import Wire
 
 CLIENT = os.environ["WOODLOUSE_CLIENT"]
 SOURCE = pathlib.Path(stage.MAPS).parent
@@ -146,6 +147,78 @@ class Directory(Cluster):
             self.assertEqual(client.join(rooms[2]["code"])["address"], second.address)
         with Client(second.address) as client:
             self.assertEqual(client.join(rooms[2]["code"])["room"], "volcano")
+
+
+    def test_who_has_just_begun_is_told_of_the_rooms_at_once(self):
+        """An owner tells his rooms once a second: who comes between does not wait for that."""
+        first = self.host("a", maps=("volcano", "hills"))
+        first.wait_for("cluster_owns")
+        beats = []  # (who, whether its rooms are in it)
+        with Wire(self.nats.ports[0]) as wire:
+            def take(payload):
+                beat = json.loads(payload)
+                beats.append((beat["host"], beat["process"], "rooms" in beat))
+            for kind in ("beat", "edge"):
+                wire.subscribe(f"wl.woodlouse.{kind}.*", take)
+            time.sleep(4)  # past the time in which he tells them in each
+            self.assertIn(("a", False), {(who, has_rooms) for who, _, has_rooms in beats})
+            for k in range(6):
+                late = self.enterContext(stage.EdgeHost(self.nats, "e")) if k % 2 else self.host(f"n{k}", maps=("volcano", "hills"))
+                late.wait_for("cluster_follows")
+                time.sleep(0.5)
+                late.signal(signal.SIGKILL)  # no word from it
+            owner = next(process for who, process, _ in beats if who == "a")
+            seen, fresh = {owner}, 0
+            for at, (_, process, _) in enumerate(list(beats)):
+                if process in seen:
+                    continue
+                seen.add(process)
+                fresh += 1
+                own = [has_rooms for _, other, has_rooms in beats[at:] if other == owner][:6]
+                self.assertIn(True, own, f"{fresh} of {len(seen)}")
+            self.assertEqual(fresh, 6)
+
+    def test_who_is_muted_is_so_at_the_next_host(self):
+        first, second = self.two_hosts()
+        said = subprocess.run([stage.PROGRAM, "admin", "--socket", first.door, "mute", "nobody"], capture_output=True, text=True, timeout=30)
+        self.assertNotEqual(said.returncode, 0)
+        tokens = {}
+        for name in ("mallory", "ann", "bob"):
+            client = self.enterContext(Client(first.address))
+            client.say(type="join", protocol=1, name=name, room="volcano", resume=True)
+            tokens[name] = client.next("welcome")["resume_token"]
+        for order in (["mute", "mallory"], ["mute", "bob", "--for", "1h"], ["mute", "ann"], ["unmute", "ann"]):
+            subprocess.run([stage.PROGRAM, "admin", "--socket", first.door, *order], check=True, capture_output=True, timeout=30)
+        time.sleep(0.5)
+        first.signal(signal.SIGTERM)
+        second.wait_for("goes on from the log of main")
+        words = {}
+        for name, token in tokens.items():
+            client = self.enterContext(Client(second.address))
+            client.say(type="join", protocol=1, name=name, room="volcano", resume=token)
+            self.assertTrue(client.next("welcome")["resumed"])
+            client.say(type="chat", text="hello")
+            message = client.next("error", "event")
+            while message.get("kind") not in (None, "chat"):
+                message = client.next("error", "event")
+            words[name] = message.get("text", "")
+        self.assertRegex(words["mallory"], "you have been muted as long as you are here")
+        self.assertRegex(words["bob"], r"you have been muted for another 3[56]\d\d s")
+        self.assertEqual(words["ann"], "hello")
+
+    def test_a_host_of_another_mode_or_other_rooms_is_told_so(self):
+        first = self.host("a")
+        first.wait_for("cluster_owns")
+        file = os.path.join(self.nats.folder, "strict.json")
+        with open(self.nats.file) as main, open(file, "w") as out:
+            json.dump({**json.load(main), "mode": "strict"}, out)
+        second = self.host("b", maps=("volcano", "hills"), file=file)
+        second.wait_for('a plays in mode play, this host in mode strict: "mode" is to be the same in the file of each')
+        second.wait_for("the cluster does not play hills, which this host would: opened once its rooms are here")
+        self.assertRegex(self.nats.command("status")[1], r"(?m)^host b at \S+: stands by, mode strict, ")
+        first.signal(signal.SIGKILL)
+        second.wait_for("cluster_owns")
+        wait_for_rooms(second.address, lambda rooms: {room["name"] for room in rooms} == {"volcano", "hills"})
 
 
 class Figures(Cluster):

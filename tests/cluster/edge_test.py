@@ -13,6 +13,7 @@ import time
 import unittest
 
 import stage
+from directory_test import Client, woodlouse
 from faults_test import Cluster
 from stage import Clients, EdgeHost
 
@@ -79,6 +80,11 @@ class Edge(Cluster):
 
     def watch(self, address, **join):
         return self.enterContext(Watcher(address, **join))
+
+    @staticmethod
+    def rooms(host):
+        with Client(host.address) as client:
+            return client.rooms()
 
     @staticmethod
     def hello(host):
@@ -153,6 +159,54 @@ class Edge(Cluster):
         self.assertEqual(next(m for m in eve.messages if m["type"] == "error")["code"], "only_shown")
         rooms = next(m for m in eve.messages if m["type"] == "rooms")["rooms"]
         self.assertEqual([(room["name"], room["spectators"]) for room in rooms], [("volcano", 1)])
+        self.assertEqual(edge.end(), 0)
+
+    def test_who_watches_at_one_that_ends_goes_on_at_another(self):
+        first = self.host("a")
+        first.wait_for("cluster_owns")
+        edges = [self.edge(), self.edge()]
+        end = time.monotonic() + stage.PATIENCE
+        while self.hello(edges[0]).get("hosts") != [edges[1].address, first.address]:
+            self.assertLess(time.monotonic(), end, self.hello(edges[0]))
+            time.sleep(0.05)
+        self.assertEqual(self.hello(first).get("hosts"), None)  # who plays has no use for an edge
+        code, said = self.nats.command("status")
+        self.assertEqual(code, 0, said)
+        for edge in edges:
+            self.assertRegex(said, rf"(?m)^edge \S+ at {edge.address}: shows the rooms, has read up to batch \d+$")
+        self.assertRegex(said, rf"(?m)^host a at {first.address}: owns the rooms, mode play, stored up to batch \d+$")
+        with woodlouse.connect(edges[0].address, name="eve", role="spectator") as game:
+            states = game.states()
+            next(states)
+            edges[0].signal(signal.SIGKILL)
+            edges[0].process.wait()
+            end = time.monotonic() + stage.PATIENCE
+            while self.rooms(edges[1])[0]["spectators"] != 1:
+                self.assertLess(time.monotonic(), end)
+                next(states)
+            self.assertEqual(self.rooms(first)[0]["spectators"], 0)
+            end = time.monotonic() + stage.PATIENCE
+            while self.hello(edges[1]).get("hosts") != [first.address]:  # the other one is forgotten
+                self.assertLess(time.monotonic(), end)
+                time.sleep(0.1)
+            edges[1].signal(signal.SIGTERM)  # an orderly end loses nobody either
+            while self.rooms(first)[0]["spectators"] != 1:
+                self.assertLess(time.monotonic(), end)
+                next(states)
+            self.assertEqual(edges[1].end(), 0)
+        while "edge " in (said := self.nats.command("status")[1]):
+            self.assertLess(time.monotonic(), end, said)
+
+    def test_an_edge_that_shows_nothing_says_so_and_an_address_without_a_port_is_refused(self):
+        edge = self.enterContext(EdgeHost(self.nats, "e"))
+        end = time.monotonic() + stage.PATIENCE
+        while "edge " not in (said := self.nats.command("status")[1]):
+            self.assertLess(time.monotonic(), end, said)
+        self.assertRegex(said, r"(?m)^edge \S+ at \S+: SHOWS NOTHING \(its log says why\), has read up to batch \d+$")
+        for address in ("127.0.0.1:0", "my host:7"):
+            said = subprocess.run([stage.PROGRAM, "--cluster", self.nats.file, "--cluster-edge", "--cluster-address", address], capture_output=True, text=True, timeout=30)
+            self.assertEqual(said.returncode, 2, said.stderr)
+            self.assertIn(f"--cluster-address {address}: is no HOST:PORT", said.stderr)
         self.assertEqual(edge.end(), 0)
 
     def test_a_game_whose_log_was_removed_is_shown_no_more_and_the_next_one_is(self):

@@ -1,6 +1,6 @@
 """Kills the host of a room again and again, or has the room moved, and tells what its players saw.
 
-Usage: failover.py [--rounds N] [--bots N] [--silence MS] [--replicas N] [--by KILL|TERM|MOVE]
+Usage: failover.py [--rounds N] [--bots N] [--hosts N] [--silence MS] [--replicas N] [--by KILL|TERM|MOVE]
 
 Each round: the owner is killed while bots steer; another host goes on. Told: from the kill to the first frame of the
 new host, to the last bot that is back, whether each is back in its own louse, whether a tick was lost that the log had
@@ -37,7 +37,7 @@ async def rounds(nats, hosts, player, options):
             louse = {bot.name: bot.welcomes[-1][1]["id"] for bot in lice}
             welcomes = {bot.name: len(bot.welcomes) for bot in lice}
             acked = nats.tick()
-            other = next(name for name in names if name != owner)
+            owned = {name: hosts[name].log().count("cluster_owns") for name in names if name != owner}
             killed = time.monotonic()
             if options.by == "MOVE":
                 losses = sum(len(bot.losses) for bot in lice)
@@ -48,8 +48,9 @@ async def rounds(nats, hosts, player, options):
                 hosts[owner].signal(signal.SIGKILL if options.by == "KILL" else signal.SIGTERM)
             await wait_until(lambda: any(len(bot.welcomes) > welcomes[bot.name] and bot.newest[0] > killed and
                                          bot.newest[1] >= bot.welcomes[-1][1]["tick"] for bot in lice),
-                             what=f"round {number}: nobody sees a tick again:\n" + hosts[other].log())
+                             what=f"round {number}: nobody sees a tick again:\n" + "\n".join(hosts[name].log() for name in owned))
             outages.append(time.monotonic() - killed)
+            other, = (name for name, times in owned.items() if hosts[name].log().count("cluster_owns") > times)
             await wait_until(lambda: all(len(bot.welcomes) > welcomes[bot.name] for bot in lice),
                              what=f"round {number}: not all came back")
             returns.append(max(bot.welcomes[-1][0] for bot in lice) - killed)
@@ -95,6 +96,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--bots", type=int, default=20)
+    parser.add_argument("--hosts", type=int, default=2)
     parser.add_argument("--silence", type=int, default=250)
     parser.add_argument("--replicas", type=int, default=1)
     parser.add_argument("--pause", type=float, default=2.0)
@@ -104,8 +106,10 @@ def main():
     with stage.Nats(options.replicas, silence_ms=options.silence) as nats:
         first = stage.Host(nats, "a", *stage_arguments(options))
         first.wait_for("cluster_owns")
-        hosts = {"a": first, "b": stage.Host(nats, "b", *stage_arguments(options))}
-        hosts["b"].wait_for("cluster_follows")
+        hosts = {"a": first}
+        for name in "bcdefgh"[:options.hosts - 1]:
+            hosts[name] = stage.Host(nats, name, *stage_arguments(options))
+            hosts[name].wait_for("cluster_follows")
         try:
             with witness.Witness([host.address for host in hosts.values()]) as player:
                 outages, returns, gaps, lost, strangers, lice = stage.play(rounds(nats, hosts, player, options))
@@ -113,7 +117,7 @@ def main():
             logs = {name: host.log() for name, host in hosts.items()}
             for host in hosts.values():
                 host.end()
-        print(f"{options.rounds} times {options.by}, {options.bots} bots, silence {options.silence} ms, R{options.replicas}:")
+        print(f"{options.rounds} times {options.by}, {options.bots} bots, {options.hosts} hosts, silence {options.silence} ms, R{options.replicas}:")
         for what, values in (("to the next tick that one of the bots sees", outages), ("longest pause between two frames of a player by himself", gaps)):
             milliseconds = [1000 * value for value in values]
             print(f"  {what} [ms]: median {statistics.median(milliseconds):.0f}, "

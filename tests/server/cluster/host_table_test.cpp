@@ -2,7 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <chrono>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -121,6 +123,101 @@ TEST_CASE("a beat is read as it was told, with rooms, with none, and without a w
   CHECK(beat_from(to_text(full)) == full);
   full.rooms->push_back({"one", "too many", 0, 0, 0});
   CHECK_FALSE(beat_from(to_text(full)));
+}
+
+TEST_CASE("what a newer build says more is passed over") {
+  Beat beat = owner("b", "main", 3, {"volcano"});
+  beat.strict = true;
+  std::string text = to_text(beat);
+  text.insert(1, R"("colour":{"of":["a","host"]},)");
+  text.insert(text.find(R"({"name":"volcano")") + 1, R"("height":3,)");
+  CHECK(beat_from(text) == beat);
+  text.replace(text.find(R"("strict":true)"), 13, R"("strict":"no")");
+  CHECK_FALSE(beat_from(text));
+}
+
+TEST_CASE("an address at which nobody can be reached is heard as none") {
+  for (const std::string address : {"nonsense", "127.0.0.1:0", "my host:7", "[fe80::1%eth0]:7777",
+                                    "edge.example", ":7777", "a:99999", ""}) {
+    Beat beat = owner("b", "main", 3, {});
+    beat.address = address;
+    const auto read = beat_from(to_text(beat));
+    REQUIRE(read);
+    CHECK(read->address.empty());
+  }
+}
+
+TEST_CASE("who is heard for the first time is told apart from who goes on, of any shard") {
+  HostTable table("me", "main", 7);
+  Beat beat = owner("b", "main", 3, {});
+  CHECK(table.take(beat, kNow));
+  CHECK_FALSE(table.take(beat, kNow));
+  beat.process = 5;  // begun anew
+  CHECK(table.take(beat, kNow));
+  CHECK(table.take(owner("x", "other", 9, {}), kNow));
+  Beat own = owner("me", "main", 1, {});
+  own.process = 7;
+  CHECK_FALSE(table.take(own, kNow));
+  CHECK(table.take(beat, kNow + 2 * HostTable::kForgottenAfter));
+  beat.shard = "other";
+  CHECK(table.take_edge(beat, kNow));
+  CHECK_FALSE(table.take_edge(beat, kNow));
+}
+
+TEST_CASE("edges are no hosts, two may have one name, and who asks for some is told of others each time") {
+  HostTable table("", "main", 7);
+  const auto edge = [](std::uint64_t process, const std::string& address) {
+    Beat beat;
+    beat.host = "e";
+    beat.shard = "main";
+    beat.process = process;
+    beat.address = address;
+    beat.ready = true;
+    return beat;
+  };
+  for (std::uint64_t k = 1; k <= 3; ++k) table.take_edge(edge(k, std::to_string(k) + ":7777"), kNow);
+  table.take_edge(edge(7, "own:7777"), kNow);
+  table.take_edge(edge(8, ""), kNow);  // told no address
+  Beat late = edge(9, "late:7777");
+  late.ready = false;
+  table.take_edge(late, kNow);
+  Beat going = edge(10, "going:7777");
+  going.leaves = true;
+  table.take_edge(going, kNow);
+  Beat stranger = edge(11, "stranger:7777");
+  stranger.shard = "other";
+  table.take_edge(stranger, kNow);
+  Beat liar = owner("l", "main", 99, {"volcano"});  // it owns nothing, whatever it says
+  liar.process = 12;
+  table.take_edge(liar, kNow);
+  CHECK(told(table, kNow).empty());
+  CHECK(table.highest_epoch() == 0);
+  CHECK(table.edges(kNow).size() == 7);
+  CHECK(table.hosts(kNow).empty());
+  CHECK_FALSE(table.successor(kNow));
+  table.take_edge(edge(13, "3:7777"), kNow);  // behind the same load balancer
+  const Lines all{"1:7777", "2:7777", "3:7777"};
+  std::map<std::string, int> first;
+  for (int k = 0; k < 600; ++k) {
+    const Lines told = table.edge_addresses(kNow, 9);
+    REQUIRE(std::is_permutation(told.begin(), told.end(), all.begin(), all.end()));
+    ++first[table.edge_addresses(kNow, 1).at(0)];  // of two that ask by turns each is told of all
+  }
+  for (const std::string& address : all) CHECK(first[address] > 120);
+  CHECK(table.edge_addresses(kNow + 2 * HostTable::kForgottenAfter, 9).empty());
+  for (std::uint64_t k = 0; k < HostTable::kMostEdges + 5; ++k) table.take_edge(edge(1000 + k, "x:1"), kNow);
+  CHECK(table.edges(kNow).size() < HostTable::kMostEdges);
+}
+
+TEST_CASE("of an owner it is known whether its mode is strict, if it says so") {
+  HostTable table("me", "main", 7);
+  Beat beat = owner("b", "main", 3, {});
+  table.take(beat, kNow);
+  CHECK_FALSE(table.is_strict(beat.writer));
+  beat.strict = false;
+  table.take(beat, kNow);
+  CHECK(table.is_strict(beat.writer) == std::optional(false));
+  CHECK_FALSE(table.is_strict({4, "b", {1, 2}}));
 }
 
 TEST_CASE("hosts of other shards are bounded, and forgotten") {
