@@ -253,7 +253,7 @@ class Game(Session):
             self._ground, self.physics = None, dict(message["physics"])
         if is_comeback:
             self._seq, self._welcomed_on = 0, self._lines
-        if before is None or not is_comeback or any(before.get(what) != message.get(what) for what in ("map", "mode")):
+        if before is None or not is_comeback or before["map"]["hash"] != message["map"]["hash"] or before.get("mode") != message.get("mode"):
             self.games += 1
         self._resyncing, self._state = False, None
         self.welcome = message
