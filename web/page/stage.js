@@ -152,7 +152,7 @@ export class Stage {
     }
     if (this.isPlaying) this.room?.own?.steering.lookAlong(this.picture.camera.azimuth);
     source?.update(seconds);
-    if (source?.ground && source.ground !== this.#ground) this.#setGround(source.ground);
+    if (source?.ground && (source.ground !== this.#ground || picture.isRough)) this.#setGround(source.ground);
     if (source?.ground && source.isKnown !== false) {  // a ground without its lice would only hold up the first picture
       this.#chooseFollowed();
       const facts = source.facts?.(this.followed || source.you || 0);
@@ -179,7 +179,7 @@ export class Stage {
 
   #setGround(ground) {
     const { columns, rows } = this.picture.gridFor(ground.domain);
-    this.picture.setGround({ domain: ground.domain, wraps: ground.wraps, centre: ground.centre, edges: this.source.mode === 'hill' && this.source.welcome?.rules?.edge === 'fall' ? 'open' : ground.edges, columns, rows, grid: ground.grid(columns, rows) });
+    this.picture.setGround({ domain: ground.domain, wraps: ground.wraps, centre: ground.centre, edges: this.source.mode === 'hill' && this.source.welcome?.rules?.edge === 'fall' ? 'open' : ground.edges, columns, rows, grid: ground.grid(columns, rows) }, ground === this.#ground);
     this.picture.clearTrails();
     this.#ground = ground;
   }

@@ -2,6 +2,7 @@ import assert from 'node:assert/strict';
 import test, { afterEach } from 'node:test';
 import { Door, Link, waitBefore } from '../page/live/link.js';
 import { decoded, isRecorded } from '../page/live/messages.js';
+import { Room } from '../page/live/room.js';
 
 const HELLO = { type: 'hello', protocol: 1, behavior: 10, server: 's', session: '1', rooms: ['hills', 'volcano'], features: ['rules', 'inputs'], limits: {} };
 const WELCOME = {
@@ -148,4 +149,22 @@ test('more than a page can show is no message', () => {
   assert.equal(decoded(game(64)).game.crumbs.length, 64);
   assert.throws(() => decoded(game(5000)), /other fields/);
   assert.throws(() => decoded(JSON.stringify({ type: 'notice', code: 'x', text: 'x'.repeat(5000) })), /other fields/);
+});
+
+test('who watches by inputs is shown a room by its keyframe alone, whatever its tick: the next line is not waited for', (t) => {
+  for (const tick of [811, 812, 813]) {
+    Wire.all = [];
+    const louse = { id: 3, phase: 0, x: 1, y: 2, vx: 0, vy: 0, heading_x: 1, heading_y: 0 }, ground = { domain: [-9, -9, 9, 9], wraps: [false, false], isExact: true, hash: WELCOME.map.hash };
+    const follower = { tick: -1, proven: 0, take() { this.tick = tick; return true; }, beginAnew() {}, ground: () => ground, lice: () => [louse], standings: () => [], game: () => null };
+    const room = new Room({ url: 'ws://x/ws', core: { behavior: 10, follower: () => follower }, wish: { role: 'spectator', name: 'eve', room: '', token: '' }, parts: null, storage: null,
+                            onNotice: () => {}, onTokenWanted: () => assert.fail(), Socket: Wire });
+    t.after(() => room.stop());
+    room.start();
+    Wire.all[0].say(HELLO);
+    Wire.all[0].say({ ...WELCOME, id: 0, stream: 'inputs' }, `{"keyframe":${tick},"hash":"x"}`);
+    room.update(performance.now() / 1000);
+    assert.equal(room.isKnown, true, `tick ${tick}`);
+    assert.deepEqual(room.lice.map(({ id, x, y }) => [id, x, y]), [[3, 1, 2]]);
+    assert.equal(room.ground, ground);
+  }
 });

@@ -228,7 +228,8 @@ export class Room {
     if (!stream?.isRunning) return;
     if (stream.ground !== this.ground) this.#begin(stream.ground);
     for (const snapshot of stream.takeSnapshots()) this.#time.frames.show(snapshot);
-    if (stream.isOnTime) this.#observe(stream.tick, now);
+    // Between two that go out on time only the keyframe is by itself: what is shown need not wait for the next one.
+    if (stream.isOnTime || !this.#time.clock.isRunning) this.#observe(stream.tick, now);
   }
 
   #pong(pong, now) {

@@ -51,11 +51,12 @@ export class Camera {
     this.eye = [0, 0, 1];
   }
 
-  /** Looks at another ground. @param {Stage} stage */
-  setStage(stage) {
+  /** Looks at another ground, or at the same one by other points, which leaves the view as it is. @param {Stage} stage @param {boolean} isSame */
+  setStage(stage, isSame = false) {
     this.stage = stage;
-    this.now = null;
     this.fitted = undefined;
+    if (isSame) return;
+    this.now = null;
     this.pitch.orbit = stage.isPot ? POT : HILL;
     this.pitch.follow = stage.isPot ? POT : FOLLOW;
     this.zooms = { orbit: 1, follow: 1, map: 1 };

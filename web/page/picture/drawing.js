@@ -130,7 +130,7 @@ export class Drawing {
     gl.enable(gl.DEPTH_TEST);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     const solid = is => {
-      gl.depthMask(is);
+      gl.depthMask(is || this.flat === this.plain);  // of a first picture all is drawn in one way, of which machine code is made once
       if (is) gl.disable(gl.BLEND); else gl.enable(gl.BLEND);
     };
     solid(true);

@@ -19,8 +19,8 @@ export const PLAIN = { plain: [FLAT, HEAD + 'in vec4 c; out vec4 o; void main(){
 export const NO_CHANGE = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 /** Of the sky, each way. */
 const TILES = [16, 10];
-/** Every so many-th of the grid's points. */
-const STEP = 2;
+/** Points of a side at most: of more every so many-th. */
+const MOST = 64;
 /** Of the soil's light. */
 const SHADE = .6;
 
@@ -47,7 +47,8 @@ export class FirstDrawing {
     const { array, count, skyAt } = this.mesh;
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, width, height);
-    gl.disable(gl.BLEND);
+    gl.enable(gl.BLEND);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.enable(gl.DEPTH_TEST);
     gl.depthMask(true);
     gl.clear(gl.DEPTH_BUFFER_BIT);
@@ -57,10 +58,6 @@ export class FirstDrawing {
     use(gl, this.program, { M: NO_CHANGE });
     gl.drawElements(gl.TRIANGLES, count - skyAt, gl.UNSIGNED_SHORT, 2 * skyAt);
     gl.bindVertexArray(null);
-    // what follows lies on it
-    gl.depthMask(false);
-    gl.enable(gl.BLEND);
-    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
   /** @private @param {import('./relief.js').Relief} relief @param {import('./colours.js').ThemeName} theme @param {boolean} slope @param {number} bottom */
@@ -69,8 +66,9 @@ export class FirstDrawing {
     const painted = firstCoat(relief, rampsOf(relief, look), slope, look.sun);
     /** @type {number[]} */
     const places = [], /** @type {number[]} */ triangles = [];
+    const step = Math.ceil(Math.max(columns, rows) / MOST);
     /** Each so many-th, and the last. @param {number} count */
-    const chosen = count => [...Array.from({ length: Math.ceil((count - 1) / STEP) }, (_, k) => STEP * k), count - 1];
+    const chosen = count => [...Array.from({ length: Math.ceil((count - 1) / step) }, (_, k) => step * k), count - 1];
     const across = chosen(columns), up = chosen(rows);
     const vertex = (x, y, z, r, g, b) => places.push(x, y, z, 1, r, g, b, 1) / 8 - 1;
     const sheet = (first, wide, high) => {
@@ -132,6 +130,6 @@ export function makeOvals(staging) {
     const d = data.subarray(INSTANCE * k, INSTANCE * (k + 1)), [x, y, z, half, fx, fy, fz, , ux, uy, uz, ghost, r, g, b] = d;
     if (ghost) continue;
     const aside = [(uy * fz - uz * fy) * half * .58, (uz * fx - ux * fz) * half * .58, (ux * fy - uy * fx) * half * .58], rise = half * .35;
-    decals.disc([x + ux * rise, y + uy * rise, z + uz * rise], [fx * half, fy * half, fz * half], aside, 8, [r * .86, g * .86, b * .86], 1, 1);
+    decals.disc([x + ux * rise, y + uy * rise, z + uz * rise], [fx * half, fy * half, fz * half], aside, 6, [r * .86, g * .86, b * .86], 1, 1);
   }
 }

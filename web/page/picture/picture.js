@@ -9,6 +9,8 @@ import { buildScenery } from './scenery.js';
 import { Staging } from './staging.js';
 
 const EMPTY = 2500;  // ms from the navigation on; a room that has shown nobody by then may be empty
+/** Points of a first picture's ground: what a browser runs for the first time it runs slowly. */
+const ROUGH = 48;
 
 /** @typedef {Pick<typeof import('./fine_drawing.js') & typeof import('./marks.js') & typeof import('./names.js'), 'FineDrawing' | 'Names' | 'drawMarks'>} Parts */
 
@@ -47,6 +49,8 @@ export class Picture {
     this.peopled = 0;
     /** Whether the first of them is still to come: until then nothing is done that can wait. */
     this.isFirst = true;
+    /** Points of the ground's longer side, where it is to be set again with more of them; 0: it is as it stays. */
+    this.rough = 0;
     /** Milliseconds of own script in the last frame. */
     this.cost = 0;
   }
@@ -58,9 +62,15 @@ export class Picture {
     this.names = new Names(this.labels);
   }
 
-  /** How many points a grid of this ground should have: more than the machine can draw help nobody. @param {number[]} domain */
+  /** Whether a ground is set as roughly as it is first, and can be drawn finely by now. */
+  get isRough() {
+    return this.rough > 0 && !this.isFirst && !!this.drawing.Fine;
+  }
+
+  /** How many points a grid of this ground should have: more than the machine can draw help nobody, and a first picture has few. @param {number[]} domain */
   gridFor(domain) {
-    const longest = this.drawing.isSoftware ? 112 : 224, w = domain[2] - domain[0], h = domain[3] - domain[1];
+    this.rough = this.isFirst && this.drawing.isSoftware ? ROUGH : 0;
+    const longest = this.rough || (this.drawing.isSoftware ? 112 : 224), w = domain[2] - domain[0], h = domain[3] - domain[1];
     const side = v => Math.max(24, Math.round(longest * v / Math.max(w, h)));
     return { columns: side(w), rows: side(h) };
   }
@@ -77,13 +87,13 @@ export class Picture {
     return { steepest: Math.atan(this.relief.steep * STEEPEST) * 180 / Math.PI, gradient: `linear-gradient(90deg, ${colours})` };
   }
 
-  /** Shows another ground. @param {import('./relief.js').GroundData} ground */
-  setGround(ground) {
+  /** Shows another ground, or the same again with other points. @param {import('./relief.js').GroundData} ground @param {boolean} isSame */
+  setGround(ground, isSame = false) {
     const relief = this.relief = new Relief(ground);
     this.number++;
     this.staging.setRelief(relief);
     this.drawing.setRelief(relief);
-    this.camera.setStage(relief.stage(this.drawing.bottom));
+    this.camera.setStage(relief.stage(this.drawing.bottom), isSame);
     this.build();
     this.isBaked = relief.isFlat;
   }

@@ -176,7 +176,7 @@ export class Staging {
     const ground = isFlying ? this.heightAt(at.x, at.y) : at.z, high = Math.max(0, at.z - ground), lift = half * .07;
     const fx = hx * half, fy = hy * half, rise = s => [s * fx, s * fy, s * (zx * fx + zy * fy)], side = s => [-s * fy, s * fx, s * (zy * fx - zx * fy)];
     const spread = 1 + Math.min(1.2, high / (8 * half)), o = [at.x + .16 * half, at.y - .13 * half, ground + lift + .16 * half * zx - .13 * half * zy];
-    if (!isGhost) this.decals.disc(o, rise(1.22 * spread), side(.9 * spread), this.instances > MANY ? 6 : 8, BLACK, isFlying ? .42 / spread : .6, 0);
+    if (!isGhost && this.drawMarks) this.decals.disc(o, rise(1.22 * spread), side(.9 * spread), this.instances > MANY ? 6 : 8, BLACK, isFlying ? .42 / spread : .6, 0);
     if (isFlying && high > half) {
       this.ribbons.cut();
       this.ribbons.add(at.x, at.y, ground, 1, c[0], c[1], c[2], .25);
