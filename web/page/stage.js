@@ -152,7 +152,7 @@ export class Stage {
     }
     if (this.isPlaying) this.room?.own?.steering.lookAlong(this.picture.camera.azimuth);
     source?.update(seconds);
-    if (source?.ground && (source.ground !== this.#ground || picture.isRough)) this.#setGround(source.ground);
+    if (source?.ground && (source.ground !== this.#ground || picture.isRough && picture.names && !picture.isFirst)) this.#setGround(source.ground);
     if (source?.ground && source.isKnown !== false) {  // a ground without its lice would only hold up the first picture
       this.#chooseFollowed();
       const facts = source.facts?.(this.followed || source.you || 0);

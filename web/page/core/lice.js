@@ -23,13 +23,12 @@ export class LouseRows {
    * @returns {Louse[]}
    */
   read(view, count) {
-    const lice = new Array(count), { fields } = this;
+    const lice = new Array(count);
     for (let k = 0, at = 0; k < count; ++k, at += this.size) {
-      const louse = lice[k] = /** @type {Louse} */ ({});
-      for (let f = 0; f < fields.length; ++f) {
-        const field = fields[f], from = at + field.offset;
-        louse[field.name] = field.size === 8 ? view.getFloat64(from, true) : view.getUint32(from, true);
-      }
+      const louse = /** @type {Louse} */ ({});
+      for (const { name, offset, size } of this.fields)
+        louse[name] = size === 8 ? view.getFloat64(at + offset, true) : view.getUint32(at + offset, true);
+      lice[k] = louse;
     }
     return lice;
   }

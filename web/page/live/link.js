@@ -86,7 +86,7 @@ export class Link {
 
   #read(data) {
     if (typeof data !== 'string') return this.#end({ code: 'no_server', reason: 'no woodlouse server answers there' });
-    if (data.length > MOST_READ) return this.#end({ code: 'no_server', reason: 'the server says more at once than a page can read' });
+    if (data.length > MOST_READ) return this.#end({ code: 'no_server', reason: 'the server says too much at once' });
     const socket = this.#socket;
     for (const line of data.split('\n')) {
       if (line === '') continue;

@@ -182,7 +182,7 @@ export class Room {
     if (!this.welcome) return;
     let ground; try { ground = this.#core.openMapLine(line, this.hz); } catch (error) { return this.onNotice(`the server's map can't be read: ${/** @type {Error} */ (error).message}`, 'bad'); }
     this.#grounds.set(this.#mapKey, ground);
-    if (ground.isExact && ground.hash !== this.welcome.map.hash) this.onNotice('the map is another one here than on the server: nothing is predicted', 'bad');
+    if (ground.isExact && ground.hash !== this.welcome.map.hash) this.onNotice('the server has another map: nothing is predicted', 'bad');
     if (ground.isExact || this.door.wantsHeights) return this.#begin(ground);
     this.door.wantsHeights = true;  // the server knows how high the lice are
     this.#rejoin();
@@ -201,7 +201,7 @@ export class Room {
     this.#observe(frame.tick, now);
     if (time !== this.#time || !this.welcome) return;
     const merged = time.merge(frame, now);
-    if (merged === 'unreadable') return this.onNotice('the server\'s rows have other columns than asked for', 'bad');
+    if (merged === 'unreadable') return this.onNotice('the server sends other columns than asked for', 'bad');
     if (merged === 'resync') this.send({ type: 'resync' });
     const row = merged === 'taken' ? time.newest.lice.get(this.you) : null;
     if (row) this.own?.pilot?.compare(frame.tick, row);

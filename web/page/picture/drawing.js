@@ -15,7 +15,7 @@ export class Drawing {
   /** Throws an Error where there is no WebGL 2. @param {HTMLCanvasElement} canvas */
   constructor(canvas) {
     const gl = canvas.getContext('webgl2', { alpha: false, antialias: false, powerPreference: 'low-power' });
-    if (!gl) throw new Error('this browser shows no WebGL 2, which the picture is drawn with');
+    if (!gl) throw new Error('this browser has no WebGL 2');
     this.gl = gl;
     const info = gl.getExtension('WEBGL_debug_renderer_info');
     const renderer = String(gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
@@ -130,7 +130,7 @@ export class Drawing {
     gl.enable(gl.DEPTH_TEST);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     const solid = is => {
-      gl.depthMask(is || this.flat === this.plain);  // of a first picture all is drawn in one way, of which machine code is made once
+      gl.depthMask(is);
       if (is) gl.disable(gl.BLEND); else gl.enable(gl.BLEND);
     };
     solid(true);

@@ -19,7 +19,7 @@ export const PLAIN = { plain: [FLAT, HEAD + 'in vec4 c; out vec4 o; void main(){
 export const NO_CHANGE = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 /** Of the sky, each way. */
 const TILES = [16, 10];
-/** Points of a side at most: of more every so many-th. */
+/** Points of a side at most. */
 const MOST = 64;
 /** Of the soil's light. */
 const SHADE = .6;
@@ -66,9 +66,8 @@ export class FirstDrawing {
     const painted = firstCoat(relief, rampsOf(relief, look), slope, look.sun);
     /** @type {number[]} */
     const places = [], /** @type {number[]} */ triangles = [];
-    const step = Math.ceil(Math.max(columns, rows) / MOST);
-    /** Each so many-th, and the last. @param {number} count */
-    const chosen = count => [...Array.from({ length: Math.ceil((count - 1) / step) }, (_, k) => step * k), count - 1];
+    /** So many of them, the first and the last among them. @param {number} count */
+    const chosen = (count, most = Math.min(MOST, count)) => Array.from({ length: most }, (_, k) => Math.round(k * (count - 1) / (most - 1)));
     const across = chosen(columns), up = chosen(rows);
     const vertex = (x, y, z, r, g, b) => places.push(x, y, z, 1, r, g, b, 1) / 8 - 1;
     const sheet = (first, wide, high) => {

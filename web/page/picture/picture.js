@@ -49,8 +49,8 @@ export class Picture {
     this.peopled = 0;
     /** Whether the first of them is still to come: until then nothing is done that can wait. */
     this.isFirst = true;
-    /** Points of the ground's longer side, where it is to be set again with more of them; 0: it is as it stays. */
-    this.rough = 0;
+    /** Whether the ground has the few points of a first picture, and is to be set again once there are names, too. */
+    this.isRough = false;
     /** Milliseconds of own script in the last frame. */
     this.cost = 0;
   }
@@ -62,15 +62,9 @@ export class Picture {
     this.names = new Names(this.labels);
   }
 
-  /** Whether a ground is set as roughly as it is first, and can be drawn finely by now. */
-  get isRough() {
-    return this.rough > 0 && !this.isFirst && !!this.drawing.Fine;
-  }
-
   /** How many points a grid of this ground should have: more than the machine can draw help nobody, and a first picture has few. @param {number[]} domain */
   gridFor(domain) {
-    this.rough = this.isFirst && this.drawing.isSoftware ? ROUGH : 0;
-    const longest = this.rough || (this.drawing.isSoftware ? 112 : 224), w = domain[2] - domain[0], h = domain[3] - domain[1];
+    const { isSoftware } = this.drawing, longest = (this.isRough = isSoftware && this.isFirst) ? ROUGH : isSoftware ? 112 : 224, w = domain[2] - domain[0], h = domain[3] - domain[1];
     const side = v => Math.max(24, Math.round(longest * v / Math.max(w, h)));
     return { columns: side(w), rows: side(h) };
   }
