@@ -92,13 +92,16 @@ void Node::hear(std::deque<NodeEvent> events) {
 /// What there is to tell; the first batch of an epoch tells nothing, and an idle log is kept alive.
 void Node::cut(Time now) {
   text_->flush();
+  const bool has_room = writer_->waiting() < kMostWaiting && writer_->bytes() <= LogWriter::kMostBytes;
+  // Before anything else: of what was dropped the rooms tell nothing more until they are asked to.
+  if (has_room && std::exchange(is_full_, false)) inbox_->begin_anew();
   const bool is_first = writer_->next_number() == 0;
   const bool is_late = now - cut_at_ > settings_.keep / 3;
   if (text_->size() == 0 && !is_first && !is_late) {  // they wait for the batch before
     if (text_->is_awaited()) kept_.emplace_back(writer_->next_number(), text_->take_awaiting());
     return;
   }
-  if (writer_->waiting() >= kMostWaiting || writer_->bytes() > LogWriter::kMostBytes) {
+  if (!has_room) {
     if (!is_full_ && text_->size() < kCutBytes) return;  // some may be taken yet
     text_->lose();
     if (!std::exchange(is_full_, true))
@@ -106,7 +109,6 @@ void Node::cut(Time now) {
           "LOG HAS A HOLE: nothing is stored; its rooms are told anew, once something is");
     return;
   }
-  if (std::exchange(is_full_, false)) inbox_->begin_anew();
   std::vector<RoomPlace> before = text_->places();
   std::erase_if(before, [](const RoomPlace& place) { return place.header == 0; });
   const std::string lines = text_->cut(writer_->next_sequence());
