@@ -123,7 +123,7 @@ def main():
             print(f"  {what} [ms]: median {statistics.median(milliseconds):.0f}, "
                   f"p95 {percentile(milliseconds, 0.95):.0f}, all {' '.join(f'{value:.0f}' for value in sorted(milliseconds))}")
         print(f"  to the last bot that is back [ms]: at most {1000 * max(returns):.0f}")
-        told = {bye["code"] for bot in lice for bye in bot.byes} - {"moved"}
+        told = {bye["code"] for bot in lice for bye in bot.byes + bot.turned_away} - {"moved"}
         print(f"  acknowledged ticks lost: {lost}; bots that are not back in their lice: {strangers}")
         code, said, proofs = nats.joined()
         print("  the joined log:", said.strip().splitlines()[-1])

@@ -219,7 +219,8 @@ class Bot:
         self.token, self.louse, self.seq = "", None, 0
         self.welcomes = []   # (time, message)
         self.losses = []     # times at which the line was cut
-        self.byes = []
+        self.byes = []         # of rooms that he was in
+        self.turned_away = []  # byes of hosts that he came to while they left
         self.notices = []    # their codes
         self.newest = None   # (time, tick) of the newest frame
         self.frames = []     # (time, address) of each frame
@@ -269,7 +270,7 @@ class Bot:
                 elif kind == b"ping":
                     say(type="pong", t=json.loads(line)["t"])
                 elif kind == b"bye":
-                    self.byes.append(json.loads(line))
+                    (self.byes if joined else self.turned_away).append(json.loads(line))
                 elif kind == b"notice":
                     self.notices.append(json.loads(line)["code"])
                 elif kind == b"error" and not joined:
