@@ -12,7 +12,7 @@ set(asio_headers
   <boost/asio/io_context.hpp> <boost/asio/ip/tcp.hpp> <boost/asio/post.hpp> <boost/asio/steady_timer.hpp>
   <boost/asio/strand.hpp> <boost/asio/thread_pool.hpp> <boost/asio/write.hpp>)
 set(rooms_without_asio state json terrain elevation physics document map protocol rules match replay follow server_bots client_drawing)
-set(rooms_with_asio server_logging server_timing server_frames server_stream server_room server_watchers server_proxies server_web server_net server_access server_admin server_metrics server_commands server
+set(rooms_with_asio server_logging server_timing server_frames server_stream server_room server_watchers server_records server_relay server_cluster server_proxies server_web server_net server_access server_admin server_metrics server_commands server
   client_terminal client_net client_play client_watch client)
 
 # woodlouse_precompiled(TARGET PRIVATE HEADERS...) or (TARGET REUSE_FROM OTHER). A precompiled header serves whoever has the very
@@ -55,4 +55,7 @@ if(TARGET woodlouse_asio)
     woodlouse_precompiled(woodlouse_${room} REUSE_FROM woodlouse_asio)
     woodlouse_unity(woodlouse_${room})
   endforeach()
+  if(WOODLOUSE_UNITY)
+    set_target_properties(woodlouse_server_options PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+  endif()
 endif()

@@ -34,6 +34,10 @@ if(WOODLOUSE_SANITIZE)
   add_compile_options(-fsanitize=${WOODLOUSE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all
     $<IF:$<CXX_COMPILER_ID:Clang>,-gline-tables-only,-g1>)  # a finding needs lines, not variables
   add_link_options(-fsanitize=${WOODLOUSE_SANITIZE})
+  find_program(WOODLOUSE_LLD NAMES ld.lld ld.lld-19)
+  if(WOODLOUSE_LLD AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    add_link_options(--ld-path=${WOODLOUSE_LLD})  # of programs as large as these, in a quarter of the time
+  endif()
 endif()
 
 # A sanitized step is ten times as slow without any optimisation; the rest, headers for the most part, only takes twice

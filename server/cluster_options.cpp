@@ -13,7 +13,7 @@
 namespace woodlouse::server {
 namespace {
 
-constexpr const char* kExamples = R"(FILE is the one of --cluster, as {"nats": ["nats://127.0.0.1:4222"]}.
+constexpr const char* kClusterExamples = R"(FILE is the one of --cluster, as {"nats": ["nats://127.0.0.1:4222"]}.
 
 Examples:
   woodlouse-server cluster init cluster.json
@@ -112,7 +112,7 @@ CLI::App* add_cluster_command(CLI::App& app, TypedClusterErrand& typed) {
       ->add_option("host", typed.errand.host, "Its name")
       ->required();
   cluster->require_subcommand(1, 1);
-  cluster->footer(kExamples);
+  cluster->footer(kClusterExamples);
   return cluster;
 }
 

@@ -10,7 +10,7 @@
 namespace woodlouse::scenario {
 namespace {
 
-constexpr std::size_t kMaxBytes = 1u << 20;
+constexpr std::size_t kMaxHashFileBytes = 1u << 20;
 constexpr std::string_view kHeader =
     "# behavior scenario script hashes; written by woodlouse-scenario run --update\n";
 
@@ -23,7 +23,7 @@ std::uint64_t digest_of_file(const Scenario& scenario) {
 }  // namespace
 
 core::Expected<GoldenRegister> GoldenRegister::read(const std::filesystem::path& file) {
-  const auto text = core::read_whole_file(file, kMaxBytes);
+  const auto text = core::read_whole_file(file, kMaxHashFileBytes);
   if (!text) return tl::unexpected(text.error());
   GoldenRegister result;
   std::istringstream lines(*text);
