@@ -58,7 +58,10 @@ std::string hex_of(const std::array<std::uint64_t, kWords>& words) {
   return text;
 }
 
-/// read(fields, problems) of the object that the line is.
+/// Of what a newer build may say more.
+constexpr std::initializer_list<std::string_view> kAnyMembers{};
+
+/// read(fields, problems) of the object that the line is. known: the members that it may have.
 template <typename Read>
 auto read_object(std::string_view line, const std::string& place,
                  std::initializer_list<std::string_view> known, const Read& read)
@@ -241,22 +244,19 @@ core::Expected<BatchLine> read_batch_line(std::string_view line, const std::stri
       return BatchLine(ClosedLine{text_of(fields, "closed", kMostRoomBytes, problems)});
     });
   if (!line.starts_with(R"({"claim":)")) return RecordedLine{line};
-  return read_object(line, place, {},  // of which a newer build may say more
-                     [](const json::Fields& fields, json::Problems& problems) {
-                       Claim claim;
-                       claim.louse = static_cast<match::PlayerId>(fields.integer("claim", 0, UINT32_MAX));
-                       claim.name = text_of(fields, "name", protocol::kMaxNameBytes, problems);
-                       const auto role = fields.demand("role");
-                       const auto known =
-                           role ? json::choice_of(*role, protocol::role_from_text) : std::nullopt;
-                       if (role && (!known || *known == protocol::Role::kSpectator))
-                         problems.add(*role, "is to be player or bot");
-                       claim.role = known.value_or(protocol::Role::kPlayer);
-                       claim.token = words_of<4>(fields, "token", problems);
-                       if (fields.find("muted_until"))
-                         claim.muted_until = fields.integer("muted_until", 1, kMutedForGood);
-                       return BatchLine(std::move(claim));
-                     });
+  return read_object(line, place, kAnyMembers, [](const json::Fields& fields, json::Problems& problems) {
+    Claim claim;
+    claim.louse = static_cast<match::PlayerId>(fields.integer("claim", 0, UINT32_MAX));
+    claim.name = text_of(fields, "name", protocol::kMaxNameBytes, problems);
+    const auto role = fields.demand("role");
+    const auto known = role ? json::choice_of(*role, protocol::role_from_text) : std::nullopt;
+    if (role && (!known || *known == protocol::Role::kSpectator))
+      problems.add(*role, "is to be player or bot");
+    claim.role = known.value_or(protocol::Role::kPlayer);
+    claim.token = words_of<4>(fields, "token", problems);
+    if (fields.find("muted_until")) claim.muted_until = fields.integer("muted_until", 1, kMutedForGood);
+    return BatchLine(std::move(claim));
+  });
 }
 
 }  // namespace woodlouse::server

@@ -25,19 +25,20 @@ Heartbeat::Heartbeat(const ClusterSettings& settings, Hooks hooks)
   beat_.strict = settings_.is_strict;
 }
 
-core::Expected<void> Heartbeat::connect() { return open(); }
+core::Expected<void> Heartbeat::connect() {
+  is_cut_ = is_closed_ = false;  // before it is told that it is
+  auto opened = open();
+  if (!opened) is_cut_ = is_closed_ = true;  // also one that hears only some of what it is to hear
+  return opened;
+}
 
 core::Expected<void> Heartbeat::open() {
-  is_cut_ = is_closed_ = false;  // before it is told that it is
   auto link = NatsLink::open(settings_, "beats",
                              {{},
                               {},
                               [this](bool is_connected) { is_cut_ = !is_connected; },
                               [this] { is_cut_ = is_closed_ = true; }});
-  if (!link) {
-    is_cut_ = is_closed_ = true;
-    return tl::unexpected(link.error());
-  }
+  if (!link) return tl::unexpected(link.error());
   link_ = std::move(*link);
   for (const bool is_edge : {false, true}) {
     const std::string subject = is_edge ? settings_.edge_subject("*") : settings_.beat_subject("*");
@@ -108,7 +109,7 @@ void Heartbeat::beat(const std::stop_token& stop) {
   while (!stop.stop_requested()) {
     if (is_closed_ && Clock::now() >= renew_at) {
       renew_at = Clock::now() + kRenewEvery;
-      static_cast<void>(open());
+      static_cast<void>(connect());
     }
     tell_once();
     next = std::max(next + every, Clock::now());
