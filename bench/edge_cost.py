@@ -1,17 +1,20 @@
 #!/usr/bin/env python3
-"""What a watched frame costs at an edge of a cluster, beside the room's own host: processor time above that of either alone, in turns.
+"""What a watched frame costs at an edge of a cluster, beside the room's own host and beside a bare loop of send(): processor time above that
+of host and edge alone, in turns.
 
     bench/edge_cost.py BIN [--watchers 300] [--rounds 11] [--seconds 5]
 
 BIN is a tree's folder of programs. Host, edge and nats-server have core 0, whoever watches core 1, and nothing else may run on either. All
-watch at 20 Hz a room of 200 lice; what comes is read and thrown away. Prints each round, then medians and their ratio; what host, edge and
-nats-server take alone; and what the room's log is on its way, beside one watcher's frames.
+watch at 20 Hz a room of 200 lice; what comes is read and thrown away. The bare loop (woodlouse-send-floor) sends as many bytes to as many, as
+often. Prints each round, then medians, the ratio of edge and host and what both take above the bare loop; what host, edge and nats-server
+take alone; and what the room's log is on its way, beside one watcher's frames.
 """
 import argparse
 import json
 import os
 import pathlib
 import re
+import socket
 import statistics
 import subprocess
 import sys
@@ -54,17 +57,30 @@ def main():
             for name, one, was in zip(("host", "edge", "nats-server"), (host, edge, nats), before):
                 alone[name] = (one.processor_seconds() - was) / passed
             log = (log_bytes(server, file) - stored) / passed
-            costs = {"host": [], "edge": []}
+            frames = options.watchers * STATE_HZ
+            costs = {"host": [], "edge": [], "bare loop": []}
             for _ in range(options.rounds):
                 said = []
                 for name, one in (("host", host), ("edge", edge)):
                     cores, rate = watched(one, by_lines, options.watchers, options.seconds)
-                    costs[name].append(1e6 * (cores - alone[name]) / (options.watchers * STATE_HZ))
+                    costs[name].append(1e6 * (cores - alone[name]) / frames)
                     said.append(f"{name} {costs[name][-1]:.2f} us a frame, {rate / options.watchers / 1e3:.1f} KB/s each")
+                costs["bare loop"].append(1e6 * bare_loop(options, round(rate / frames)) / frames)
+                said.append(f"bare loop {costs['bare loop'][-1]:.2f}")
                 print("   ".join(said), f"  ratio {costs['edge'][-1] / costs['host'][-1]:.3f}", flush=True)
             ratio = statistics.median(e / h for e, h in zip(costs["edge"], costs["host"]))
-            print(f"a frame at the host {statistics.median(costs['host']):.2f} us, at the edge {statistics.median(costs['edge']):.2f} us; median of the ratios {ratio:.3f}")
+            print(", ".join(f"{name} {statistics.median(its):.2f} us a frame" for name, its in costs.items()) + f"; median of the ratios {ratio:.3f}")
+            print("above the bare loop, median of the rounds: " + ", ".join(
+                f"{name} {statistics.median(c - b for c, b in zip(costs[name], costs['bare loop'])):.2f} us" for name in ("host", "edge")) + " (goal 1.5)")
             print("alone: " + ", ".join(f"{name} {cores:.4f} cores" for name, cores in alone.items()) + f"; the log {log / 1e3:.1f} KB/s")
+
+
+def bare_loop(options, size):
+    """Cores of a loop that sends `size` bytes to each watcher."""
+    command = [options.programs / "woodlouse-send-floor", "--listen", "127.0.0.1:0", "--clients", options.watchers, "--bytes", size,
+               "--hz", STATE_HZ, "--seconds", SETTLED_S + options.seconds + 30]
+    with Process(command) as floor:
+        return watched(floor, lambda its: socket.create_connection(("127.0.0.1", its.lines_port)), options.watchers, options.seconds)[0]
 
 
 def log_bytes(server, file):
