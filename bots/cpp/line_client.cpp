@@ -174,6 +174,10 @@ core::Expected<protocol::ServerMessage> LineClient::receive(std::chrono::seconds
       auto message = protocol::decode_server(line->text, fields_, format_);
       if (message) {
         if (const auto* hello = std::get_if<protocol::Hello>(&*message)) hosts_ = hello->hosts;
+        if (const auto* ping = std::get_if<protocol::Ping>(&*message); ping && ping->hosts) {
+          hosts_ = *ping->hosts;
+          if (joined_at_) places_->welcomed(hosts_);
+        }
         if (const auto* welcome = std::get_if<protocol::Welcome>(&*message)) take(*welcome);
         const auto* bye = std::get_if<protocol::Bye>(&*message);
         if (bye != nullptr && bye->code == protocol::code::kMoved) return moved(bye->text, bye->address);

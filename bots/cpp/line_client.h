@@ -72,7 +72,7 @@ class LineClient {
 
   protocol::HostAddress asked_;
   std::optional<protocol::Whereabouts> places_;
-  std::vector<std::string> hosts_;  ///< as the last hello named them
+  std::vector<std::string> hosts_;  ///< as the server named them last
   protocol::Join join_;             ///< with the token of the louse that it has, or had
   std::optional<std::chrono::steady_clock::time_point> joined_at_;  ///< none: it is not
   bool is_broken_ = false;

@@ -32,9 +32,13 @@ class Whereabouts:
 
     def welcomed(self, hosts):
         """It is joined at place; hosts: of the hello there."""
+        self.named(hosts)
+        self._joined_at = time.monotonic()
+
+    def named(self, hosts):
+        """hosts: as the server names them where it is joined."""
         told = [host for host in map(told_address, hosts[:MOST_HOSTS] if isinstance(hosts, list) else ()) if host]
         self._places = list(dict.fromkeys([self.place, *told]))
-        self._joined_at = time.monotonic()
 
     def moved(self, error):
         """Whether place is another one now, to be tried at once. Else the error says why not."""
@@ -90,6 +94,10 @@ class Door:
         room is. Raises WoodlouseError."""
         return self._try(lambda error: error.code == "rate_limited", SILENCE_S)
 
+    def named(self, hosts):
+        """Where the room may be found, as the server says while it is joined."""
+        self._places.named(hosts)
+
     def look(self, view):
         """What a join to come asks to be shown."""
         self._join["view"] = view
@@ -134,6 +142,8 @@ class Door:
             while True:
                 message = lines.message()
                 raise_refusal(message)
+                if message["type"] == "ping" and isinstance(message.get("hosts"), list):
+                    hello["hosts"] = message["hosts"]
                 if message["type"] == "welcome":
                     self._on_welcome(hello, message)
                     lines.wait_at_most(SILENCE_S)

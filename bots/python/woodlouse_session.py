@@ -107,6 +107,8 @@ class Session:
 
     def _on_ping(self, message):
         self._send({"type": "pong", "t": message["t"]})
+        if isinstance(message.get("hosts"), list):
+            self._door.named(message["hosts"])
 
     def _on_bye(self, message):
         unasked = WoodlouseError(message["code"], message["text"], address=message.get("address", ""))

@@ -79,6 +79,10 @@ std::optional<double> Connection::seconds_left(core::Time now) const {
 
 void Connection::on_message(const protocol::ServerMessage& message, core::Time arrival) {
   if (const auto* hello = std::get_if<protocol::Hello>(&message)) hosts_ = hello->hosts;
+  if (const auto* ping = std::get_if<protocol::Ping>(&message); ping && ping->hosts) {
+    hosts_ = *ping->hosts;
+    if (phase_ == Phase::kJoined) places_.welcomed(hosts_);
+  }
   if (const auto* welcome = std::get_if<protocol::Welcome>(&message)) {
     if (phase_ != Phase::kJoined) joined_at_ = arrival;
     phase_ = Phase::kJoined;

@@ -83,7 +83,7 @@ class Connection final : public LinkListener {
   Address asked_;  ///< for, by who began it
   Address address_;
   protocol::Whereabouts places_;
-  std::vector<std::string> hosts_;  ///< as the last hello named them
+  std::vector<std::string> hosts_;  ///< as the server named them last
   protocol::Join join_;             ///< with the token of the louse that we have, or had
   ConnectionListener& listener_;
   boost::asio::steady_timer retry_;

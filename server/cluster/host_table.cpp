@@ -129,7 +129,7 @@ core::Expected<MoveOrder> move_order_from(std::string_view text) {
 
 bool HostTable::take(Beat beat, Time now) {
   const std::lock_guard lock(mutex_);
-  forget(now);
+  hear(now);
   if (beat.host == own_ && beat.process != process_) twin_at_ = now;
   if (beat.host == own_) return false;
   auto& hosts = beat.shard == shard_ ? hosts_ : strangers_;
@@ -151,7 +151,7 @@ bool HostTable::take(Beat beat, Time now) {
 
 bool HostTable::take_edge(Beat beat, Time now) {
   const std::lock_guard lock(mutex_);
-  forget(now);
+  hear(now);
   const std::uint64_t process = beat.process;
   if (process == process_) return false;
   if (edges_.size() >= kMostEdges && !edges_.contains(process)) return false;
@@ -160,11 +160,18 @@ bool HostTable::take_edge(Beat beat, Time now) {
   return edges_.insert_or_assign(process, Known{std::move(beat), now}).second;
 }
 
-void HostTable::forget(Time now) {
-  const auto is_old = [now](const auto& entry) { return now - entry.second.at > kForgottenAfter; };
+void HostTable::hear(Time now) {
+  if (now - heard_at_ > kDeafAfter) hears_since_ = now;
+  heard_at_ = now;
+  std::erase_if(strangers_, [now](const auto& entry) { return now - entry.second.at > kForgottenAfter; });
+  const auto is_old = [this, now](const auto& entry) { return is_forgotten(entry.second, now); };
   std::erase_if(hosts_, is_old);
-  std::erase_if(strangers_, is_old);
   std::erase_if(edges_, is_old);
+}
+
+bool HostTable::is_forgotten(const Known& known, Time now) const {
+  const bool is_deaf = now - heard_at_ > kDeafAfter || now - hears_since_ <= kForgottenAfter;
+  return !is_deaf && now - known.at > kForgottenAfter;
 }
 
 Time HostTable::heard(const Writer& writer) const {
@@ -233,21 +240,20 @@ std::optional<Beat> HostTable::successor(Time now, std::string_view wanted) cons
   return std::nullopt;
 }
 
-std::vector<std::string> HostTable::addresses(Time now, std::size_t most) const {
+std::vector<std::string> HostTable::addresses(Time now) const {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> found;
   for (const auto& [host, known] : hosts_)
-    if (now - known.at <= kForgottenAfter && !known.beat.address.empty() && found.size() < most)
-      found.push_back(known.beat.address);
+    if (!is_forgotten(known, now) && !known.beat.address.empty()) found.push_back(known.beat.address);
   return found;
 }
 
-std::vector<std::string> HostTable::edge_addresses(Time now, std::size_t most) const {
+std::vector<std::string> HostTable::edge_addresses(Time now) const {
   const std::lock_guard lock(mutex_);
   std::vector<std::string> found;
   for (const auto& [process, known] : edges_)
-    if (now - known.at <= kForgottenAfter && known.beat.shard == shard_ && known.beat.ready &&
-        !known.beat.leaves && !known.beat.address.empty())
+    if (!is_forgotten(known, now) && known.beat.shard == shard_ && known.beat.ready && !known.beat.leaves &&
+        !known.beat.address.empty())
       found.push_back(known.beat.address);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -257,7 +263,6 @@ std::vector<std::string> HostTable::edge_addresses(Time now, std::size_t most) c
     std::rotate(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(chance % found.size()),
                 found.end());
   }
-  found.resize(std::min(found.size(), most));
   return found;
 }
 

@@ -59,8 +59,10 @@ struct HostedRoom {
 
 class HostTable {
  public:
-  /// Of which nothing is known that is older.
+  /// Of which nothing is known that is older. But while nobody is heard, this host itself neither, and for as
+  /// long after that, it is this host that hears nothing: the others may well be where they were.
   static constexpr Duration kForgottenAfter = std::chrono::seconds(5);
+  static constexpr Duration kDeafAfter = std::chrono::seconds(2);
   static constexpr std::size_t kMostHosts = 256;
   static constexpr std::size_t kMostEdges = 1024;
 
@@ -91,11 +93,11 @@ class HostTable {
   [[nodiscard]] std::optional<Beat> owner(Time now, Duration within = std::chrono::seconds(1)) const;
   /// A host, not this one, that follows, has all, and was heard just now. wanted: that one; empty: any.
   [[nodiscard]] std::optional<Beat> successor(Time now, std::string_view wanted = {}) const;
-  /// Addresses of the others, at most `most`.
-  [[nodiscard]] std::vector<std::string> addresses(Time now, std::size_t most) const;
-  /// The same of edges that show the shard, at most `most`, from another one on each time: who is sent on
-  /// from one that ends is not sent to the same one as all others.
-  [[nodiscard]] std::vector<std::string> edge_addresses(Time now, std::size_t most) const;
+  /// Addresses of the others that are not forgotten.
+  [[nodiscard]] std::vector<std::string> addresses(Time now) const;
+  /// The same of edges that show the shard, from another one on each time: who is sent on from one that ends
+  /// is not sent to the same one as all others.
+  [[nodiscard]] std::vector<std::string> edge_addresses(Time now) const;
   [[nodiscard]] std::vector<Beat> hosts(Time now) const;
   [[nodiscard]] std::vector<Beat> edges(Time now) const;
   /// Of all shards, as their owners have told of them; of one that is silent or goes, too, till another one
@@ -107,11 +109,14 @@ class HostTable {
     Beat beat;
     Time at{};
   };
-  void forget(Time now);
+  void hear(Time now);
+  [[nodiscard]] bool is_forgotten(const Known& known, Time now) const;
 
   const std::string own_, shard_;
   const std::uint64_t process_;
-  Time twin_at_{};  ///< when another process of this name was heard
+  Time twin_at_{};      ///< when another process of this name was heard
+  Time heard_at_{};     ///< whoever it was, last
+  Time hears_since_{};  ///< without a pause
   mutable std::mutex mutex_;
   std::map<std::string, Known, std::less<>> hosts_;
   std::map<std::string, Known, std::less<>> strangers_;  ///< of other shards

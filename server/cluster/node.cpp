@@ -137,13 +137,14 @@ ClusterFigures Node::figures() const {
 }
 
 std::vector<std::string> Node::hosts() const {
-  constexpr std::size_t kMost = 16, kMostEdges = 12;
+  constexpr std::size_t kFirstEdges = 12;
   const Time now = Clock::now();
-  if (!viewers_) return table().addresses(now, kMost);
+  if (!viewers_) return table().addresses(now);
   // Who watches is to be at an edge; at last the hosts have the room, too.
-  std::vector<std::string> found = table().edge_addresses(now, kMostEdges);
-  const std::vector<std::string> hosts = table().addresses(now, kMost - found.size());
-  found.insert(found.end(), hosts.begin(), hosts.end());
+  std::vector<std::string> found = table().edge_addresses(now);
+  const std::vector<std::string> hosts = table().addresses(now);
+  const std::size_t first = std::min(found.size(), kFirstEdges);
+  found.insert(found.begin() + static_cast<std::ptrdiff_t>(first), hosts.begin(), hosts.end());
   return found;
 }
 

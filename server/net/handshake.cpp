@@ -78,6 +78,26 @@ ErrorMessage Handshake::judge(const protocol::DecodeError& failure) {
   return answer;
 }
 
+std::vector<std::string> HostNews::now(const Source& source) {
+  return tell(source ? source() : std::vector<std::string>{});
+}
+
+std::optional<std::vector<std::string>> HostNews::since(const Source& source) {
+  if (!source) return std::nullopt;
+  std::vector<std::string> hosts = source();
+  const bool has_room = told_.size() < std::min(hosts.size(), protocol::kMaxHosts);
+  const auto is_there = [&hosts](const std::string& told) {
+    return std::find(hosts.begin(), hosts.end(), told) != hosts.end();
+  };
+  if (!has_room && std::all_of(told_.begin(), told_.end(), is_there)) return std::nullopt;
+  return tell(std::move(hosts));
+}
+
+std::vector<std::string> HostNews::tell(std::vector<std::string> hosts) {
+  if (hosts.size() > protocol::kMaxHosts) hosts.resize(protocol::kMaxHosts);
+  return told_ = std::move(hosts);
+}
+
 protocol::Hello hello_of(std::uint64_t session, std::string_view server, std::vector<std::string> rooms,
                          const protocol::Limits& limits, std::vector<std::string> hosts) {
   protocol::Hello hello;
@@ -88,8 +108,8 @@ protocol::Hello hello_of(std::uint64_t session, std::string_view server, std::ve
   hello.features = {"quantized", "exact",   "fields",   "delta", "get_map", "resume",
                     "rules",     "records", "rotation", "view",  "inputs"};
   hello.limits = limits;
+  assert(hosts.size() <= protocol::kMaxHosts);
   hello.hosts = std::move(hosts);
-  if (hello.hosts.size() > protocol::kMaxHosts) hello.hosts.resize(protocol::kMaxHosts);
   return hello;
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -40,8 +41,23 @@ class Handshake {
   int strikes_ = 0;
 };
 
+/// What a session is told of the other servers at which the rooms may be found: of many the first kMaxHosts.
+/// `Source`: those there are now, whatever order they come in; null: none ever.
+class HostNews {
+ public:
+  using Source = std::function<std::vector<std::string>()>;
+  std::vector<std::string> now(const Source& source);
+  /// Nothing: those that were told are all there, and there are no more that could be told.
+  std::optional<std::vector<std::string>> since(const Source& source);
+
+ private:
+  std::vector<std::string> tell(std::vector<std::string> hosts);
+
+  std::vector<std::string> told_;
+};
+
 /// What a session is told first of all. session: its number, for logs. hosts: `host:port` of other servers
-/// that may have the rooms when this one is gone; of many the first.
+/// that may have the rooms when this one is gone, kMaxHosts at most.
 protocol::Hello hello_of(std::uint64_t session, std::string_view server, std::vector<std::string> rooms,
                          const protocol::Limits& limits, std::vector<std::string> hosts);
 /// What a line that begins an HTTP request is told besides: where a browser is to go. Empty for other lines.

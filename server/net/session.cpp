@@ -321,7 +321,7 @@ void Session::check_pulse(Time now) {
         return;
       case Pulse::Sign::kPing:
         queue(answers_.line([this](std::string& text) {
-          protocol::append(text, protocol::Ping{static_cast<std::int64_t>(++pings_)});
+          protocol::append(text, protocol::Ping{++pings_, hosts_.since(environment_.hosts)});
         }));
         sender_.write();
         break;

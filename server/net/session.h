@@ -69,8 +69,8 @@ struct SessionEnvironment {
   /// Where a room is that is not here, as `host:port`; empty: it is about to go on somewhere;
   /// nothing: nobody knows it. Any thread; null: no room is.
   std::function<std::optional<std::string>(std::string_view room)> elsewhere{};
-  /// What hello names as `hosts`. Any thread; null: nothing.
-  std::function<std::vector<std::string>()> hosts{};
+  /// What hello and pings name as `hosts`. Any thread; null: nothing.
+  HostNews::Source hosts{};
 };
 
 class Session final : public Subscriber, private Sender::Owner, public std::enable_shared_from_this<Session> {
@@ -167,7 +167,7 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   void greet() {
     if (std::exchange(is_greeted_, true)) return;
     say(hello_of(id_, environment_.server_name, environment_.directory.names(), *limits_,
-                 environment_.hosts ? environment_.hosts() : std::vector<std::string>{}));
+                 hosts_.now(environment_.hosts)));
   }
   void take_lines(Time now);
   void on_line(const protocol::LineFramer::Line& line, Time now);
@@ -337,7 +337,8 @@ class Session final : public Subscriber, private Sender::Owner, public std::enab
   std::unique_ptr<Alarm> watch_;
   DirectoryWatch rooms_;
   Pulse pulse_;
-  std::uint64_t pings_ = 0;
+  std::int64_t pings_ = 0;
+  HostNews hosts_;
   bool is_end_told_ = false;  ///< in the log
   Time handshake_until_;
   std::optional<Time> goes_on_at_;  ///< with lines that came at once with too many; nothing is read till then

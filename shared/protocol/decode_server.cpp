@@ -29,14 +29,15 @@ void read_strings(FieldReader& reader, std::string_view name, std::vector<std::s
   });
 }
 
+constexpr std::string_view kWantsHosts = R"(an array of at most 16 texts "host:port")";
+static_assert(kMaxHosts == 16);
+
 void read_hosts(FieldReader& reader, std::vector<std::string>& hosts) {
-  constexpr std::string_view kWants = R"(an array of at most 16 texts "host:port")";
-  static_assert(kMaxHosts == 16);
   reader.array(
-      "hosts", kWants,
+      "hosts", kWantsHosts,
       [&](json::Value element, std::size_t index) {
         const bool is_host = element.kind() == json::Kind::kString && parse_host_address(element.text());
-        if (!is_host || index == kMaxHosts) return reader.refuse("hosts", index, element, kWants);
+        if (!is_host || index == kMaxHosts) return reader.refuse("hosts", index, element, kWantsHosts);
         hosts.emplace_back(element.text());
       },
       Presence::kOptional);
@@ -284,11 +285,17 @@ Decoded read_map_message(FieldReader& reader, const Context&) {
   return reader.finish<ServerMessage>(std::move(map));
 }
 
-template <typename Message>
-Decoded read_time(FieldReader& reader, const Context&) {
-  Message message;
-  reader.integer("t", message.t, kAnyInteger);
-  return reader.finish<ServerMessage>(message);
+Decoded read_ping(FieldReader& reader, const Context&) {
+  Ping ping;
+  reader.integer("t", ping.t, kAnyInteger);
+  if (reader.field("hosts", kWantsHosts, Presence::kOptional)) read_hosts(reader, ping.hosts.emplace());
+  return reader.finish<ServerMessage>(std::move(ping));
+}
+
+Decoded read_pong(FieldReader& reader, const Context&) {
+  Pong pong;
+  reader.integer("t", pong.t, kAnyInteger);
+  return reader.finish<ServerMessage>(pong);
 }
 
 using Read = Decoded (*)(FieldReader&, const Context&);
@@ -305,8 +312,8 @@ constexpr std::array<std::pair<std::string_view, Read>, 15> kTypes = {{
     {"bye", read_bye},
     {"rooms", read_rooms},
     {"map", read_map_message},
-    {"ping", read_time<Ping>},
-    {"pong", read_time<Pong>},
+    {"ping", read_ping},
+    {"pong", read_pong},
     {"records", read_records},
     {"ghost", read_ghost},
 }};

@@ -139,7 +139,10 @@ void append_line(std::string& out, const MapMessage& map) {
   text.end_line();
 }
 void append_line(std::string& out, const Ping& ping) {
-  json::ObjectText(out, "ping").integer("t", ping.t).end_line();
+  json::ObjectText text(out, "ping");
+  text.integer("t", ping.t);
+  if (ping.hosts) text.array("hosts", *ping.hosts, json::append_string);
+  text.end_line();
 }
 void append_line(std::string& out, const Pong& pong) {
   json::ObjectText(out, "pong").integer("t", pong.t).end_line();

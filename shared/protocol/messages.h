@@ -133,6 +133,8 @@ struct Leave {
 };
 struct Ping {
   std::int64_t t = 0;  ///< within +-2^53; both directions
+  /// Of a server, in place of those that its hello or a ping named; none: they are as they were.
+  std::optional<std::vector<std::string>> hosts = std::nullopt;
   friend bool operator==(const Ping&, const Ping&) = default;
 };
 struct Pong {

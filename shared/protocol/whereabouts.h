@@ -13,7 +13,7 @@
 namespace woodlouse::protocol {
 
 inline constexpr std::size_t kMaxAddressBytes = 261;  ///< of a `host:port`
-inline constexpr std::size_t kMaxHosts = 16;          ///< that a hello names
+inline constexpr std::size_t kMaxHosts = 16;          ///< that a hello or a ping names
 
 struct HostAddress {
   std::string host;  ///< a name or an address, IPv6 without brackets
@@ -38,7 +38,7 @@ class Whereabouts {
   [[nodiscard]] const HostAddress& place() const { return places_[at_]; }
   [[nodiscard]] bool has_others() const { return places_.size() > 1; }
 
-  /// It is joined at place(). hosts: as the hello there named them.
+  /// It is joined at place(). hosts: as the server there names them, by its hello or a ping since.
   void welcomed(const std::vector<std::string>& hosts);
 
   enum class Sent : std::uint8_t { kFollows, kTooOften, kNoAddress };

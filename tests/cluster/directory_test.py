@@ -221,6 +221,49 @@ class Directory(Cluster):
         wait_for_rooms(second.address, lambda rooms: {room["name"] for room in rooms} == {"volcano", "hills"})
 
 
+class KnownHosts(Cluster):
+    """Of who plays, and knows what his server told him alone."""
+
+    def played(self, address):
+        """(game, play(seconds))"""
+        game = self.enterContext(woodlouse.connect(address, name="eve"))
+        states = game.states()
+
+        def play(seconds=0.0, until=None):
+            end = time.monotonic() + (seconds if until is None else stage.PATIENCE)
+            while time.monotonic() < end and not (until and until()):
+                next(states)
+            self.assertTrue(until is None or until())
+        play(until=lambda: True)
+        return game, play
+
+    def test_a_host_that_began_later_is_known_to_who_was_there(self):
+        first = self.host("a", "--ping-s", "1")
+        first.wait_for("cluster_owns")
+        game, play = self.played(first.address)
+        play(1)
+        second = self.host("b")
+        second.wait_for("cluster_follows")
+        play(3)
+        first.signal(signal.SIGKILL)
+        first.process.wait()
+        play(until=lambda: game.address == second.address)
+
+    def test_the_other_host_is_known_while_nats_is_away(self):
+        first = self.host("a", "--ping-s", "1")
+        first.wait_for("cluster_owns")
+        second = self.host("b")
+        second.wait_for("cluster_follows")
+        game, play = self.played(first.address)
+        play(3)
+        self.nats.kill(0)
+        play(8)
+        first.signal(signal.SIGKILL)
+        first.process.wait()
+        self.nats.start(0)
+        play(until=lambda: game.address == second.address)
+
+
 class Figures(Cluster):
     def scrape(self, host):
         connection = UnixConnection(host.door)

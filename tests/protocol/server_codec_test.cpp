@@ -164,6 +164,8 @@ TEST_CASE("every server message comes back as it was sent") {
       MapMessage{"alps", 7, R"({"name":"alps","terrain":{"file":"alps.flt"}})", true,
                  terrain::HeightGrid{4, 5, -50.0, 0.25, 0.5, 1.0 / 3.0, std::vector<double>(20, -1.5)}},
       Ping{12},
+      Ping{13, {{"10.0.0.6:7777", "[2001:db8::6]:7777"}}},
+      Ping{14, std::vector<std::string>{}},
       Pong{-12}};
   for (const ServerMessage& message : messages) {
     INFO(line_of(message));

@@ -167,3 +167,15 @@ TEST_CASE("a hello with hosts that are none, or with too many of them, is refuse
   hello.hosts.clear();
   CHECK(encode(ServerMessage(hello)).find("hosts") == std::string::npos);
 }
+
+TEST_CASE("a ping's hosts are read as strictly, and a client's ping has none") {
+  const auto decode = [](std::string_view hosts) {
+    return decode_server(R"({"type":"ping","t":1,"hosts":)" + std::string(hosts) + "}", {}, Format::kExact);
+  };
+  CHECK(std::get<Ping>(*decode("[]")).hosts == std::vector<std::string>{});
+  for (const char* wrong : {"null", "{}", "\"10.0.0.6:7777\"", "[\"/tmp/socket\"]", "[7777]"}) {
+    REQUIRE_FALSE(decode(wrong));
+    CHECK(decode(wrong).error().text.find("ping.hosts") == 0);
+  }
+  CHECK(encode(ClientMessage(Ping{1, {{"10.0.0.6:7777"}}})).find("hosts") == std::string::npos);
+}

@@ -239,8 +239,9 @@ std::vector<ServerMessage> server_samples() {
   Ack dropped;
   dropped.dropped = true;
   std::vector<ServerMessage> samples = {
-      whole_hello(), whole_welcome(), whole_ack(),   dropped, whole_notice(), whole_error(),   whole_bye(),
-      whole_rooms(), map_of(true),    map_of(false), Ping{1}, Pong{-1},       whole_records(), whole_ghost()};
+      whole_hello(), whole_welcome(), whole_ack(),     dropped,       whole_notice(),
+      whole_error(), whole_bye(),     whole_rooms(),   map_of(true),  map_of(false),
+      Ping{1},       Pong{-1},        whole_records(), whole_ghost(), Ping{2, {{"10.0.0.6:7777"}}}};
   for (std::size_t k = 0; k < kEventKindCount; ++k) samples.emplace_back(event_of(static_cast<EventKind>(k)));
   return samples;
 }

@@ -110,6 +110,17 @@ class Moving(unittest.TestCase):
                 ticks = [state.tick for state in game.states()]
         self.assertEqual((game.comebacks, game.address, ticks[-1]), (1, third.address, 120))
 
+    def test_hosts_that_were_named_since_take_the_place_of_the_others(self):
+        nobody = Scripted()
+        third = Scripted(joins(TOKEN, *END, resumed=True))
+        first = Scripted(joins(True, {"type": "ping", "t": 1, "hosts": [third.address]}, KEY, hosts=[nobody.address]))
+        with contextlib.redirect_stderr(self.told), third:
+            with first:
+                game = woodlouse.connect(first.address, name="ann")
+            with game:
+                ticks = [state.tick for state in game.states()]
+        self.assertEqual((game.comebacks, game.address, ticks[-1]), (1, third.address, 120))
+
     def test_a_server_without_the_room_is_passed_by_where_there_are_others(self):
         def has_none(send, receive):
             send(HELLO)

@@ -163,6 +163,21 @@ TEST_CASE("who has lost the line looks for the room at the hosts that were named
   CHECK(stage.connection->address() == stage.third.address());
 }
 
+TEST_CASE("who has joined looks for the room at hosts that were named since") {
+  Servers stage;
+  stage.first.name({stage.second.address().text()});
+  const protocol::Ping ping{1, {{stage.third.address().text()}}};
+  stage.first.will_answer({welcome(false) + protocol::encode(protocol::ServerMessage(ping))});
+  stage.third.will_answer({welcome(true) + bye("replaced")});
+  stage.join();
+  stage.run([&] { return stage.connection->losses() == 1; });
+  stage.first.close();
+  stage.run();
+  CHECK(stage.second.joins().empty());
+  REQUIRE(stage.third.joins().size() == 1);
+  CHECK(stage.connection->address() == stage.third.address());
+}
+
 TEST_CASE("a server without the room is passed by on the way back, where there are others") {
   Servers stage;
   stage.first.name({stage.second.address().text()});

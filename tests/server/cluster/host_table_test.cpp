@@ -47,7 +47,7 @@ TEST_CASE("rooms are told with the address of the host that owns their shard, of
   CHECK(table.rooms(kNow).front().room.players == 1);
   // Of other shards nothing else is asked for.
   CHECK(table.hosts(kNow).size() == 1);
-  CHECK(table.addresses(kNow, 16) == Lines{"b:7777"});
+  CHECK(table.addresses(kNow) == Lines{"b:7777"});
   CHECK(table.highest_epoch() == 3);
 }
 
@@ -158,7 +158,9 @@ TEST_CASE("who is heard for the first time is told apart from who goes on, of an
   Beat own = owner("me", "main", 1, {});
   own.process = 7;
   CHECK_FALSE(table.take(own, kNow));
-  CHECK(table.take(beat, kNow + 2 * HostTable::kForgottenAfter));
+  const Time later = kNow + 2 * HostTable::kForgottenAfter;
+  for (Time now = kNow; now < later; now += std::chrono::seconds(1)) table.take(own, now);
+  CHECK(table.take(beat, later));
   beat.shard = "other";
   CHECK(table.take_edge(beat, kNow));
   CHECK_FALSE(table.take_edge(beat, kNow));
@@ -199,12 +201,11 @@ TEST_CASE("edges are no hosts, two may have one name, and who asks for some is t
   const Lines all{"1:7777", "2:7777", "3:7777"};
   std::map<std::string, int> first;
   for (int k = 0; k < 600; ++k) {
-    const Lines told = table.edge_addresses(kNow, 9);
+    const Lines told = table.edge_addresses(kNow);
     REQUIRE(std::is_permutation(told.begin(), told.end(), all.begin(), all.end()));
-    ++first[table.edge_addresses(kNow, 1).at(0)];  // of two that ask by turns each is told of all
+    ++first[table.edge_addresses(kNow).at(0)];  // of two that ask by turns each is told of all
   }
   for (const std::string& address : all) CHECK(first[address] > 120);
-  CHECK(table.edge_addresses(kNow + 2 * HostTable::kForgottenAfter, 9).empty());
   for (std::uint64_t k = 0; k < HostTable::kMostEdges + 5; ++k) table.take_edge(edge(1000 + k, "x:1"), kNow);
   CHECK(table.edges(kNow).size() < HostTable::kMostEdges);
 }
@@ -218,6 +219,47 @@ TEST_CASE("of an owner it is known whether its mode is strict, if it says so") {
   table.take(beat, kNow);
   CHECK(table.is_strict(beat.writer) == std::optional(false));
   CHECK_FALSE(table.is_strict({4, "b", {1, 2}}));
+}
+
+TEST_CASE("who is silent is forgotten, but nobody while this host hears nothing, or has for a while only") {
+  HostTable table("me", "main", 7);
+  Beat own = owner("me", "main", 3, {});
+  own.process = 7;
+  Beat other = owner("b", "main", 2, {});
+  other.owns = false;
+  Beat edge = owner("e", "main", 0, {});
+  edge.ready = true;
+  edge.process = 8;
+  const auto hear = [&](Time from, Time to, bool others) {
+    for (Time now = from; now <= to; now += std::chrono::milliseconds(50)) {
+      table.take(own, now);
+      if (!others) continue;
+      table.take(other, now);
+      table.take_edge(edge, now);
+    }
+  };
+  const auto known = [&table](Time now) {
+    return table.addresses(now).size() + table.edge_addresses(now).size();
+  };
+  const Duration moment = std::chrono::milliseconds(100), long_time = HostTable::kForgottenAfter;
+  const Time cut = kNow + 2 * long_time;
+  hear(kNow, cut, true);
+  CHECK(known(cut) == 2);
+  CHECK(known(cut + 20 * long_time) == 2);  // nothing is heard
+  const Time back = cut + 20 * long_time;
+  hear(back, back + moment, false);
+  CHECK(known(back + moment) == 2);
+  hear(back + moment, back + long_time, false);
+  CHECK(known(back + long_time) == 2);
+  hear(back + long_time, back + long_time + moment, false);
+  CHECK(known(back + long_time + moment) == 0);
+  hear(back + long_time + moment, back + 2 * long_time, true);
+  CHECK(known(back + 2 * long_time) == 2);
+  const Time silent = back + 2 * long_time;
+  hear(silent, silent + long_time, false);
+  CHECK(known(silent + long_time) == 2);
+  hear(silent + long_time, silent + long_time + moment, false);
+  CHECK(known(silent + long_time + moment) == 0);
 }
 
 TEST_CASE("hosts of other shards are bounded, and forgotten") {

@@ -1,6 +1,8 @@
 // What a session says of rooms that are at another server.
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <chrono>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -62,6 +64,39 @@ TEST_CASE("hello names the other hosts, of many the first") {
   const auto hello = protocol::decode_server(stage.last_line(), {}, protocol::Format::kExact);
   REQUIRE(hello);
   CHECK(std::get<protocol::Hello>(*hello).hosts == hosts);
+}
+
+TEST_CASE("a ping names the other hosts once they are others, whatever order they are told in") {
+  using Hosts = std::optional<std::vector<std::string>>;
+  Stage stage;
+  std::vector<std::string> hosts{"10.0.0.1:7777", "10.0.0.2:7777"};
+  stage.environment.hosts = [&hosts] { return hosts; };
+  stage.start_joined();
+  stage.volcano->member->welcome({}, 1);
+  stage.run();
+  const auto next_ping = [&stage] {
+    stage.pass(std::chrono::seconds(stage.limits.ping_s));
+    const auto ping = protocol::decode_server(stage.last_line(), {}, protocol::Format::kExact);
+    REQUIRE(ping);
+    return std::get<protocol::Ping>(*ping).hosts;
+  };
+  CHECK(next_ping() == Hosts());
+  hosts = {"10.0.0.2:7777", "10.0.0.1:7777"};
+  CHECK(next_ping() == Hosts());
+  hosts.emplace_back("10.0.0.3:7777");
+  CHECK(next_ping() == Hosts(hosts));
+  CHECK(next_ping() == Hosts());
+  hosts.clear();
+  CHECK(next_ping() == Hosts(hosts));
+  for (int k = 1; k <= 20; ++k) hosts.push_back("10.0.0." + std::to_string(k) + ":7777");
+  CHECK(next_ping() == Hosts({hosts.begin(), hosts.begin() + protocol::kMaxHosts}));
+  for (int k = 0; k < 20; ++k) {  // as of many edges each is named first by turns
+    std::rotate(hosts.begin(), hosts.begin() + 3, hosts.end());
+    CHECK(next_ping() == Hosts());
+  }
+  hosts.erase(std::find(hosts.begin(), hosts.end(), "10.0.0.4:7777"));
+  CHECK(next_ping()->size() == protocol::kMaxHosts);
+  CHECK(next_ping() == Hosts());
 }
 
 }  // namespace woodlouse::server::moved_test
