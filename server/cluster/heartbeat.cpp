@@ -26,6 +26,7 @@ Heartbeat::Heartbeat(const ClusterSettings& settings, Hooks hooks)
 }
 
 core::Expected<void> Heartbeat::connect() {
+  link_.reset();                 // what a former one says from now on is nothing to this one
   is_cut_ = is_closed_ = false;  // before it is told that it is
   auto opened = open();
   if (!opened) is_cut_ = is_closed_ = true;  // also one that hears only some of what it is to hear
@@ -96,7 +97,7 @@ void Heartbeat::tell_once() {
   const std::string subject =
       settings_.is_edge ? settings_.edge_subject(settings_.host) : settings_.beat_subject(settings_.host);
   // What is lost of it is told again.
-  static_cast<void>(link_->publish(subject, to_text(beat)));
+  if (link_) static_cast<void>(link_->publish(subject, to_text(beat)));
 }
 
 /// libnats gives a line up for good where it is refused twice, as while a certificate is changed: another one
