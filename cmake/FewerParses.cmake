@@ -1,6 +1,6 @@
 # The same headers are not parsed again for each file: half of every build went there.
 # The outside headers that most files include are precompiled, and the files of a room (but those that step, whose code
-# is most of their time) are compiled eight at a time. So a room's files share what they name in their anonymous
+# is most of their time) are compiled eight at a time (options all at once, the lab by groups). So a room's files share what they name in their anonymous
 # namespaces; SKIP_UNITY_BUILD_INCLUSION takes out a file whose names another has too. A file includes what it uses
 # nevertheless: the preset freestanding compiles without.
 option(WOODLOUSE_UNITY "Compile a room's files eight at a time; OFF is faster for who changes one" ON)

@@ -13,7 +13,8 @@
 namespace woodlouse::server {
 namespace {
 
-constexpr const char* kClusterExamples = R"(FILE is the one of --cluster, as {"nats": ["nats://127.0.0.1:4222"]}.
+constexpr const char* kClusterExamples =
+    R"(FILE is the one of --cluster, as {"nats": ["nats://127.0.0.1:4222"]}.
 
 Examples:
   woodlouse-server cluster init cluster.json

@@ -60,7 +60,7 @@ struct ServeConfig {
   LogFormat log_format = LogFormat::kText;
   std::optional<std::filesystem::path> log_file;  ///< empty: standard error
   std::string log_level = "info";                 ///< of log_levels()
-  protocol::Limits limits;  ///< messages_per_s and burst 0: by the tick rate (limit_options.h)
+  protocol::Limits limits;  ///< messages_per_s and burst 0: by the tick rate (limits_of)
 };
 
 struct CheckConfig {
@@ -95,6 +95,10 @@ using Config = std::variant<ServeConfig, CheckConfig, MakeMapConfig, VerifyConfi
 
 /// Frames fall on ticks. Of a fork it is known once its recording is read.
 core::Expected<void> check_state_hz(std::uint32_t state_hz, std::uint32_t tick_hz);
+
+/// What hello declares: as many connections as there may be files open, some of which the server needs
+/// itself.
+protocol::Limits limits_of(const ServeConfig& config, std::uint64_t may_be_open);
 
 /// Errors: where = the option, or FILE: key of the config file.
 core::Expected<Config> parse_config(int argc, const char* const* argv);

@@ -36,18 +36,4 @@ inline void add_limit_options(CLI::App& app, protocol::Limits& limits) {
   }
 }
 
-/// Of what was typed: those that follow from others and from the tick rate.
-inline protocol::Limits completed(protocol::Limits typed, std::uint32_t tick_hz) {
-  // A bot may push once a tick and still ask for the time.
-  if (typed.messages_per_s == 0) typed.messages_per_s = std::max(60u, 2 * tick_hz);
-  if (typed.burst == 0) typed.burst = 2 * typed.messages_per_s;
-  typed.per_room = typed.max_players + typed.max_bots + typed.max_spectators;
-  return typed;
-}
-
-struct ServeConfig;
-
-/// As many connections as there may be files open, some of which the server needs itself.
-protocol::Limits limits_of(const ServeConfig& config);
-
 }  // namespace woodlouse::server

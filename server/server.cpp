@@ -16,7 +16,6 @@
 #include <variant>
 
 #include "server/commands/fork.h"
-#include "server/limit_options.h"
 #include "server/logging/events.h"
 #include "server/version.h"
 #include "shared/core/joined.h"
@@ -65,7 +64,7 @@ Server::Server(const ServeConfig& config, Outside outside, std::shared_ptr<spdlo
       deadline_(strand_),
       outside_(std::move(outside)),
       had_terminal_(has_terminal()),
-      limits_(limits_of(config)),
+      limits_(limits_of(config, raise_descriptor_limit())),
       environment_{guide_, limits_, traffic_, timekeeper_, kServerName, log_},
       acceptor_(lanes_, environment_),
       opener_(ticks_, lanes_, limits_, companions_, timekeeper_, log_),
@@ -277,7 +276,7 @@ void Server::reload(const std::string& who, Operator::Reloaded done) {
     read += ", certificate";
   }
   log_->set_level(spdlog::level::from_str(config->log_level));
-  const protocol::Limits limits = limits_of(*config);
+  const protocol::Limits limits = limits_of(*config, raise_descriptor_limit());
   limits_.replace(limits);
   for (const auto& room : lobby_.rooms()) room->use(limits);
   if (const auto passwords = use_passwords(*config); !passwords)
