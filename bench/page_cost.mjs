@@ -8,6 +8,7 @@
 // for the memory of a long stay (600; 3600 is the hour of the budget), in a small window. Parts by name: those alone. Needs chromium, and `npm install` in web/tests/browser.
 import { spawn } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import http from 'node:http';
 import os from 'node:os';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -38,15 +39,36 @@ function noteFirstPicture() {
 
 /** Milliseconds from the navigation until the first frame with lice in it is computed to its last pixel, in a browser that runs but
  * has nothing of the page: a new profile, and STARTING ms after its start. */
-async function firstPicture(served) {
+async function firstPicture(address) {
   const context = await browsed(), page = context.pages()[0];
   await page.addInitScript(noteFirstPicture);
   await page.waitForTimeout(STARTING);
-  await page.goto(served.web);
+  await page.goto(address);
   await until(page, () => window.firstPicture > 0, 60000);
   const took = await page.evaluate(() => window.firstPicture);
   await context.close();
   return took;
+}
+
+/** The least that a page with WebGL can be: one triangle over all of the window, by a context as the page's. What its first picture
+ * takes is the browser's own. */
+const ONE_TRIANGLE = `<!doctype html><style>html, body, canvas { margin: 0; width: 100%; height: 100%; display: block }</style><canvas></canvas><script>
+const canvas = document.querySelector('canvas'), gl = canvas.getContext('webgl2', { alpha: false, antialias: false, powerPreference: 'low-power' });
+canvas.width = innerWidth, canvas.height = innerHeight, gl.viewport(0, 0, canvas.width, canvas.height);
+const program = gl.createProgram();
+for (const [kind, text] of [[gl.VERTEX_SHADER, 'void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0, 1); }'],
+  [gl.FRAGMENT_SHADER, 'precision mediump float; out vec4 colour; void main() { colour = vec4(0.2, 0.5, 0.3, 1); }']]) {
+  const shader = gl.createShader(kind);
+  gl.shaderSource(shader, '#version 300 es\\n' + text), gl.compileShader(shader), gl.attachShader(program, shader);
+}
+gl.linkProgram(program), gl.useProgram(program);
+requestAnimationFrame(() => { gl.drawArrays(gl.TRIANGLES, 0, 3); window.woodlouse = { picture: { peopled: true, drawing: { gl } } }; });
+</script>`;
+
+async function serveOneTriangle() {
+  const server = http.createServer((_, answer) => answer.writeHead(200, { 'Content-Type': 'text/html' }).end(ONE_TRIANGLE));
+  await new Promise((resolve) => server.listen(0, '127.0.0.1', resolve));
+  return { address: `http://127.0.0.1:${server.address().port}/`, end: () => server.close() };
 }
 
 /** Two programs that do nothing but take a core each. */
@@ -216,12 +238,16 @@ async function longStay() {
 
 const served = await Served.start(...CROWD);
 if (wanted.includes('bytes')) await bytes(served);
+const triangle = await serveOneTriangle();
 for (const isLoaded of wanted.includes('first') ? [false, true] : []) {
-  const rest = isLoaded ? load() : () => {}, took = [];
-  for (let k = 0; k < FIRST_PICTURES; k++) took.push(await firstPicture(served));
+  const rest = isLoaded ? load() : () => {}, took = [], least = [];
+  for (let k = 0; k < FIRST_PICTURES; k++) least.push(await firstPicture(triangle.address)), took.push(await firstPicture(served.web));
   rest();
-  say(`first picture, 200 lice, nothing kept from before, ${isLoaded ? 'both cores taken' : 'idle'} [ms]`, spread(took), isLoaded ? '1000' : '500');
+  const when = isLoaded ? 'both cores taken' : 'idle';
+  say(`first picture, 200 lice, nothing kept from before, ${when} [ms]`, spread(took), isLoaded ? '1000' : '500');
+  say(`  of a page of one triangle, by turns, ${when} [ms]; above it`, `${spread(least)}; ${spread(took.map((one, k) => one - least[k]))}`);
 }
+triangle.end();
 if (wanted.includes('frames')) await frames(served);
 if (wanted.includes('acks')) await acks();
 if (wanted.includes('recordings')) await recordings(served);
