@@ -13,6 +13,7 @@ LogWriter::LogWriter(Writer writer, std::uint64_t after) : writer_(std::move(wri
 void LogWriter::add(std::string packed) {
   assert(!packed.empty());
   if (waiting() == 0) silent_since_ = Time{};
+  packed.shrink_to_fit();  // a packer has room for what does not pack: six times as much would be kept
   bytes_ += packed.size();
   batches_.push_back(std::make_shared<const std::string>(std::move(packed)));
 }

@@ -233,6 +233,14 @@ TEST_CASE("of stored batches no more is kept than fits, and of others all") {
   CHECK(log.bytes() == 4 * kBytes);
 }
 
+TEST_CASE("a batch that is kept takes no more memory than it has bytes") {
+  LogWriter log(writer_of("a", 1, 7), 1);
+  std::string packed(1000, 'b');
+  packed.reserve(100'000);
+  log.add(std::move(packed));
+  CHECK(log.next(Time{})->bytes->capacity() < 1100);
+}
+
 TEST_CASE("where more is missing than is kept, and where the epoch itself is, only another epoch can go on") {
   Stream stream;
   Host a(writer_of("a", 1, 7), stream);
