@@ -14,7 +14,14 @@ namespace woodlouse::server {
 using core::joined;
 
 bool Node::take_over() {
-  if (!view_->difference().empty() || !catch_up() || !take_log()) return false;
+  const auto writer_of_last = [this] { return view_->head() ? view_->head()->writer : Writer{}; };
+  const Writer gone = writer_of_last();
+  if (!view_->difference().empty() || !catch_up()) return false;
+  if (writer_of_last() != gone) {  // who has it now may well be there
+    say(LogEvent::kClusterFollows, joined({"another host was first: ", to_text(writer_of_last())}));
+    return false;
+  }
+  if (!take_log()) return false;
   std::vector<RoomToGoOn> rooms = rooms_to_go_on();
   say(LogEvent::kClusterOwns,
       joined({"owns ", settings_.shard, " as ", to_text(writer_->writer()), " from batch ",

@@ -113,7 +113,7 @@ class Moves(Cluster):
                 self.check_all_are_back(clients, louse, moves)
                 time.sleep(0.5)
             self.assertGreaterEqual(moves, 1)
-        self.check_log()
+        self.assertIn(f": {moves + 2} epochs", self.check_log())  # init, the first host, one a move: never two
 
 
 if __name__ == "__main__":
