@@ -37,6 +37,7 @@ class Node final : public Cluster {
   static constexpr Duration kBeginEvery = std::chrono::milliseconds(250);
   /// Text of a batch that waits for no time: it is one message of NATS, packed, but where a line is long.
   static constexpr std::size_t kCutBytes = 512u << 10;
+  static constexpr std::size_t kCutBehindBytes = 4u << 20;  ///< the same while a batch is on its way
   /// Batches that are not acknowledged; then the log begins anew once it takes some.
   static constexpr std::size_t kMostWaiting = 600;
   /// Without an acknowledgement; then the rooms are told.
@@ -97,6 +98,9 @@ class Node final : public Cluster {
   void ask_the_log();
   void hear(std::deque<NodeEvent> events);
   void cut(Time now);
+  [[nodiscard]] std::size_t cut_bytes() const {
+    return writer_->waiting() == 0 ? kCutBytes : kCutBehindBytes;
+  }
   void write(Time now);
   void tell_kept();
   [[nodiscard]] Time next_look(Time now) const;

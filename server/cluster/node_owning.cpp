@@ -21,8 +21,10 @@ void Node::own() {
     if (inbox_->is_in_doubt()) ask_the_log();
     const Time now = Clock::now();
     text_->renew(now, kCutBytes);
-    const bool is_awaited = text_->is_awaited() && writer_->waiting() == 0;
-    if (now >= cut_at_ || text_->size() >= kCutBytes || is_awaited) cut(now);
+    // One batch is on its way at a time: what is cut beside it would only wait in more pieces.
+    const bool is_free = writer_->waiting() == 0;
+    const bool is_due = now >= cut_at_ || (is_free && text_->is_awaited());
+    if ((is_due && (is_free || is_full_)) || text_->size() >= cut_bytes()) cut(now);
     write(now);
     tell_kept();
     // Its own former epoch is no other host's: what said that it was gone was an old read.
@@ -78,7 +80,7 @@ void Node::hear(std::deque<NodeEvent> events) {
   for (NodeEvent& event : events) {
     if (const auto* job = std::get_if<LogDesk::Job>(&event)) {
       (*job)(*text_, now);
-      if (text_->size() >= kCutBytes && writer_->is_open()) cut(now);  // many rooms begin at once
+      if (text_->size() >= cut_bytes() && writer_->is_open()) cut(now);  // many rooms begin at once
     }
     if (const auto* stored = std::get_if<Acknowledged>(&event)) writer_->acknowledged(stored->sequence, now);
     if (const auto* no = std::get_if<Refused>(&event)) {
