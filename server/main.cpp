@@ -1,5 +1,6 @@
 // woodlouse-server: parses, wires, runs.
 #include <fcntl.h>
+#include <openssl/crypto.h>
 #include <unistd.h>
 
 #include <boost/system/system_error.hpp>
@@ -114,6 +115,8 @@ int main(int argc, char** argv) {
   // past what its user may write: then writing fails.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
+  // Else OpenSSL frees at exit what threads of libnats, which outlast its connections, may be freeing still.
+  OPENSSL_init_crypto(OPENSSL_INIT_NO_ATEXIT, nullptr);
   const auto config = parse_config(argc, argv);
   if (!config) return report(config.error(), kUsage);
   const auto reread = [argc, argv]() -> woodlouse::core::Expected<ServeConfig> {

@@ -246,6 +246,17 @@ class Accounts(unittest.TestCase):
                             "$JS.API.STREAM.CREATE.WL_woodlouse_other", "$JS.API.STREAM.UPDATE.WL_woodlouse_main"):
                 self.assertIn("Permissions Violation for Publish", host.publish(subject), subject)
 
+    def test_whoever_has_spoken_to_nats_ends_well(self):
+        """Its threads outlast the connection, and free what they have of OpenSSL while the process ends."""
+        commands = [[stage.PROGRAM, "cluster", "init", self.nats.path("admin.json")]] * 4
+        for _ in range(30):
+            running = [subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) for command in commands]
+            self.assertEqual([process.wait(stage.PATIENCE) for process in running], [0] * len(commands))
+        first, second = self.two_hosts()
+        for host in (first, second):
+            host.signal(signal.SIGTERM)
+            self.assertEqual(host.process.wait(stage.PATIENCE), 0, host.log())
+
     def test_who_is_nobody_gets_nothing(self):
         code, said = self.nats.as_user("stranger", "status")
         self.assertEqual(code, 1, said)
