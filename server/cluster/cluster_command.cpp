@@ -46,7 +46,7 @@ int init(NatsLink& link, const ClusterSettings& settings, std::ostream& out, std
 }
 
 core::Expected<std::shared_ptr<HostTable>> hear_hosts(NatsLink& link, const ClusterSettings& settings,
-                                                      Duration lasts = 6 * Heartbeat::kEvery) {
+                                                      Duration lasts) {
   const auto table = std::make_shared<HostTable>(settings.host, settings.shard, 0);
   auto heard = link.subscribe(settings.beat_subject("*"), [table](const auto&, const auto& bytes, auto) {
     if (auto beat = beat_from(bytes)) table->take(std::move(*beat), Clock::now());
@@ -75,7 +75,7 @@ std::string_view mode_of(const Beat& host) {
 int move(NatsLink& link, const ClusterErrand& errand, std::ostream& out, std::ostream& err) {
   constexpr Duration kWithin = std::chrono::seconds(10);
   const bool is_drain = errand.action == ClusterErrand::Action::kDrain;
-  const auto table = hear_hosts(link, errand.settings);
+  const auto table = hear_hosts(link, errand.settings, 6 * Heartbeat::every(errand.settings.silence));
   if (!table) return report(table.error(), err);
   const auto owner = (*table)->owner(Clock::now());
   if (!owner) return report({"cluster", "nobody owns its rooms now"}, err);
@@ -111,7 +111,8 @@ int move(NatsLink& link, const ClusterErrand& errand, std::ostream& out, std::os
 }
 
 int status(NatsLink& link, const ClusterSettings& settings, std::ostream& out, std::ostream& err) {
-  const auto table = hear_hosts(link, settings, Heartbeat::kEdgeEvery + 2 * Heartbeat::kEvery);
+  const auto table =
+      hear_hosts(link, settings, Heartbeat::kEdgeEvery + 2 * Heartbeat::every(settings.silence));
   if (!table) return report(table.error(), err);
   const auto state = link.stream_state();
   if (!state) return report(state.error(), err);

@@ -104,7 +104,7 @@ void Heartbeat::tell_once() {
 /// is made then. Of why it is refused the log's own line tells.
 void Heartbeat::beat(const std::stop_token& stop) {
   constexpr Duration kRenewEvery = std::chrono::seconds(1);
-  const Duration every = settings_.is_edge ? kEdgeEvery : kEvery;
+  const Duration apart = settings_.is_edge ? kEdgeEvery : every(settings_.silence);
   Time next = Clock::now();
   Time renew_at{};
   while (!stop.stop_requested()) {
@@ -113,7 +113,7 @@ void Heartbeat::beat(const std::stop_token& stop) {
       static_cast<void>(connect());
     }
     tell_once();
-    next = std::max(next + every, Clock::now());
+    next = std::max(next + apart, Clock::now());
     std::unique_lock lock(mutex_);
     if (now_.wait_until(lock, stop, next, [this] { return is_due_; })) next = Clock::now();
     is_due_ = false;

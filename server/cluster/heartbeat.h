@@ -3,6 +3,7 @@
 // dead. What operators ask of the shard's owner comes the same way.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <cstdint>
@@ -24,8 +25,11 @@ namespace woodlouse::server {
 
 class Heartbeat {
  public:
-  /// A host's beats, and an edge's, for which nobody waits.
-  static constexpr Duration kEvery = std::chrono::milliseconds(50);
+  /// A host's beats: five in the silence after which it is taken for gone, from 10 to 20 a second.
+  [[nodiscard]] static constexpr Duration every(Duration silence) {
+    return std::clamp<Duration>(silence / 5, std::chrono::milliseconds(50), std::chrono::milliseconds(100));
+  }
+  /// An edge's, for which nobody waits.
   static constexpr Duration kEdgeEvery = std::chrono::milliseconds(500);
   /// An owner's rooms are in one beat of so many; in each, of one that has just begun; soon, when somebody is
   /// heard for the first time, though no oftener than kRoomsApart for that.

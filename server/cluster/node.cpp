@@ -106,8 +106,7 @@ std::unique_ptr<TickWatcher> Node::watch(const std::string& room, replay::Header
 
 std::optional<std::string> Node::elsewhere(std::string_view room) const {
   // One that is silent may be gone: who asks is better told to ask again.
-  constexpr Duration kHeardWithin = 6 * Heartbeat::kEvery;
-  const auto owner = table().owner(Clock::now(), kHeardWithin);
+  const auto owner = table().owner(Clock::now(), 6 * Heartbeat::every(settings_.silence));
   if (!owner || !owner->rooms) return std::nullopt;
   const auto& rooms = *owner->rooms;
   const bool is_there = std::any_of(rooms.begin(), rooms.end(),

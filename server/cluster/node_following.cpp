@@ -297,9 +297,10 @@ bool Node::is_owner_gone(Time now) {
   // A new log is nobody's; one that was emptied may be that of a host which lives.
   if (!view_->head() || view_->head()->writer.epoch == 0)
     return !table().owner(now) && (view_->head() || after_ != 0) &&
-           silence(now) > (view_->head() ? std::min<Duration>(settings_.silence, 5 * Heartbeat::kEvery)
-                                         : settings_.silence) +
-                              turn;
+           silence(now) >
+               (view_->head() ? std::min<Duration>(settings_.silence, 5 * Heartbeat::every(settings_.silence))
+                              : settings_.silence) +
+                   turn;
   constexpr Duration kUnlessWanted = std::chrono::seconds(1);
   if (const auto to = table().leaves(view_->head()->writer)) {
     const bool is_wanted = *to == settings_.host;

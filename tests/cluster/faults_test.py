@@ -19,7 +19,7 @@ LAME_DUCK_GAP = 0.5
 
 
 class Acknowledgements:
-    """When a host was told that more of its log is stored, by its beats (20 a second), heard at one node of NATS."""
+    """When a host was told that more of its log is stored, by its beats (ten a second at least), heard at one node of NATS."""
 
     def __init__(self, nats, node, host):
         self.times, self.number = [], 0
