@@ -118,11 +118,13 @@ core::Expected<BatchHead> read_head(std::string_view line, const std::string& pl
 
 /// All of it; nothing where it is longer than it may be.
 core::Expected<std::string> unpacked(std::string_view packed, const std::string& place) {
-  replay::ZstdInput buffer(
-      std::make_unique<replay::BytesStream>(std::make_shared<const std::string>(packed)));
+  // Most batches are of a few KB: to clear a file's buffers would take longer than to unpack one.
+  constexpr std::size_t kBufferBytes = 16384;
+  replay::ZstdInput buffer(std::make_unique<replay::BytesStream>(std::make_shared<const std::string>(packed)),
+                           kBufferBytes);
   std::istream in(&buffer);
   std::string text;
-  char part[16384];
+  char part[kBufferBytes];
   while (in.read(part, sizeof part) || in.gcount() > 0) {
     text.append(part, static_cast<std::size_t>(in.gcount()));
     if (text.size() > kMostUnpacked) return core::fail(place, "unpacks to more than a batch may have");

@@ -3,6 +3,7 @@
 #include <zstd_errors.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cstring>
 #include <utility>
 
@@ -28,11 +29,9 @@ std::string fault_at(std::uint64_t at, std::size_t error) {
 
 }  // namespace
 
-ZstdInput::ZstdInput(std::unique_ptr<InputStream> packed)
-    : packed_(std::move(packed)),
-      context_(ZSTD_createDCtx()),
-      in_(ZSTD_DStreamInSize()),
-      out_(ZSTD_DStreamOutSize()) {
+ZstdInput::ZstdInput(std::unique_ptr<InputStream> packed, std::size_t buffer_bytes)
+    : packed_(std::move(packed)), context_(ZSTD_createDCtx()), in_(buffer_bytes), out_(buffer_bytes) {
+  assert(buffer_bytes > 0);
   if (!context_) core::out_of_memory();
   ZSTD_DCtx_setParameter(context_.get(), ZSTD_d_windowLogMax, kMaxWindowLog);
   if (std::optional<ZstdTable> table = read_zstd_table(*packed_)) {

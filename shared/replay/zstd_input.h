@@ -35,7 +35,10 @@ class ZstdInput : public FaultTellingBuffer {
   static constexpr std::uint64_t kMaxRatio =
       100;  ///< but for kMaxFrameBytes; a step's hash alone keeps it below 10
 
-  explicit ZstdInput(std::unique_ptr<InputStream> packed);
+  static constexpr std::size_t kBufferBytes = 1u << 17;  ///< of a file
+
+  /// buffer_bytes: of what is read at once, and of what is unpacked at once; not 0.
+  explicit ZstdInput(std::unique_ptr<InputStream> packed, std::size_t buffer_bytes = kBufferBytes);
 
   [[nodiscard]] bool is_cut_off() const override { return is_drained_ && is_frame_open_; }
 
