@@ -32,10 +32,10 @@ bool Node::take_over() {
   for (const RoomToGoOn& room : rooms) names.insert(room.name);
   text_->keep_places(names);
   inbox_->settle();
-  log_link_->unfollow();
   tell_owning();
   heartbeat_.soon();
   if (!inbox_->is_stopping() && !is_leaving_) hooks_.take_over(std::move(rooms));
+  log_link_->unfollow();  // which asks NATS: whoever plays does not wait for its answer
   return true;
 }
 

@@ -180,6 +180,8 @@ class Accounts(unittest.TestCase):
 
         stage.play(play())
         self.assertTrue(bot.welcomes[1][1]["resumed"])
+        # What a host is refused is not answered, and it waits for that while it takes rooms over.
+        self.assertNotRegex(pathlib.Path(self.nats.path("nats.log")).read_text(), r'Violation.*"CN=host')
         for user in ("edge", "admin"):
             code, said = self.nats.as_user(user, "status")
             self.assertEqual(code, 0, said)
