@@ -88,6 +88,7 @@ core::Expected<void> ClusterDesk::open_edge(const ServeConfig& config, ClusterSe
   auto cluster = Cluster::open(std::move(settings), std::move(viewers), log_);
   if (!cluster) return tl::unexpected(cluster.error());
   cluster_ = std::move(*cluster);
+  relay_->set_hears([this] { return cluster_->figures().connected; });
   return {};
 }
 

@@ -88,7 +88,8 @@ std::string_view Relay::why_not_ready(Time) const {
   const std::lock_guard lock(mutex_);
   const bool shows =
       std::any_of(rooms_.begin(), rooms_.end(), [](const auto& entry) { return entry.second.is_ready; });
-  return shows ? "" : "no room is shown yet";
+  if (!shows) return "no room is shown yet";
+  return hears_() ? "" : "NATS is not connected: what is shown stands";
 }
 
 protocol::Rooms Relay::list() const {

@@ -33,6 +33,9 @@ class Relay final : public Directory {
   Relay(boost::asio::io_context& ticks, const Lanes& lanes, RoomSettings settings, const LiveLimits& limits,
         Duration delay, Timekeeper& timekeeper, std::shared_ptr<spdlog::logger> log);
 
+  /// Whether the log is heard; any thread calls it. Before another thread asks.
+  void set_hears(std::function<bool()> hears) { hears_ = std::move(hears); }
+
   /// What the log tells of a room next, lines without their newlines. One thread.
   void take(const std::string& room, std::vector<std::string> lines);
   /// It is over.
@@ -42,7 +45,8 @@ class Relay final : public Directory {
   [[nodiscard]] std::vector<std::string> names() const override;
   [[nodiscard]] protocol::Rooms list() const override;
   [[nodiscard]] std::uint64_t changes() const override { return changes_.load(); }
-  /// Before it shows a room: nothing has been read of the log yet, or there is none.
+  /// Before it shows a room: nothing has been read of the log yet, or there is none. And while none is heard:
+  /// what it shows stands.
   [[nodiscard]] std::string_view why_not_ready(Time now) const override;
 
  private:
@@ -58,6 +62,7 @@ class Relay final : public Directory {
   const RoomSettings settings_;
   const LiveLimits& limits_;
   const Duration delay_;
+  std::function<bool()> hears_ = [] { return true; };
   Timekeeper& timekeeper_;
   const std::shared_ptr<spdlog::logger> log_;
   MapShelf maps_;

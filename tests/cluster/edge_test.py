@@ -15,6 +15,7 @@ import unittest
 import stage
 from directory_test import Client, woodlouse
 from faults_test import Cluster
+from metrics import Door
 from stage import Clients, EdgeHost
 
 
@@ -212,6 +213,33 @@ class Edge(Cluster):
             self.assertEqual(said.returncode, 2, said.stderr)
             self.assertIn(f"--cluster-address {address}: is no HOST:PORT", said.stderr)
         self.assertEqual(edge.end(), 0)
+
+    def test_an_edge_that_is_cut_off_is_not_ready(self):
+        path = os.path.join(self.nats.folder, "edge.sock")
+
+        def readiness():
+            door = Door(path)
+            door.request("GET", "/readyz")
+            answer = door.getresponse()
+            said = answer.status, answer.read().decode().strip()
+            door.close()
+            return said
+
+        def wait_for(expected):
+            end = time.monotonic() + stage.PATIENCE
+            while (said := readiness()) != expected:
+                self.assertLess(time.monotonic(), end, said)
+                time.sleep(0.1)
+
+        edge = self.enterContext(EdgeHost(self.nats, "e", "--admin", path))
+        wait_for((503, "no room is shown yet"))
+        self.host("a").wait_for("cluster_owns")
+        edge.wait_for("is shown here")
+        wait_for((200, "ready"))
+        self.nats.kill(0)
+        wait_for((503, "NATS is not connected: what is shown stands"))
+        self.nats.start(0)
+        wait_for((200, "ready"))
 
     def test_a_game_whose_log_was_removed_is_shown_no_more_and_the_next_one_is(self):
         first = self.host("a")

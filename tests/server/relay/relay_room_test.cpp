@@ -259,6 +259,11 @@ TEST_CASE("rooms that are shown are found once there is something to show, until
   CHECK(relay.changes() > before);
   CHECK(relay.names() == std::vector<std::string>{"volcano"});
   CHECK(relay.why_not_ready(edge.timekeeper.now()).empty());
+  bool hears = false;
+  relay.set_hears([&hears] { return hears; });
+  CHECK(relay.why_not_ready(edge.timekeeper.now()) == "NATS is not connected: what is shown stands");
+  hears = true;
+  CHECK(relay.why_not_ready(edge.timekeeper.now()).empty());
   REQUIRE(relay.find("") != nullptr);
   CHECK(relay.find("")->only_shows());
   CHECK(relay.list().rooms[0].map == "volcano");
