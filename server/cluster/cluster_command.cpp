@@ -79,6 +79,12 @@ int move(NatsLink& link, const ClusterErrand& errand, std::ostream& out, std::os
   if (!table) return report(table.error(), err);
   const auto owner = (*table)->owner(Clock::now());
   if (!owner) return report({"cluster", "nobody owns its rooms now"}, err);
+  const auto heard = (*table)->hosts(Clock::now());
+  if (is_drain && std::none_of(heard.begin(), heard.end(),
+                               [&errand](const Beat& beat) { return beat.host == errand.host; }))
+    return report(
+        {errand.host, "no host of that name is heard", "woodlouse-server cluster status says who is there"},
+        err);
   const bool is_owners = !is_drain || owner->host == errand.host;
   const std::string to = is_drain ? std::string() : errand.host;
   if (!is_drain && owner->host == to) return report({to, "owns the rooms already"}, err);

@@ -52,6 +52,9 @@ class Moves(Cluster):
             self.assertIn("already", said)
             code, said = self.nats.command("move", "--to", "nobody")
             self.assertEqual(code, 1, said)
+            code, said = self.nats.command("drain", "nobody")
+            self.assertEqual(code, 1, said)
+            self.assertIn("nobody: no host of that name is heard", said)
             code, said = self.nats.command("drain", "a")  # which has no room
             self.assertEqual(code, 0, said)
             self.assertIn("a takes none", said)
