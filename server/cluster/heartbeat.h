@@ -25,7 +25,8 @@ namespace woodlouse::server {
 
 class Heartbeat {
  public:
-  /// A host's beats: five in the silence after which it is taken for gone, from 10 to 20 a second.
+  /// A host's beats: 10 to 20 a second, as the silence wants it after which it is taken for gone: three in it
+  /// at the least, mostly five.
   [[nodiscard]] static constexpr Duration every(Duration silence) {
     return std::clamp<Duration>(silence / 5, std::chrono::milliseconds(50), std::chrono::milliseconds(100));
   }

@@ -106,7 +106,8 @@ std::unique_ptr<TickWatcher> Node::watch(const std::string& room, replay::Header
 
 std::optional<std::string> Node::elsewhere(std::string_view room) const {
   // One that is silent may be gone: who asks is better told to ask again.
-  const auto owner = table().owner(Clock::now(), 6 * Heartbeat::every(settings_.silence));
+  constexpr Duration kHeardWithin = std::chrono::milliseconds(300);
+  const auto owner = table().owner(Clock::now(), kHeardWithin);
   if (!owner || !owner->rooms) return std::nullopt;
   const auto& rooms = *owner->rooms;
   const bool is_there = std::any_of(rooms.begin(), rooms.end(),

@@ -281,6 +281,7 @@ Duration Node::silence(Time now) const {
 /// Those who stand by try one after the other; the log decides in any case.
 bool Node::is_owner_gone(Time now) {
   constexpr Duration kTurn = std::chrono::milliseconds(100);
+  constexpr Duration kUnlessHeard = std::chrono::milliseconds(250);
   constexpr Duration kUnlessOthersCan = std::chrono::seconds(2);
   if (has_differed_) return false;  // though it might go on from a later keyframe: which of the two errs?
   if (is_cut_off() || table().has_twin(now)) {
@@ -298,8 +299,7 @@ bool Node::is_owner_gone(Time now) {
   if (!view_->head() || view_->head()->writer.epoch == 0)
     return !table().owner(now) && (view_->head() || after_ != 0) &&
            silence(now) >
-               (view_->head() ? std::min<Duration>(settings_.silence, 5 * Heartbeat::every(settings_.silence))
-                              : settings_.silence) +
+               (view_->head() ? std::min<Duration>(settings_.silence, kUnlessHeard) : settings_.silence) +
                    turn;
   constexpr Duration kUnlessWanted = std::chrono::seconds(1);
   if (const auto to = table().leaves(view_->head()->writer)) {

@@ -69,9 +69,8 @@ constexpr std::array<FamilyEntry, kFamilyCount> kFamilies{{
     {"woodlouse_cluster_batch", kGauge, "",
      "Sequence number of the log's last batch that this host knows to be stored, or has read."},
     {"woodlouse_cluster_batches_waiting", kGauge, "",
-     "Batches of this host that are not acknowledged: one is on its way at a time, and what comes meanwhile "
-     "goes "
-     "into the next."},
+     "Batches of this host, or parts of one, that are not acknowledged; what comes meanwhile goes into the "
+     "next."},
     {"woodlouse_cluster_unacknowledged_seconds", kGauge, "",
      "For how long none of those that wait was acknowledged; 0 where none waits."},
     {"woodlouse_cluster_batches_stored_total", kCounter, "", "Batches of this host that were acknowledged."},
