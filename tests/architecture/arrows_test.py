@@ -67,7 +67,7 @@ OUTSIDE = {
     "boost/": {room for room in PROGRAMS if room not in ("client/cells", "client/ground", "client/drawing")} | {"bots", "bench"},
     "boost/beast/": {"server/net", "server/admin"},
     "boost/asio/ssl": {"server/net"},
-    "openssl/": {"server/net", "server/access"},
+    "openssl/": {"server/net", "server/access", "server/main.cpp"},
     "nats/": {"server/cluster/nats_link.cpp"},
     "prometheus/": {"server/metrics"},
     "nlohmann/": {"shared/json/parser.cpp", "server/config_file.cpp", "client/config.cpp"},

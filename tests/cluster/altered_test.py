@@ -130,7 +130,10 @@ class Forged(Altered):
         owner.signal(signal.SIGSTOP)
         try:
             with nats_wire.Wire(self.nats.ports[0]) as wire:
-                sequence, frame = wire.last("WL_woodlouse_main", "wl.woodlouse.log.main")
+                (sequence, frame), before = wire.last("WL_woodlouse_main", "wl.woodlouse.log.main"), 0
+                while sequence != before:  # one that was sent before it stopped may still be on its way
+                    time.sleep(0.3)
+                    before, (sequence, frame) = sequence, wire.last("WL_woodlouse_main", "wl.woodlouse.log.main")
                 head, *lines = nats_wire.unpacked(frame).decode().splitlines()
                 head = json.loads(head)
                 last = next(line for line in reversed(lines) if line.startswith('{"step":'))
